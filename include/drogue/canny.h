@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Canny's non-maximum suppression and double threshold on the L1 Sobel magnitude, and the subpixel offset
+ * across the edge; equal to cv::Canny(aperture 3, L1) in every pixel once hysteresis has run (label.h). */
+#ifndef DROGUE_CANNY_H
+#define DROGUE_CANNY_H
+
+#include "drogue/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DROGUE_CANNY_TG22 13573 /* tan(22.5 degrees) * 2^15 */
+
+/* Sector of the gradient: the neighbours that a maximum is compared with. */
+typedef enum drogue_sector {
+    DROGUE_SECTOR_HORIZONTAL = 0,   /* left, right */
+    DROGUE_SECTOR_VERTICAL = 1,     /* above, below */
+    DROGUE_SECTOR_DIAGONAL = 2,     /* above left, below right */
+    DROGUE_SECTOR_ANTIDIAGONAL = 3  /* above right, below left */
+} drogue_sector;
+
+/* Verdict of suppression and thresholds. */
+enum { DROGUE_CANNY_NONE = 0, DROGUE_CANNY_WEAK = 1, DROGUE_CANNY_STRONG = 2 };
+
+static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
+{
+    uint32_t ax = (uint32_t)(gx < 0 ? -gx : gx);
+    uint32_t ay = (uint32_t)(gy < 0 ? -gy : gy) << 15;
+    uint32_t tg22 = ax * (uint32_t)DROGUE_CANNY_TG22;
+    if (ay < tg22) {
+        return DROGUE_SECTOR_HORIZONTAL;
+    }
+    if (ay > tg22 + (ax << 16)) {
+        return DROGUE_SECTOR_VERTICAL;
+    }
+    return ((gx ^ gy) < 0) ? DROGUE_SECTOR_ANTIDIAGONAL : DROGUE_SECTOR_DIAGONAL;
+}
+
+/* Step from a pixel to the neighbour 'after' it across the edge: x and y component in {-1, 0, 1}. */
+static inline int32_t drogue_canny_step_x(drogue_sector sector)
+{
+    return sector == DROGUE_SECTOR_VERTICAL ? 0 : sector == DROGUE_SECTOR_ANTIDIAGONAL ? -1 : 1;
+}
+
+static inline int32_t drogue_canny_step_y(drogue_sector sector)
+{
+    return sector == DROGUE_SECTOR_HORIZONTAL ? 0 : 1;
+}
+
+/* Magnitudes on both sides of the edge at column x; 0 beyond the left and right border. */
+static inline void drogue_canny_neighbours(int32_t *before, int32_t *after, drogue_sector sector,
+                                           const uint16_t *const magnitude[3], int32_t x, int32_t width_px)
+{
+    int32_t dx = drogue_canny_step_x(sector);
+    int32_t dy = drogue_canny_step_y(sector);
+    *before = x - dx >= 0 && x - dx < width_px ? magnitude[1 - dy][x - dx] : 0;
+    *after = x + dx >= 0 && x + dx < width_px ? magnitude[1 + dy][x + dx] : 0;
+}
+
+/* Is m a maximum across the edge?  before: left or the neighbour in the row above (above itself for the
+ * vertical sector); after: the opposite one. Magnitudes outside the image are 0. */
+static inline int drogue_canny_is_maximum(drogue_sector sector, int32_t before, int32_t m, int32_t after)
+{
+    if (sector == DROGUE_SECTOR_HORIZONTAL || sector == DROGUE_SECTOR_VERTICAL) {
+        return m > before && m >= after;
+    }
+    return m > before && m > after;
+}
+
+/* Vertex of the parabola through (-1, before), (0, m), (1, after), where m is the maximum.
+ *
+ *  return  offset Q5 in [-15, 15], rounded to nearest, towards 'after' positive; 0 when all three are equal
+ */
+int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after);
+
+/* Direction class by the signs of the gradient, gy counted upward as in (2): 0..3 for I..IV.
+ * (0, 0) has no direction and cannot be an edge; it gives 3. */
+static inline uint32_t drogue_direction_class(int16_t gx, int16_t gy_down)
+{
+    int gy = -gy_down;
+    if (gx >= 0 && gy > 0) {
+        return 0;
+    }
+    if (gx < 0 && gy >= 0) {
+        return 1;
+    }
+    if (gx <= 0 && gy < 0) {
+        return 2;
+    }
+    return 3;
+}
+
+/* Suppression and thresholds for one row.
+ *
+ *  out        width_px verdicts: DROGUE_CANNY_NONE, _WEAK (m > low) or _STRONG (m > high)
+ *  magnitude  rows y-1, y, y+1; a row outside the image is all 0
+ *  gx, gy     row y
+ *  low, high  L1 magnitude, 0 <= low <= high
+ */
+void drogue_canny_row(uint8_t *out, const uint16_t *const magnitude[3], const int16_t *gx, const int16_t *gy,
+                      int32_t width_px, int32_t low, int32_t high);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

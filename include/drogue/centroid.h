@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The inner black part: disc mask, Otsu's threshold, 3x3 opening, largest dark component, centroid (paper (17)). */
+#ifndef DROGUE_CENTROID_H
+#define DROGUE_CENTROID_H
+
+#include "drogue/frontend.h"
+#include "drogue/mask.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Otsu's threshold: the level t that maximises the variance between the classes <= t and > t.
+ *
+ *  histogram  256 counts; their sum at most 2^22
+ *  return     threshold in [0, 255]: the least of equals; 0 for a histogram of fewer than two levels
+ *  error      exact: variances are compared as integer fractions
+ */
+uint8_t drogue_otsu(const uint32_t *histogram);
+
+typedef struct drogue_dark_part {
+    drogue_q16 x_px_q16; /* centroid, region coordinates */
+    drogue_q16 y_px_q16;
+    uint32_t area_px;
+    uint8_t threshold; /* Otsu's, grey level */
+} drogue_dark_part;
+
+/* Find the largest dark component inside a disc.
+ *
+ *  out        centroid and area; of equal areas the one whose first pixel comes first
+ *  workspace  its edges and arcs are left alone
+ *  image      the region's pixels, width_px <= capacity.width_px
+ *  disc       in the image's own coordinates; the disc is of radius longest / 3
+ *  min_area   least area of the component, px
+ *  return     DROGUE_OK, DROGUE_E_NO_DARK_PART, DROGUE_E_LABELS_FULL, DROGUE_E_ARGUMENT, DROGUE_E_WORKSPACE
+ *  error      threshold and mask exact; centroid <= 1 LSB
+ */
+drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *workspace, const drogue_image *image,
+                                    const drogue_mask *disc, uint32_t min_area);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Clustering of candidate ellipses and choice of the winner: paper (16). */
+#ifndef DROGUE_CLUSTER_H
+#define DROGUE_CLUSTER_H
+
+#include "drogue/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct drogue_cluster_config {
+    drogue_q16 centre_px_q16;  /* T_d */
+    drogue_q16 a_px_q16;       /* T_a */
+    drogue_q16 b_px_q16;       /* T_b */
+    drogue_q16 angle_rad_q16;  /* T_rho; angles are compared modulo pi */
+    drogue_q16 round_q16;      /* angles are not compared when both axis ratios exceed this: a circle has none */
+} drogue_cluster_config;
+
+typedef struct drogue_candidate {
+    drogue_ellipse ellipse;
+    drogue_q16 reliability_q16;
+    uint32_t polarity; /* candidates of unlike polarity never share a cluster */
+    uint32_t arcs;     /* bit set of quadrants fitted */
+} drogue_candidate;
+
+/* Do two candidates describe one ellipse (16)? */
+int drogue_same_ellipse(const drogue_candidate *i, const drogue_candidate *j, const drogue_cluster_config *config);
+
+/* The most reliable candidate; between equals the one whose cluster has more members, then the first.
+ *
+ *  members  out, size of the winner's cluster (itself and those that (16) calls the same)
+ *  return   index of the winner, or -1 when count is 0
+ */
+int32_t drogue_cluster_best(uint32_t *members, const drogue_candidate *candidates, uint32_t count,
+                            const drogue_cluster_config *config);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

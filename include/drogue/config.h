@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Every threshold of the method in one struct, with its default, unit and effect. */
+#ifndef DROGUE_CONFIG_H
+#define DROGUE_CONFIG_H
+
+#include "drogue/cluster.h"
+#include "drogue/quality.h"
+#include "drogue/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Thresholds; drogue_config_default() fills in the defaults given here. */
+typedef struct drogue_config {
+    int32_t canny_low;           /* 40, L1 Sobel magnitude (grey levels * 8): lower links weaker edges */
+    int32_t canny_high;          /* 100, same unit: an edge needs one pixel above it */
+    int32_t smooth;              /* 1: smooth before the gradient; 0 for images that are smooth already */
+    uint32_t min_arc_px;         /* 10 edge points, Th_length: shorter arcs are not fitted */
+    drogue_q16 min_short_px_q16; /* 1.5 px, Th_minb: straighter arcs (short side of the rectangle) are not fitted */
+    drogue_polarity polarity;    /* BOTH: or only outlines darker (DARK) or brighter (BRIGHT) inside */
+    drogue_quality_config quality; /* fit_error 1 px, k1 6, k2 0.3 */
+    drogue_q16 min_fit_ratio_q16;  /* 0.7, Th_score: least share of fitted points near the ellipse (11) */
+    drogue_q16 min_axis_ratio_q16; /* 0.4: flatter ellipses are no drogue */
+    drogue_q16 min_size_q16;       /* 0.2: least semi-major axis, as a share of the region's longest side */
+    drogue_q16 max_size_q16;       /* 0.75: largest semi-major axis, as a share of the region's longest side */
+    drogue_cluster_config cluster; /* T_d 3 px, T_a 3 px, T_b 3 px, T_rho 0.2 rad, round 0.9 */
+    drogue_q16 refit_band_px_q16;  /* 1.5 px: the last fit takes all edge points this near with agreeing gradient */
+    drogue_q16 refit_cos_q16;      /* 0.87 (30 degrees): least cosine between gradient and normal that agrees */
+    uint32_t refit_rounds;         /* 3: times the band is applied; 0 keeps the fit of the arcs */
+    uint32_t min_dark_area_px;     /* 9 px: smaller dark parts are noise */
+    drogue_q16 inner_gate_q16;     /* 0.25: the inner centre decides only when it lies within this share of the
+                                      major semi-axis of a projected one */
+} drogue_config;
+
+void drogue_config_default(drogue_config *config);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Which arcs can belong to the end plane's outline: length, straightness, position (paper (4)-(6)), and the
+ * farthest of them in each quadrant (Algorithm 1). */
+#ifndef DROGUE_CONSTRAINTS_H
+#define DROGUE_CONSTRAINTS_H
+
+#include "drogue/types.h"
+#include "drogue/frontend.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Smallest rotated rectangle around an arc's pixels. */
+typedef struct drogue_min_rect {
+    drogue_q16 xc_px_q16; /* centre, region coordinates */
+    drogue_q16 yc_px_q16;
+    drogue_q16 short_px_q16; /* short side, between pixel centres */
+    drogue_q16 long_px_q16;
+} drogue_min_rect;
+
+/* Smallest-area bounding rectangle by rotating calipers on the convex hull, exact up to the final rounding.
+ *
+ *  out     rectangle; of equal areas the one on the hull edge met first wins
+ *  hull    work area, DROGUE_HULL_MAX points
+ *  edges   count points in raster order (as an arc's are); whole-pixel positions count
+ *  count   >= 1
+ *  return  DROGUE_OK, DROGUE_E_ARGUMENT
+ *  error   <= 1 LSB
+ */
+drogue_status drogue_min_area_rect(drogue_min_rect *out, drogue_point *hull, const drogue_edge *edges, uint32_t count);
+
+/* Quadrant 0..3 (I upper right, II upper left, III lower left, IV lower right) of a point about a centre, -1 on
+ * an axis (6). Coordinates px Q16, y downward. */
+int drogue_quadrant(drogue_q16 dx_px_q16, drogue_q16 dy_px_q16);
+
+/* Verdict on one arc. */
+typedef struct drogue_arc_verdict {
+    drogue_min_rect rect;
+    int32_t quadrant;         /* of the rectangle's centre about the mask's centre, -1: rejected */
+    drogue_polarity polarity; /* DROGUE_POLARITY_DARK when the direction class equals the quadrant, _BRIGHT when opposite */
+    int64_t distance2_q32;    /* squared distance of the rectangle's centre from the mask's centre, px^2 Q32 */
+} drogue_arc_verdict;
+
+/* Judge one arc by straightness and position; its length was judged when it entered the arc table.
+ *
+ *  out           verdict; quadrant is -1 when the arc is rejected
+ *  mask          centre of the region
+ *  min_short_q16 least short side of the rectangle, px Q16 (Th_minb)
+ */
+void drogue_judge_arc(drogue_arc_verdict *out, drogue_point *hull, const drogue_edge *edges, const drogue_arc *arc,
+                      const drogue_mask *mask, drogue_q16 min_short_px_q16);
+
+/* The farthest arcs: index into the arc table per polarity and quadrant, or DROGUE_NO_ARC. */
+typedef struct drogue_farthest {
+    uint32_t arc[2][4];
+} drogue_farthest;
+
+/* Select the farthest acceptable arc of each quadrant and polarity (Algorithm 1); the first of equals wins.
+ *
+ *  return  DROGUE_OK; DROGUE_E_NO_ARCS when no arc is acceptable
+ */
+drogue_status drogue_select_farthest(drogue_farthest *out, drogue_point *hull, const drogue_edge *edges,
+                                     const drogue_arc *arcs, uint32_t arc_count, const drogue_mask *mask,
+                                     drogue_q16 min_short_px_q16);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Direct least-squares fit of an ellipse (Fitzgibbon, in Halir and Flusser's form; paper (7)-(9)) from exact,
+ * additive moments: the moments of a union of arcs are the sums of the arcs' moments. */
+#ifndef DROGUE_ELLIPSE_H
+#define DROGUE_ELLIPSE_H
+
+#include "drogue/types.h"
+#include "drogue/wide.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DROGUE_MAX_FIT_POINTS (1 << 17) /* points that one set of moments can hold */
+
+/* Sums over points of x^p y^q for p + q <= 4, exact integers; coordinates are 16-bit. m[p][q] would be sparse:
+ * the members name p and q. */
+typedef struct drogue_moments {
+    int64_t n;
+    int64_t m10, m01;
+    int64_t m20, m11, m02;
+    int64_t m30, m21, m12, m03;
+    drogue_s128 m40, m31, m22, m13, m04;
+} drogue_moments;
+
+void drogue_moments_clear(drogue_moments *m);
+
+/* Add one point; x and y in [-32768, 32767], in units of the caller's choice. */
+void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y);
+
+/* Add the moments of another set about the same origin in the same units. */
+void drogue_moments_add(drogue_moments *m, const drogue_moments *other);
+
+/* Fit an ellipse to summed moments.
+ *
+ *  out        centre, semi-axes, angle of the major axis; 0 for the angle of a circle
+ *  m          6 <= n <= DROGUE_MAX_FIT_POINTS
+ *  frac_bits  the moments' unit is 2^-frac_bits px; [0, 15]
+ *  return     DROGUE_OK, DROGUE_E_TOO_FEW_POINTS, DROGUE_E_DEGENERATE (collinear points, no ellipse, or one
+ *             whose parameters leave Q16), DROGUE_E_ARGUMENT
+ *  scaling    centred exactly in 128-bit integers, then 62-bit mantissas throughout; no overflow for any input
+ *  error      <= 1 LSB for arcs of 90 degrees and more, against exact arithmetic on the same moments
+ *  source     Halir and Flusser 1998; paper (7)-(9) with the corrections of naming and arctangent
+ */
+drogue_status drogue_ellipse_fit(drogue_ellipse *out, const drogue_moments *m, int frac_bits);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

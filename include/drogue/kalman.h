@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Kalman filter over frames: 15 states, five pose parameters with velocity and acceleration (paper (35)-(40) with
+ * the prediction from the posterior state). Noise is diagonal over the parameters, so the filter is five
+ * independent filters of three states: the same numbers, a fraction of the work. */
+#ifndef DROGUE_KALMAN_H
+#define DROGUE_KALMAN_H
+
+#include "drogue/wide.h"
+#include "drogue/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Order of the parameters, as in (37). */
+enum { DROGUE_X = 0, DROGUE_Y = 1, DROGUE_Z = 2, DROGUE_PITCH = 3, DROGUE_YAW = 4, DROGUE_PARAMETERS = 5 };
+
+/* One parameter: value, rate, acceleration, and the covariance p00 p01 p02 p11 p12 p22. */
+typedef struct drogue_kalman3 {
+    drogue_wide state[3];
+    drogue_wide covariance[6];
+} drogue_kalman3;
+
+typedef struct drogue_kalman {
+    drogue_kalman3 parameter[DROGUE_PARAMETERS];
+} drogue_kalman;
+
+/* Start from a measurement: rate and acceleration 0.
+ *
+ *  value      m and rad, Q16
+ *  std        standard deviations of value, rate and acceleration at the start, Q16, per parameter
+ */
+void drogue_kalman_init(drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
+                        const drogue_q16 std_q16[DROGUE_PARAMETERS][3]);
+
+/* Predict (35), (36): constant acceleration over dt, whose change per step has the given standard deviation s:
+ * process noise G s^2 G' with G = (dt^2 / 2, dt, 1).
+ *
+ *  dt_us    time step, microseconds, [1, 2^31)
+ *  std      of the change of acceleration per step, m/s^2 and rad/s^2, Q16, >= 0
+ */
+void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q16 std_q16[DROGUE_PARAMETERS]);
+
+/* Correct (40) with one frame's measurement, in Joseph form: the covariance stays symmetric and positive.
+ *
+ *  value    m and rad, Q16; angles are compared modulo 2 pi
+ *  std      of the measurement, Q16, > 0; L in (40) is diagonal
+ */
+void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
+                           const drogue_q16 std_q16[DROGUE_PARAMETERS]);
+
+/* State k (0 value, 1 rate, 2 acceleration) of every parameter, Q16, saturated. */
+void drogue_kalman_state(drogue_q16 out_q16[DROGUE_PARAMETERS], const drogue_kalman *filter, int k);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Ring and disc masks as integer inequalities on squared distances. */
+#ifndef DROGUE_MASK_H
+#define DROGUE_MASK_H
+
+#include "drogue/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Circle family of a region: centre ((w-1)/2, (h-1)/2) and longest side, kept exact by doubling. */
+typedef struct drogue_mask {
+    int32_t centre2_x; /* twice the centre, px */
+    int32_t centre2_y;
+    int32_t longest_px; /* longest side of the region, [1, 2^20] */
+} drogue_mask;
+
+static inline int64_t drogue_mask_distance2_x4(const drogue_mask *mask, int32_t x, int32_t y)
+{
+    int64_t dx = 2 * (int64_t)x - mask->centre2_x;
+    int64_t dy = 2 * (int64_t)y - mask->centre2_y;
+    return dx * dx + dy * dy;
+}
+
+/* Ring: longest / 3 <= distance <= longest / 2 (paper, section III-A-1). */
+static inline int drogue_mask_in_ring(const drogue_mask *mask, int32_t x, int32_t y)
+{
+    int64_t d = drogue_mask_distance2_x4(mask, x, y);
+    int64_t side2 = (int64_t)mask->longest_px * mask->longest_px;
+    return 9 * d >= 4 * side2 && d <= side2;
+}
+
+/* Disc: distance <= longest / 3 (paper, section III-A-2). */
+static inline int drogue_mask_in_disc(const drogue_mask *mask, int32_t x, int32_t y)
+{
+    return 9 * drogue_mask_distance2_x4(mask, x, y) <= 4 * (int64_t)mask->longest_px * mask->longest_px;
+}
+
+/* Mask of a region of its own coordinates, (0, 0) its top-left pixel. */
+static inline drogue_mask drogue_mask_of_size(int32_t width_px, int32_t height_px)
+{
+    drogue_mask m;
+    m.centre2_x = width_px - 1;
+    m.centre2_y = height_px - 1;
+    m.longest_px = width_px > height_px ? width_px : height_px;
+    return m;
+}
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* From edge points and arcs to the outline of the end plane: farthest arcs, fits of all their combinations,
+ * quality, clustering, and a last fit on every edge point that belongs to the winner. */
+#ifndef DROGUE_OUTLINE_H
+#define DROGUE_OUTLINE_H
+
+#include "drogue/config.h"
+#include "drogue/constraints.h"
+#include "drogue/frontend.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct drogue_outline {
+    drogue_ellipse ellipse;   /* region coordinates, as seen */
+    drogue_quality quality;   /* of the winning combination of arcs */
+    drogue_polarity polarity; /* DARK or BRIGHT */
+    uint32_t arcs[4];         /* the winning combination by quadrant: index into the arc table, or DROGUE_NO_ARC */
+    uint32_t cluster_members; /* candidates that agree with the winner, itself included */
+    uint32_t refit_points;    /* points in the last fit; 0 when the fit of the arcs was kept */
+} drogue_outline;
+
+/* Find the outline.
+ *
+ *  out        outline; all zero but for the arcs (none) when there is none
+ *  workspace  edges and arcs as the front end left them
+ *  mask       centre and longest side of the region
+ *  return     DROGUE_OK, DROGUE_E_NO_EDGES, DROGUE_E_NO_ARCS, DROGUE_E_NO_ELLIPSE
+ */
+drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
+                                  const drogue_mask *mask, const drogue_config *config);
+
+/* Fit the edge points that belong to an outline, each with the lens distortion removed.
+ *
+ *  out       ellipse as an ideal pinhole camera would see it, px of the whole image
+ *  outline   found in a region whose pixel (0, 0) is pixel (x_px, y_px) of the image
+ *  return    DROGUE_OK, DROGUE_E_TOO_FEW_POINTS, DROGUE_E_DEGENERATE; points outside the lens model's domain
+ *            are left out
+ */
+drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outline *outline,
+                                         const drogue_workspace *workspace, const drogue_edge_list *list,
+                                         const drogue_config *config, const drogue_camera *camera, int32_t x_px,
+                                         int32_t y_px);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

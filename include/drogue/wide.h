@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Wide arithmetic for the places where Q16 cancels (the direct fit, the cone): 128-bit products from
+ * 32-bit limbs, and normalised 62-bit mantissas with a binary exponent of their own.
+ *
+ * A drogue_wide is mantissa * 2^exponent with 2^61 <= |mantissa| < 2^62, or 0 with exponent 0.
+ * Results are rounded to nearest (ties toward +infinity) to 62 bits. Exponents stay within +-2^20 for
+ * every use in the library; none is checked because no chain of operations here can come near.
+ */
+#ifndef DROGUE_WIDE_H
+#define DROGUE_WIDE_H
+
+#include "drogue/fixed.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* 128-bit two's complement: hi * 2^64 + lo. */
+typedef struct drogue_s128 {
+    int64_t hi;
+    uint64_t lo;
+} drogue_s128;
+
+typedef struct drogue_wide {
+    int64_t mantissa;
+    int32_t exponent;
+} drogue_wide;
+
+/* Exact product. */
+drogue_s128 drogue_s128_mul(int64_t a, int64_t b);
+
+/* Sum modulo 2^128. */
+static inline drogue_s128 drogue_s128_add(drogue_s128 a, drogue_s128 b)
+{
+    drogue_s128 r;
+    r.lo = a.lo + b.lo;
+    r.hi = (int64_t)((uint64_t)a.hi + (uint64_t)b.hi + (r.lo < a.lo ? 1u : 0u));
+    return r;
+}
+
+/* Difference modulo 2^128. */
+static inline drogue_s128 drogue_s128_sub(drogue_s128 a, drogue_s128 b)
+{
+    drogue_s128 r;
+    r.lo = a.lo - b.lo;
+    r.hi = (int64_t)((uint64_t)a.hi - (uint64_t)b.hi - (a.lo < b.lo ? 1u : 0u));
+    return r;
+}
+
+static inline drogue_s128 drogue_s128_from_s64(int64_t v)
+{
+    drogue_s128 r;
+    r.lo = (uint64_t)v;
+    r.hi = v < 0 ? -1 : 0;
+    return r;
+}
+
+/* Order of two 128-bit numbers: -1, 0 or 1. */
+static inline int drogue_s128_cmp(drogue_s128 a, drogue_s128 b)
+{
+    if (a.hi != b.hi) {
+        return a.hi < b.hi ? -1 : 1;
+    }
+    return a.lo < b.lo ? -1 : a.lo > b.lo ? 1 : 0;
+}
+
+/* a * b / 2^n rounded to nearest, ties toward +infinity; 1 <= n <= 63, the result must fit 64 bits. */
+int64_t drogue_mul_shr_round_s64(int64_t a, int64_t b, int n);
+
+/* v * 2^exponent; conversions are exact up to 62 significant bits, then rounded. */
+drogue_wide drogue_wide_from_s64(int64_t v, int32_t exponent);
+drogue_wide drogue_wide_from_s128(drogue_s128 v, int32_t exponent);
+static inline drogue_wide drogue_wide_from_q16(drogue_q16 v) { return drogue_wide_from_s64(v, -16); }
+
+/* round(v * 2^frac_bits), saturated to 64 (32) bits. */
+int64_t drogue_wide_to_s64(drogue_wide v, int frac_bits);
+drogue_q16 drogue_wide_to_q16(drogue_wide v);
+
+drogue_wide drogue_wide_add(drogue_wide a, drogue_wide b);
+drogue_wide drogue_wide_mul(drogue_wide a, drogue_wide b);
+/* a / b; b = 0 gives 0, and callers test b first. */
+drogue_wide drogue_wide_div(drogue_wide a, drogue_wide b);
+/* Square root; 0 for v <= 0. */
+drogue_wide drogue_wide_sqrt(drogue_wide v);
+
+static inline drogue_wide drogue_wide_neg(drogue_wide v)
+{
+    v.mantissa = -v.mantissa;
+    return v;
+}
+
+static inline drogue_wide drogue_wide_sub(drogue_wide a, drogue_wide b)
+{
+    return drogue_wide_add(a, drogue_wide_neg(b));
+}
+
+/* v * 2^n, exact. */
+static inline drogue_wide drogue_wide_scale(drogue_wide v, int n)
+{
+    if (v.mantissa != 0) {
+        v.exponent += n;
+    }
+    return v;
+}
+
+/* Order of two numbers: -1, 0 or 1. */
+int drogue_wide_cmp(drogue_wide a, drogue_wide b);
+
+/* atan2(y, x), rad Q29 in [-pi, pi]. */
+int32_t drogue_wide_atan2_q29(drogue_wide y, drogue_wide x);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Canny's non-maximum suppression and double threshold; subpixel offset across the edge. */
+#include "drogue/canny.h"
+
+int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after)
+{
+    int32_t curvature = 2 * m - before - after;
+    int32_t num = 32 * (after - before) + curvature; /* floor(num / den) rounds 16 (after - before) / curvature */
+    int32_t den = 2 * curvature;
+    int32_t offset;
+    if (curvature <= 0) {
+        return 0;
+    }
+    offset = num >= 0 ? num / den : -((den - 1 - num) / den);
+    return offset > 15 ? 15 : offset < -15 ? -15 : offset;
+}
+
+void drogue_canny_row(uint8_t *out, const uint16_t *const magnitude[3], const int16_t *gx, const int16_t *gy,
+                      int32_t width_px, int32_t low, int32_t high)
+{
+    int32_t x;
+    for (x = 0; x < width_px; x++) {
+        int32_t m = magnitude[1][x];
+        int32_t before;
+        int32_t after;
+        drogue_sector sector;
+        out[x] = DROGUE_CANNY_NONE;
+        if (m <= low) {
+            continue;
+        }
+        sector = drogue_canny_sector(gx[x], gy[x]);
+        drogue_canny_neighbours(&before, &after, sector, magnitude, x, width_px);
+        if (drogue_canny_is_maximum(sector, before, m, after)) {
+            out[x] = m > high ? DROGUE_CANNY_STRONG : DROGUE_CANNY_WEAK;
+        }
+    }
+}

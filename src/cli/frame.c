@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Region, workspace and call of the library for one frame. */
+#include "frame.h"
+
+#include <stdlib.h>
+
+#include "cli.h"
+
+/* Pixels of [start, start + size) inside [0, limit). */
+static int32_t overlap(int32_t start, int32_t size, int32_t limit)
+{
+    int64_t end = (int64_t)start + size;
+    int64_t first = start > 0 ? start : 0;
+    int64_t last = end < limit ? end : limit;
+    return last > first ? (int32_t)(last - first) : 0;
+}
+
+int frame_workspace_fit(frame_workspace *w, const char *path, int32_t width_px, int32_t height_px, uint32_t min_arc_px)
+{
+    /* A label and an edge point a pixel are the most that any image can ask for. */
+    uint32_t pixels = (uint32_t)width_px * (uint32_t)height_px;
+    drogue_capacity capacity;
+    size_t bytes;
+    drogue_status status;
+    capacity.width_px = (uint32_t)width_px;
+    capacity.edges = pixels;
+    capacity.labels = pixels + 2;
+    capacity.arcs = pixels / (min_arc_px > 0 ? min_arc_px : 1) + 1;
+    bytes = drogue_workspace_bytes(&capacity);
+    if (bytes > w->bytes) {
+        frame_workspace_free(w);
+        w->memory = calloc(1, bytes);
+        if (w->memory == NULL) {
+            return complain(path, "out of memory");
+        }
+        w->bytes = bytes;
+    }
+    status = drogue_workspace_init(&w->workspace, w->memory, w->bytes, &capacity);
+    return status == DROGUE_OK ? EXIT_MEASURED : complain(path, "workspace: %s", drogue_status_name(status));
+}
+
+void frame_workspace_free(frame_workspace *w)
+{
+    free(w->memory);
+    w->memory = NULL;
+    w->bytes = 0;
+}
+
+drogue_image frame_image(const picture *grey)
+{
+    drogue_image image;
+    image.data = grey->data;
+    image.width_px = grey->width_px;
+    image.height_px = grey->height_px;
+    image.stride = grey->width_px;
+    return image;
+}
+
+int frame_region(drogue_region *out, const options *o, const char *path, const picture *grey)
+{
+    int32_t width, height;
+    if (o->region_given) {
+        *out = o->region;
+    } else {
+        out->x_px = 0;
+        out->y_px = 0;
+        out->width_px = grey->width_px;
+        out->height_px = grey->height_px;
+    }
+    width = overlap(out->x_px, out->width_px, grey->width_px);
+    height = overlap(out->y_px, out->height_px, grey->height_px);
+    if (width > DROGUE_MAX_SIDE || height > DROGUE_MAX_SIDE) {
+        return complain(path, "the region is %dx%d pixels, more than %d a side: give %s --roi", width, height,
+                        DROGUE_MAX_SIDE, o->region_given ? "a smaller" : "a");
+    }
+    return EXIT_MEASURED;
+}
+
+int frame_measure(drogue_result *out, frame_workspace *w, const options *o, const char *path, const picture *grey,
+                  const drogue_region *region)
+{
+    drogue_image image = frame_image(grey);
+    int32_t width = overlap(region->x_px, region->width_px, grey->width_px);
+    int32_t height = overlap(region->y_px, region->height_px, grey->height_px);
+    drogue_config config;
+    drogue_config_default(&config);
+    /* A region without pixels still goes to the library, whose status says so. */
+    if (frame_workspace_fit(w, path, width > 0 ? width : 1, height > 0 ? height : 1, config.min_arc_px)) {
+        return EXIT_BAD;
+    }
+    (void)drogue_measure(out, &w->workspace, &config, &o->camera, &o->model, &image, region);
+    return EXIT_MEASURED;
+}

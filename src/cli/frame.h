@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* One frame through the library: the region to look in, and a workspace on the heap that no frame can fill. */
+#ifndef CLI_FRAME_H
+#define CLI_FRAME_H
+
+#include <stddef.h>
+
+#include "drogue/drogue.h"
+#include "options.h"
+#include "png_io.h"
+
+/* A workspace that grows with what it must hold. Start with all zero. */
+typedef struct frame_workspace {
+    void *memory;
+    size_t bytes;
+    drogue_workspace workspace;
+} frame_workspace;
+
+/* Make room for any region of so many pixels, every pixel a candidate edge point.
+ *
+ *  min_arc_px  least length of an arc in the arc table
+ *  return      EXIT_MEASURED, or EXIT_BAD after a complaint about 'path'
+ */
+int frame_workspace_fit(frame_workspace *w, const char *path, int32_t width_px, int32_t height_px, uint32_t min_arc_px);
+
+void frame_workspace_free(frame_workspace *w);
+
+/* The picture as the library takes it. */
+drogue_image frame_image(const picture *grey);
+
+/* The region asked for, or else the whole image.
+ *
+ *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when the part in the image exceeds DROGUE_MAX_SIDE
+ */
+int frame_region(drogue_region *out, const options *o, const char *path, const picture *grey);
+
+/* Measure one frame; what the library found, or why it found nothing, is in the result.
+ *
+ *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory
+ */
+int frame_measure(drogue_result *out, frame_workspace *w, const options *o, const char *path, const picture *grey,
+                  const drogue_region *region);
+
+#endif

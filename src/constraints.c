@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Smallest bounding rectangle by rotating calipers (Toussaint 1983) and the choice of the farthest arcs. */
+#include "drogue/constraints.h"
+
+#include "drogue/wide.h"
+
+static drogue_point pixel_of(const drogue_edge *e)
+{
+    drogue_point p;
+    p.x = drogue_edge_x_px(e);
+    p.y = drogue_edge_y_px(e);
+    return p;
+}
+
+static int32_t cross(drogue_point o, drogue_point a, drogue_point b)
+{
+    return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
+
+/* Drop points of the chain above 'base' that p makes concave or straight, then push p. */
+static uint32_t chain_push(drogue_point *hull, uint32_t size, uint32_t base, drogue_point p)
+{
+    while (size >= base + 2 && cross(hull[size - 2], hull[size - 1], p) <= 0) {
+        size--;
+    }
+    hull[size] = p;
+    return size + 1;
+}
+
+/* Strictly convex hull by monotone chains over points in raster order; returns its size. */
+static uint32_t convex_hull(drogue_point *hull, const drogue_edge *edges, uint32_t count)
+{
+    uint32_t size = 0;
+    uint32_t base;
+    uint32_t i;
+    for (i = 0; i < count; i++) {
+        size = chain_push(hull, size, 0, pixel_of(&edges[i]));
+    }
+    base = size - 1;
+    for (i = count; i-- > 0;) {
+        size = chain_push(hull, size, base, pixel_of(&edges[i]));
+    }
+    return size > 1 ? size - 1 : size; /* the last point is the first again */
+}
+
+static int64_t dot(int32_t dx, int32_t dy, drogue_point p)
+{
+    return (int64_t)dx * p.x + (int64_t)dy * p.y;
+}
+
+/* Advance a caliper from hull[at] to the farthest vertex along (dx, dy). */
+static uint32_t caliper(const drogue_point *hull, uint32_t size, uint32_t at, int32_t dx, int32_t dy)
+{
+    uint32_t step;
+    for (step = 0; step < size; step++) {
+        uint32_t next = at + 1 < size ? at + 1 : 0;
+        if (dot(dx, dy, hull[next]) < dot(dx, dy, hull[at])) {
+            break;
+        }
+        at = next;
+    }
+    return at;
+}
+
+/* Rectangle with a side along (dx, dy): extents and twice the centre, all times |(dx, dy)|. */
+typedef struct box {
+    int32_t dx;
+    int32_t dy;
+    int64_t length2;
+    int64_t along;
+    int64_t across;
+    int64_t centre2_along;
+    int64_t centre2_across;
+} box;
+
+/* Is the area of p smaller than that of q? Areas are along * across / length2; compared exactly. */
+static int smaller(const box *p, const box *q)
+{
+    return drogue_s128_cmp(drogue_s128_mul(p->along * p->across, q->length2),
+                           drogue_s128_mul(q->along * q->across, p->length2)) < 0;
+}
+
+static box smallest_box(const drogue_point *hull, uint32_t size)
+{
+    box best = {1, 0, 1, 0, 0, 0, 0};
+    uint32_t right = 0; /* farthest along the edge, across it, and back */
+    uint32_t top = 0;
+    uint32_t left = 0;
+    uint32_t i;
+    for (i = 0; i < size; i++) {
+        drogue_point a = hull[i];
+        drogue_point b = hull[i + 1 < size ? i + 1 : 0];
+        int64_t low;
+        box p;
+        p.dx = b.x - a.x;
+        p.dy = b.y - a.y;
+        right = caliper(hull, size, i == 0 ? 0 : right, p.dx, p.dy);
+        top = caliper(hull, size, i == 0 ? right : top, -p.dy, p.dx);
+        left = caliper(hull, size, i == 0 ? top : left, -p.dx, -p.dy);
+        low = dot(-p.dy, p.dx, a);
+        p.length2 = (int64_t)p.dx * p.dx + (int64_t)p.dy * p.dy;
+        p.along = dot(p.dx, p.dy, hull[right]) - dot(p.dx, p.dy, hull[left]);
+        p.across = dot(-p.dy, p.dx, hull[top]) - low;
+        p.centre2_along = dot(p.dx, p.dy, hull[right]) + dot(p.dx, p.dy, hull[left]);
+        p.centre2_across = dot(-p.dy, p.dx, hull[top]) + low;
+        if (i == 0 || smaller(&p, &best)) {
+            best = p;
+        }
+    }
+    return best;
+}
+
+drogue_status drogue_min_area_rect(drogue_min_rect *out, drogue_point *hull, const drogue_edge *edges, uint32_t count)
+{
+    uint32_t size;
+    box b;
+    drogue_wide length;
+    if (count == 0) {
+        out->xc_px_q16 = out->yc_px_q16 = out->short_px_q16 = out->long_px_q16 = 0;
+        return DROGUE_E_ARGUMENT;
+    }
+    size = convex_hull(hull, edges, count);
+    if (size == 1) {
+        out->xc_px_q16 = drogue_q16_from_int(hull[0].x);
+        out->yc_px_q16 = drogue_q16_from_int(hull[0].y);
+        out->short_px_q16 = out->long_px_q16 = 0;
+        return DROGUE_OK;
+    }
+    b = smallest_box(hull, size);
+    length = drogue_wide_sqrt(drogue_wide_from_s64(b.length2, 0));
+    out->short_px_q16 = drogue_wide_to_q16(
+        drogue_wide_div(drogue_wide_from_s64(b.along < b.across ? b.along : b.across, 0), length));
+    out->long_px_q16 = drogue_wide_to_q16(
+        drogue_wide_div(drogue_wide_from_s64(b.along < b.across ? b.across : b.along, 0), length));
+    out->xc_px_q16 = drogue_sat_s32(drogue_div_round_s64(
+        (b.dx * b.centre2_along - b.dy * b.centre2_across) * (DROGUE_Q16_ONE / 2), b.length2));
+    out->yc_px_q16 = drogue_sat_s32(drogue_div_round_s64(
+        (b.dy * b.centre2_along + b.dx * b.centre2_across) * (DROGUE_Q16_ONE / 2), b.length2));
+    return DROGUE_OK;
+}
+
+int drogue_quadrant(drogue_q16 dx_px_q16, drogue_q16 dy_px_q16)
+{
+    if (dx_px_q16 == 0 || dy_px_q16 == 0) {
+        return -1;
+    }
+    if (dy_px_q16 < 0) {
+        return dx_px_q16 > 0 ? 0 : 1;
+    }
+    return dx_px_q16 < 0 ? 2 : 3;
+}
+
+void drogue_judge_arc(drogue_arc_verdict *out, drogue_point *hull, const drogue_edge *edges, const drogue_arc *arc,
+                      const drogue_mask *mask, drogue_q16 min_short_px_q16)
+{
+    int64_t dx;
+    int64_t dy;
+    int quadrant;
+    int32_t turn;
+    (void)drogue_min_area_rect(&out->rect, hull, edges + arc->first, arc->count);
+    dx = out->rect.xc_px_q16 - (int64_t)mask->centre2_x * (DROGUE_Q16_ONE / 2);
+    dy = out->rect.yc_px_q16 - (int64_t)mask->centre2_y * (DROGUE_Q16_ONE / 2);
+    out->distance2_q32 = dx * dx + dy * dy;
+    out->polarity = DROGUE_POLARITY_BOTH;
+    out->quadrant = -1;
+    quadrant = drogue_quadrant(drogue_sat_s32(dx), drogue_sat_s32(dy));
+    if (quadrant < 0 || out->rect.short_px_q16 < min_short_px_q16) {
+        return;
+    }
+    turn = (quadrant - (int32_t)arc->direction) & 3;
+    if (turn == 0 || turn == 2) {
+        out->quadrant = quadrant;
+        out->polarity = turn == 0 ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
+    }
+}
+
+drogue_status drogue_select_farthest(drogue_farthest *out, drogue_point *hull, const drogue_edge *edges,
+                                     const drogue_arc *arcs, uint32_t arc_count, const drogue_mask *mask,
+                                     drogue_q16 min_short_px_q16)
+{
+    int64_t farthest[2][4];
+    drogue_status status = DROGUE_E_NO_ARCS;
+    uint32_t i;
+    int k;
+    for (k = 0; k < 4; k++) {
+        out->arc[0][k] = out->arc[1][k] = DROGUE_NO_ARC;
+        farthest[0][k] = farthest[1][k] = -1;
+    }
+    for (i = 0; i < arc_count; i++) {
+        drogue_arc_verdict v;
+        drogue_judge_arc(&v, hull, edges, &arcs[i], mask, min_short_px_q16);
+        if (v.quadrant >= 0 && v.distance2_q32 > farthest[v.polarity][v.quadrant]) {
+            farthest[v.polarity][v.quadrant] = v.distance2_q32;
+            out->arc[v.polarity][v.quadrant] = i;
+            status = DROGUE_OK;
+        }
+    }
+    return status;
+}

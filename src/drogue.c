@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* One frame: front end, outline, inner part, pose. */
+#include "drogue/drogue.h"
+
+#include <string.h>
+
+#include "drogue/undistort.h"
+
+#define TEXT(x) #x
+#define VERSION_TEXT(major, minor, patch) TEXT(major) "." TEXT(minor) "." TEXT(patch)
+
+const char *drogue_version(void)
+{
+    return VERSION_TEXT(DROGUE_VERSION_MAJOR, DROGUE_VERSION_MINOR, DROGUE_VERSION_PATCH);
+}
+
+static void clip(int32_t *at, int32_t *length, int32_t limit)
+{
+    int32_t end = *at + *length;
+    *at = *at < 0 ? 0 : *at;
+    *length = (end > limit ? limit : end) - *at;
+}
+
+/* Clip the region to the image; the mask stays that of the region asked for, in the clipped one's coordinates. */
+static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, const drogue_image *image,
+                                  const drogue_region *region)
+{
+    const int32_t far_px = 1 << 20;
+    *clipped = *region;
+    if (region->width_px < 1 || region->height_px < 1 || region->width_px > DROGUE_MAX_REGION ||
+        region->height_px > DROGUE_MAX_REGION || region->x_px > far_px || region->x_px < -far_px ||
+        region->y_px > far_px || region->y_px < -far_px) {
+        return DROGUE_E_REGION;
+    }
+    clip(&clipped->x_px, &clipped->width_px, image->width_px);
+    clip(&clipped->y_px, &clipped->height_px, image->height_px);
+    *mask = drogue_mask_of_size(region->width_px, region->height_px);
+    mask->centre2_x += 2 * (region->x_px - clipped->x_px);
+    mask->centre2_y += 2 * (region->y_px - clipped->y_px);
+    return clipped->width_px < 1 || clipped->height_px < 1 || clipped->width_px > DROGUE_MAX_SIDE ||
+                   clipped->height_px > DROGUE_MAX_SIDE
+               ? DROGUE_E_REGION
+               : DROGUE_OK;
+}
+
+static drogue_status run_frontend(drogue_edge_list *list, drogue_workspace *workspace, const drogue_config *config,
+                                  const drogue_image *view, const drogue_mask *mask)
+{
+    drogue_frontend_config front;
+    drogue_frontend frontend;
+    drogue_status status;
+    int32_t y;
+    front.canny_low = config->canny_low;
+    front.canny_high = config->canny_high;
+    front.smooth = config->smooth;
+    front.use_ring = 1;
+    front.ring = *mask;
+    front.min_arc_px = config->min_arc_px;
+    status = drogue_frontend_begin(&frontend, workspace, &front, view->width_px, view->height_px);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    for (y = 0; y < view->height_px; y++) {
+        drogue_frontend_row(&frontend, drogue_image_row(view, y));
+    }
+    return drogue_frontend_end(list, &frontend);
+}
+
+/* The dark part inside the outline: a disc about its centre of 5/6 of its semi-minor axis. */
+static drogue_status find_inner(drogue_dark_part *inner, drogue_workspace *workspace, const drogue_config *config,
+                                const drogue_image *view, const drogue_ellipse *ellipse)
+{
+    drogue_mask disc; /* radius longest / 3 */
+    disc.centre2_x = (int32_t)drogue_shr_round_s64(ellipse->xc_px_q16, 15);
+    disc.centre2_y = (int32_t)drogue_shr_round_s64(ellipse->yc_px_q16, 15);
+    disc.longest_px = (int32_t)drogue_shr_round_s64((int64_t)ellipse->b_px_q16 * 5, 17);
+    return drogue_dark_part_find(inner, workspace, view, &disc, config->min_dark_area_px);
+}
+
+/* Choose between the two poses by the inner centre where that can be trusted. */
+static drogue_status choose(drogue_result *out, const drogue_pose poses[2], const drogue_config *config,
+                            const drogue_camera *camera, const drogue_model *model)
+{
+    drogue_q16 x = out->inner.x_px_q16;
+    drogue_q16 y = out->inner.y_px_q16;
+    drogue_choice choice;
+    drogue_status status;
+    memset(&choice, 0, sizeof choice);
+    choice.ambiguity_q16 = DROGUE_Q16_ONE;
+    if (out->has_inner && drogue_undistort_point(&x, &y, camera) == DROGUE_OK) {
+        status = drogue_choose_pose(&choice, poses, x, y, model->inner_depth_m_q16, camera);
+        if (status != DROGUE_OK) {
+            return status;
+        }
+        out->orientation_resolved =
+            choice.distance_px_q16[choice.index] <= drogue_q16_mul(config->inner_gate_q16, out->ideal.a_px_q16);
+    }
+    out->ambiguity_q16 = choice.ambiguity_q16;
+    out->pose = poses[choice.index];
+    out->alternative = poses[1 - choice.index];
+    return DROGUE_OK;
+}
+
+static drogue_status measure(drogue_result *out, drogue_workspace *workspace, const drogue_config *config,
+                             const drogue_camera *camera, const drogue_model *model, const drogue_image *image,
+                             const drogue_region *region)
+{
+    drogue_outline outline;
+    drogue_pose poses[2];
+    drogue_mask mask;
+    drogue_image view;
+    drogue_status status = place_region(&out->region, &mask, image, region);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    view.data = drogue_image_row(image, out->region.y_px) + out->region.x_px;
+    view.width_px = out->region.width_px;
+    view.height_px = out->region.height_px;
+    view.stride = image->stride;
+    status = run_frontend(&out->list, workspace, config, &view, &mask);
+    if (status == DROGUE_OK) {
+        status = drogue_outline_find(&outline, workspace, &out->list, &mask, config);
+    }
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    memcpy(out->arcs, outline.arcs, sizeof out->arcs);
+    out->quality = outline.quality;
+    out->polarity = outline.polarity;
+    out->cluster_members = outline.cluster_members;
+    out->refit_points = outline.refit_points;
+    out->ellipse = outline.ellipse;
+    out->ellipse.xc_px_q16 = drogue_q16_add(out->ellipse.xc_px_q16, drogue_q16_from_int(out->region.x_px));
+    out->ellipse.yc_px_q16 = drogue_q16_add(out->ellipse.yc_px_q16, drogue_q16_from_int(out->region.y_px));
+    out->ideal = out->ellipse;
+    if (drogue_camera_distorts(camera)) {
+        status = drogue_outline_undistorted(&out->ideal, &outline, workspace, &out->list, config, camera,
+                                            out->region.x_px, out->region.y_px);
+        if (status != DROGUE_OK) {
+            return DROGUE_E_NO_ELLIPSE;
+        }
+    }
+    if (model->inner_radius_m_q16 > 0) {
+        out->has_inner = find_inner(&out->inner, workspace, config, &view, &outline.ellipse) == DROGUE_OK;
+        out->inner.x_px_q16 = drogue_q16_add(out->inner.x_px_q16, drogue_q16_from_int(out->region.x_px));
+        out->inner.y_px_q16 = drogue_q16_add(out->inner.y_px_q16, drogue_q16_from_int(out->region.y_px));
+    }
+    status = drogue_pose_from_ellipse(poses, &out->ideal, camera, model->rim_radius_m_q16);
+    return status == DROGUE_OK ? choose(out, poses, config, camera, model) : status;
+}
+
+drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_config *config,
+                             const drogue_camera *camera, const drogue_model *model, const drogue_image *image,
+                             const drogue_region *region)
+{
+    int k;
+    memset(out, 0, sizeof *out);
+    out->ambiguity_q16 = DROGUE_Q16_ONE;
+    for (k = 0; k < 4; k++) {
+        out->arcs[k] = DROGUE_NO_ARC;
+    }
+    if (image->data == NULL || image->width_px < 1 || image->height_px < 1 || image->stride < image->width_px ||
+        camera->fx_px_q16 <= 0 || camera->fy_px_q16 <= 0 || model->rim_radius_m_q16 <= 0 ||
+        model->inner_radius_m_q16 < 0) {
+        out->status = DROGUE_E_ARGUMENT;
+    } else {
+        out->status = measure(out, workspace, config, camera, model, image, region);
+    }
+    return out->status;
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Q16 division and square root, CORDIC (Volder 1959), exponential. */
+#include "drogue/fixed.h"
+
+#define CORDIC_STEPS 32
+#define PI_Q32 INT64_C(13493037705)
+#define LN2_Q30 INT64_C(744261118)
+
+/* atan(2^-i), rad Q32 */
+static const uint32_t cordic_angle_q32[CORDIC_STEPS] = {
+    3373259426u, 1991351318u, 1052175346u, 534100635u, 268086748u, 134174063u, 67103403u, 33553749u,
+    16777131u,   8388597u,    4194303u,    2097152u,   1048576u,   524288u,    262144u,   131072u,
+    65536u,      32768u,      16384u,      8192u,      4096u,      2048u,      1024u,     512u,
+    256u,        128u,        64u,         32u,        16u,        8u,         4u,        2u,
+};
+
+/* 1 / product of sqrt(1 + 4^-i): what a vector must start with to end up of length 1, Q40 */
+static const int64_t cordic_gain_q40 = INT64_C(667681663043);
+
+drogue_q16 drogue_q16_div(drogue_q16 a, drogue_q16 b)
+{
+    int64_t num = (int64_t)a * DROGUE_Q16_ONE;
+    int64_t den = b;
+    if (b == 0) {
+        return a > 0 ? DROGUE_Q16_MAX : a < 0 ? DROGUE_Q16_MIN : 0;
+    }
+    if (den < 0) {
+        num = -num;
+        den = -den;
+    }
+    return drogue_sat_s32(drogue_div_round_s64(num, den));
+}
+
+uint32_t drogue_isqrt_u64(uint64_t v)
+{
+    uint64_t root = 0;
+    int bit;
+    for (bit = 62; bit >= 0; bit -= 2) {
+        uint64_t trial = root + ((uint64_t)1 << bit);
+        root >>= 1;
+        if (v >= trial) {
+            v -= trial;
+            root += (uint64_t)1 << bit;
+        }
+    }
+    return (uint32_t)root;
+}
+
+drogue_q16 drogue_q16_sqrt(drogue_q16 v)
+{
+    uint64_t square;
+    uint32_t root;
+    if (v <= 0) {
+        return 0;
+    }
+    square = (uint64_t)v << 16;
+    root = drogue_isqrt_u64(square);
+    if (square - (uint64_t)root * root > root) {
+        root++; /* square > (root + 1/2)^2 */
+    }
+    return (drogue_q16)root;
+}
+
+int32_t drogue_atan2_q29(int64_t y, int64_t x)
+{
+    int64_t angle_q32 = 0;
+    int shift;
+    int i;
+    if (x == 0 && y == 0) {
+        return 0;
+    }
+    /* The longer component to 45 bits: room for the gain of 1.65 and bits to spare below. */
+    shift = drogue_clz_u64(drogue_abs_u64(x) | drogue_abs_u64(y)) - 19;
+    if (shift >= 0) {
+        x = drogue_shl_s64(x, shift);
+        y = drogue_shl_s64(y, shift);
+    } else {
+        x = drogue_shr_round_s64(x, -shift);
+        y = drogue_shr_round_s64(y, -shift);
+    }
+    if (x < 0) {
+        angle_q32 = y < 0 ? -PI_Q32 : PI_Q32;
+        x = -x;
+        y = -y;
+    }
+    for (i = 0; i < CORDIC_STEPS; i++) {
+        int64_t dx = drogue_shr_round_s64(x, i);
+        int64_t dy = drogue_shr_round_s64(y, i);
+        if (y > 0) {
+            x += dy;
+            y -= dx;
+            angle_q32 += cordic_angle_q32[i];
+        } else if (y < 0) {
+            x -= dy;
+            y += dx;
+            angle_q32 -= cordic_angle_q32[i];
+        }
+    }
+    return (int32_t)drogue_shr_round_s64(angle_q32, 3);
+}
+
+drogue_q16 drogue_q16_atan2(drogue_q16 y, drogue_q16 x)
+{
+    return (drogue_q16)drogue_shr_round_s64(drogue_atan2_q29(y, x), 13);
+}
+
+void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29)
+{
+    int64_t rest_q32 = (int64_t)angle_rad_q29 * 8;
+    int64_t x = cordic_gain_q40;
+    int64_t y = 0;
+    int negate = 0;
+    int i;
+    if (rest_q32 > PI_Q32 / 2) {
+        rest_q32 -= PI_Q32;
+        negate = 1;
+    } else if (rest_q32 < -PI_Q32 / 2) {
+        rest_q32 += PI_Q32;
+        negate = 1;
+    }
+    for (i = 0; i < CORDIC_STEPS; i++) {
+        int64_t dx = drogue_shr_round_s64(x, i);
+        int64_t dy = drogue_shr_round_s64(y, i);
+        if (rest_q32 >= 0) {
+            x -= dy;
+            y += dx;
+            rest_q32 -= cordic_angle_q32[i];
+        } else {
+            x += dy;
+            y -= dx;
+            rest_q32 += cordic_angle_q32[i];
+        }
+    }
+    *sin_q30 = (int32_t)drogue_shr_round_s64(negate ? -y : y, 10);
+    *cos_q30 = (int32_t)drogue_shr_round_s64(negate ? -x : x, 10);
+}
+
+int32_t drogue_exp_neg_q30(drogue_q16 x_q16)
+{
+    const int64_t one_q30 = INT64_C(1) << 30;
+    int64_t x_q30 = x_q16 < 0 ? 0 : (int64_t)x_q16 << 14;
+    int64_t halvings = x_q30 / LN2_Q30;
+    int64_t rest_q30 = x_q30 - halvings * LN2_Q30;
+    int64_t sum_q30 = one_q30;
+    int k;
+    if (halvings > 31) {
+        return 0;
+    }
+    for (k = 12; k >= 1; k--) { /* Taylor series in Horner's form on [0, ln 2) */
+        sum_q30 = one_q30 - drogue_div_round_s64(drogue_shr_round_s64(rest_q30 * sum_q30, 30), k);
+    }
+    return (int32_t)drogue_shr_round_s64(sum_q30, (int)halvings);
+}

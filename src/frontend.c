@@ -1,0 +1,352 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The one-pass front end: line buffers, two union-finds, a bounded list of edge points. */
+#include "drogue/frontend.h"
+
+#include <string.h>
+
+enum { CODE_CANDIDATE = 1, CODE_STRONG = 2, CODE_CLASS_SHIFT = 2, CODE_CLASS_MASK = 0x1C };
+
+static int capacity_valid(const drogue_capacity *c)
+{
+    const uint32_t most = (uint32_t)1 << 24;
+    return c->width_px >= 1 && c->width_px <= DROGUE_MAX_SIDE && c->edges >= 1 && c->edges <= most && c->labels >= 2 &&
+           c->labels <= most && c->arcs >= 1 && c->arcs <= most;
+}
+
+size_t drogue_workspace_bytes(const drogue_capacity *capacity)
+{
+    return DROGUE_WORKSPACE_BYTES(capacity->width_px, capacity->edges, capacity->labels, capacity->arcs);
+}
+
+drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, size_t bytes,
+                                    const drogue_capacity *capacity)
+{
+    uint8_t *at = memory;
+    size_t width;
+    size_t labels;
+    if (!capacity_valid(capacity) || memory == NULL || ((uintptr_t)memory & (sizeof(uint32_t) - 1)) != 0) {
+        return DROGUE_E_ARGUMENT;
+    }
+    if (bytes < drogue_workspace_bytes(capacity)) {
+        return DROGUE_E_WORKSPACE;
+    }
+    width = capacity->width_px;
+    labels = capacity->labels;
+    workspace->capacity = *capacity;
+    /* Widest elements first: every array is aligned for its type. */
+    workspace->edges = (drogue_edge *)(void *)at;
+    at += capacity->edges * sizeof(drogue_edge);
+    workspace->arcs = (drogue_arc *)(void *)at;
+    at += capacity->arcs * sizeof(drogue_arc);
+    workspace->component_parent = (uint32_t *)(void *)at;
+    at += labels * sizeof(uint32_t);
+    workspace->component_strong = (uint32_t *)(void *)at;
+    at += labels * sizeof(uint32_t);
+    workspace->arc_parent = (uint32_t *)(void *)at;
+    at += labels * sizeof(uint32_t);
+    workspace->arc_component = (uint32_t *)(void *)at;
+    at += labels * sizeof(uint32_t);
+    workspace->hull = (drogue_point *)(void *)at;
+    at += DROGUE_HULL_MAX * sizeof(drogue_point);
+    workspace->histogram = (uint32_t *)(void *)at;
+    at += 256 * sizeof(uint32_t);
+    workspace->merges = (drogue_merge *)(void *)at;
+    at += (width + 1) / 2 * sizeof(drogue_merge);
+    workspace->component_rows = (uint32_t *)(void *)at;
+    at += 2 * width * sizeof(uint32_t);
+    workspace->arc_rows = (uint32_t *)(void *)at;
+    at += 2 * width * sizeof(uint32_t);
+    workspace->column = (uint16_t *)(void *)at;
+    at += width * sizeof(uint16_t);
+    workspace->magnitude_rows = (uint16_t *)(void *)at;
+    at += 4 * width * sizeof(uint16_t);
+    workspace->gx_rows = (int16_t *)(void *)at;
+    at += 2 * width * sizeof(int16_t);
+    workspace->gy_rows = (int16_t *)(void *)at;
+    at += 2 * width * sizeof(int16_t);
+    workspace->raw_rows = at;
+    at += 5 * width;
+    workspace->smooth_rows = at;
+    at += 3 * width;
+    workspace->code_rows = at;
+    return DROGUE_OK;
+}
+
+drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace *workspace,
+                                    const drogue_frontend_config *config, int32_t width_px, int32_t height_px)
+{
+    size_t width;
+    if (config->canny_low < 0 || config->canny_high < config->canny_low || config->ring.longest_px < 0) {
+        return DROGUE_E_ARGUMENT;
+    }
+    if (width_px < 1 || width_px > DROGUE_MAX_SIDE || height_px < 1 || height_px > DROGUE_MAX_SIDE) {
+        return DROGUE_E_REGION;
+    }
+    if ((uint32_t)width_px > workspace->capacity.width_px) {
+        return DROGUE_E_WORKSPACE;
+    }
+    frontend->workspace = workspace;
+    frontend->config = *config;
+    frontend->width_px = width_px;
+    frontend->height_px = height_px;
+    frontend->rows_in = 0;
+    frontend->edge_count = 0;
+    frontend->edges_full = 0;
+    drogue_labels_reset(&frontend->components, workspace->component_parent, workspace->capacity.labels);
+    drogue_labels_reset(&frontend->arc_labels, workspace->arc_parent, workspace->capacity.labels);
+    width = (size_t)width_px;
+    memset(workspace->component_strong, 0, workspace->capacity.labels * sizeof(uint32_t));
+    memset(workspace->magnitude_rows + 3 * width, 0, width * sizeof(uint16_t));
+    memset(workspace->component_rows, 0, 2 * width * sizeof(uint32_t));
+    memset(workspace->arc_rows, 0, 2 * width * sizeof(uint32_t));
+    memset(workspace->code_rows, 0, 2 * width);
+    return DROGUE_OK;
+}
+
+/* Append the candidate at column x of row y to the edge list. */
+static void append_edge(drogue_frontend *f, const uint16_t *const magnitude[3], int16_t gx, int16_t gy, int32_t x,
+                        int32_t y, uint32_t label)
+{
+    drogue_sector sector = drogue_canny_sector(gx, gy);
+    drogue_edge *e;
+    int32_t before;
+    int32_t after;
+    int32_t offset_q5;
+    if (f->edge_count >= f->workspace->capacity.edges) {
+        f->edges_full = 1;
+        return;
+    }
+    e = &f->workspace->edges[f->edge_count++];
+    drogue_canny_neighbours(&before, &after, sector, magnitude, x, f->width_px);
+    offset_q5 = drogue_canny_offset_q5(before, magnitude[1][x], after);
+    /* Magnitudes outside are 0, so at a border the offset points inward and the sums stay in [0, 65535]. */
+    e->x_q5 = (uint16_t)(32 * x + drogue_canny_step_x(sector) * offset_q5);
+    e->y_q5 = (uint16_t)(32 * y + drogue_canny_step_y(sector) * offset_q5);
+    e->gx = gx;
+    e->gy = gy;
+    e->arc = label;
+}
+
+/* Suppress, threshold, label and list row y, whose magnitude is complete above and below. */
+static void canny_step(drogue_frontend *f, int32_t y)
+{
+    drogue_workspace *w = f->workspace;
+    size_t width = (size_t)f->width_px;
+    const uint16_t *magnitude[3];
+    const int16_t *gx = w->gx_rows + (size_t)(y & 1) * width;
+    const int16_t *gy = w->gy_rows + (size_t)(y & 1) * width;
+    uint8_t *code = w->code_rows + (size_t)(y & 1) * width;
+    const uint8_t *code_above = w->code_rows + (size_t)(~y & 1) * width;
+    uint32_t *component = w->component_rows + (size_t)(y & 1) * width;
+    uint32_t *arc = w->arc_rows + (size_t)(y & 1) * width;
+    int32_t x;
+    magnitude[0] = w->magnitude_rows + (y > 0 ? (size_t)((y - 1) % 3) : 3u) * width;
+    magnitude[1] = w->magnitude_rows + (size_t)(y % 3) * width;
+    magnitude[2] = w->magnitude_rows + (y + 1 < f->height_px ? (size_t)((y + 1) % 3) : 3u) * width;
+
+    drogue_canny_row(code, magnitude, gx, gy, f->width_px, f->config.canny_low, f->config.canny_high);
+    for (x = 0; x < f->width_px; x++) {
+        if (code[x] != DROGUE_CANNY_NONE) {
+            uint8_t c = code[x] == DROGUE_CANNY_STRONG ? CODE_CANDIDATE | CODE_STRONG : CODE_CANDIDATE;
+            if (!f->config.use_ring || drogue_mask_in_ring(&f->config.ring, x, y)) {
+                c = (uint8_t)(c | ((drogue_direction_class(gx[x], gy[x]) + 1u) << CODE_CLASS_SHIFT));
+            }
+            code[x] = c;
+        }
+    }
+    drogue_label_row(component, &f->components, w->merges, w->component_rows + (size_t)(~y & 1) * width, code,
+                     code_above, CODE_CANDIDATE, f->width_px);
+    drogue_label_row(arc, &f->arc_labels, w->merges, w->arc_rows + (size_t)(~y & 1) * width, code, code_above,
+                     CODE_CLASS_MASK, f->width_px);
+    for (x = 0; x < f->width_px; x++) {
+        if (code[x] != DROGUE_CANNY_NONE) {
+            w->component_strong[component[x]] |= code[x] & CODE_STRONG;
+            if (arc[x] != 0) {
+                w->arc_component[arc[x]] = component[x];
+                append_edge(f, magnitude, gx[x], gy[x], x, y, arc[x]);
+            }
+        }
+    }
+}
+
+/* Smoothed row y is there: the gradient of row y - 1 is complete above and below. */
+static void gradient_step(drogue_frontend *f, int32_t y)
+{
+    drogue_workspace *w = f->workspace;
+    size_t width = (size_t)f->width_px;
+    const uint8_t *rows[3];
+    int32_t below = y + 1 < f->height_px ? y + 1 : y;
+    rows[0] = w->smooth_rows + (size_t)((y > 0 ? y - 1 : 0) % 3) * width;
+    rows[1] = w->smooth_rows + (size_t)(y % 3) * width;
+    rows[2] = w->smooth_rows + (size_t)(below % 3) * width;
+    drogue_gradient_row(w->gx_rows + (size_t)(y & 1) * width, w->gy_rows + (size_t)(y & 1) * width,
+                        w->magnitude_rows + (size_t)(y % 3) * width, rows, f->width_px);
+    if (y > 0) {
+        canny_step(f, y - 1);
+    }
+}
+
+static void smooth_step(drogue_frontend *f, int32_t y)
+{
+    drogue_workspace *w = f->workspace;
+    size_t width = (size_t)f->width_px;
+    const uint8_t *rows[5];
+    int32_t k;
+    for (k = 0; k < 5; k++) {
+        rows[k] = w->raw_rows + (size_t)(drogue_reflect_101(y + k - 2, f->height_px) % 5) * width;
+    }
+    drogue_smooth_row(w->smooth_rows + (size_t)(y % 3) * width, w->column, rows, f->width_px);
+    if (y > 0) {
+        gradient_step(f, y - 1);
+    }
+}
+
+void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
+{
+    drogue_workspace *w = frontend->workspace;
+    size_t width = (size_t)frontend->width_px;
+    int32_t y = frontend->rows_in;
+    if (y >= frontend->height_px) {
+        return;
+    }
+    frontend->rows_in++;
+    if (frontend->config.smooth) {
+        memcpy(w->raw_rows + (size_t)(y % 5) * width, row, width);
+        if (y >= 2) {
+            smooth_step(frontend, y - 2);
+        }
+    } else {
+        memcpy(w->smooth_rows + (size_t)(y % 3) * width, row, width);
+        if (y >= 1) {
+            gradient_step(frontend, y - 1);
+        }
+    }
+}
+
+/* Let the rows still in the line buffers through. */
+static void drain(drogue_frontend *f)
+{
+    int32_t height = f->height_px;
+    if (f->config.smooth) {
+        int32_t y;
+        for (y = height > 2 ? height - 2 : 0; y < height; y++) {
+            smooth_step(f, y);
+        }
+    }
+    gradient_step(f, height - 1);
+    canny_step(f, height - 1);
+}
+
+/* Give every arc label its root, and mark the roots whose component is strong; returns in 'alive' by root. */
+static uint32_t *resolve_hysteresis(drogue_frontend *f)
+{
+    drogue_workspace *w = f->workspace;
+    uint32_t *alive = w->arc_component;
+    uint32_t i;
+    drogue_labels_flatten(&f->components);
+    for (i = 1; i < f->components.count; i++) {
+        w->component_strong[w->component_parent[i]] |= w->component_strong[i];
+    }
+    drogue_labels_flatten(&f->arc_labels);
+    for (i = 1; i < f->arc_labels.count; i++) {
+        alive[i] = w->component_strong[w->component_parent[w->arc_component[i]]];
+    }
+    return alive;
+}
+
+/* Drop the points of weak components; count those of each arc. Returns the number left. */
+static uint32_t drop_weak(drogue_frontend *f, uint32_t *count, const uint32_t *alive)
+{
+    drogue_workspace *w = f->workspace;
+    uint32_t left = 0;
+    uint32_t i;
+    memset(count, 0, f->arc_labels.count * sizeof(uint32_t));
+    for (i = 0; i < f->edge_count; i++) {
+        uint32_t root = w->arc_parent[w->edges[i].arc];
+        if (alive[root] != 0) {
+            w->edges[left] = w->edges[i];
+            w->edges[left].arc = root;
+            left++;
+            count[root]++;
+        }
+    }
+    return left;
+}
+
+/* Move every point to the place its 'arc' member names: each swap puts one in its place. */
+static void permute(drogue_edge *edges, uint32_t count)
+{
+    uint32_t i;
+    for (i = 0; i < count; i++) {
+        while (edges[i].arc != i) {
+            uint32_t to = edges[i].arc;
+            drogue_edge t = edges[to];
+            edges[to] = edges[i];
+            edges[i] = t;
+        }
+    }
+}
+
+/* Sort the points by arc, those of arcs too short for the table last; fill the arc table. */
+static drogue_status sort_by_arc(drogue_edge_list *list, drogue_frontend *f, const uint32_t *count, uint32_t *place)
+{
+    drogue_workspace *w = f->workspace;
+    drogue_status status = DROGUE_OK;
+    uint32_t next = 0;
+    uint32_t i;
+    list->arc_count = 0;
+    for (i = 1; i < f->arc_labels.count; i++) {
+        place[i] = DROGUE_NO_ARC;
+        if (w->arc_parent[i] != i || count[i] < f->config.min_arc_px || count[i] == 0) {
+            continue;
+        }
+        if (list->arc_count >= w->capacity.arcs) {
+            status = DROGUE_E_ARCS_FULL;
+            continue;
+        }
+        w->arcs[list->arc_count].first = next;
+        w->arcs[list->arc_count].count = count[i];
+        list->arc_count++;
+        place[i] = next;
+        next += count[i];
+    }
+    for (i = 0; i < list->edge_count; i++) {
+        uint32_t *p = &place[w->edges[i].arc];
+        w->edges[i].arc = *p == DROGUE_NO_ARC ? next++ : (*p)++;
+    }
+    permute(w->edges, list->edge_count);
+    next = 0;
+    for (i = 0; i < list->arc_count; i++) {
+        drogue_arc *arc = &w->arcs[i];
+        arc->direction = drogue_direction_class(w->edges[arc->first].gx, w->edges[arc->first].gy);
+        for (next = arc->first; next < arc->first + arc->count; next++) {
+            w->edges[next].arc = i;
+        }
+    }
+    for (; next < list->edge_count; next++) {
+        w->edges[next].arc = DROGUE_NO_ARC;
+    }
+    return status;
+}
+
+drogue_status drogue_frontend_end(drogue_edge_list *list, drogue_frontend *frontend)
+{
+    drogue_workspace *w = frontend->workspace;
+    drogue_status status;
+    list->edge_count = 0;
+    list->arc_count = 0;
+    if (frontend->rows_in != frontend->height_px) {
+        return DROGUE_E_ARGUMENT;
+    }
+    drain(frontend);
+    {
+        const uint32_t *alive = resolve_hysteresis(frontend);
+        uint32_t *count = w->component_parent; /* the components have served */
+        list->edge_count = drop_weak(frontend, count, alive);
+        status = sort_by_arc(list, frontend, count, w->component_strong);
+    }
+    if (frontend->components.full || frontend->arc_labels.full) {
+        return DROGUE_E_LABELS_FULL;
+    }
+    return frontend->edges_full ? DROGUE_E_EDGES_FULL : status;
+}

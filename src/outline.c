@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The outline of the end plane from edge points and arcs (paper III-A-2). */
+#include "drogue/outline.h"
+
+#include <string.h>
+
+#include "drogue/ellipse.h"
+#include "drogue/undistort.h"
+
+#define MAX_CANDIDATES 30 /* 15 combinations of four arcs, two polarities */
+#define EDGE_FRAC 5       /* edge points are Q5 */
+
+static drogue_q16 edge_q16(uint16_t q5)
+{
+    return (drogue_q16)((int32_t)q5 * (1 << (16 - EDGE_FRAC)));
+}
+
+/* Moments of an arc about the region's centre, unit 1/32 px. */
+static void arc_moments(drogue_moments *out, const drogue_edge *edges, const drogue_arc *arc)
+{
+    const int32_t origin_q5 = (DROGUE_MAX_SIDE / 2) << EDGE_FRAC; /* makes the coordinates 16-bit for every region */
+    uint32_t i;
+    drogue_moments_clear(out);
+    for (i = arc->first; i < arc->first + arc->count; i++) {
+        drogue_moments_add_point(out, edges[i].x_q5 - origin_q5, edges[i].y_q5 - origin_q5);
+    }
+}
+
+/* Points of an arc within the threshold of (10). */
+static uint32_t count_near(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
+                           const drogue_arc *arc)
+{
+    uint32_t near_count = 0;
+    uint32_t i;
+    for (i = arc->first; i < arc->first + arc->count; i++) {
+        near_count += drogue_ellipse_deviation(frame, edge_q16(edges[i].x_q5), edge_q16(edges[i].y_q5)) < threshold;
+    }
+    return near_count;
+}
+
+static int plausible(const drogue_ellipse *e, const drogue_mask *mask, const drogue_config *config)
+{
+    int64_t a = e->a_px_q16;
+    return (int64_t)e->b_px_q16 * DROGUE_Q16_ONE >= a * config->min_axis_ratio_q16 &&
+           a >= (int64_t)config->min_size_q16 * mask->longest_px && a <= (int64_t)config->max_size_q16 * mask->longest_px;
+}
+
+/* The farthest arcs of one polarity, with their moments. */
+typedef struct quadrants {
+    const drogue_arc *arc[4]; /* NULL: none */
+    drogue_moments moments[4];
+} quadrants;
+
+/* Fit and score one combination; 0 when it is no candidate. */
+static int try_combination(drogue_candidate *out, drogue_quality *quality, const quadrants *q, uint32_t combination,
+                           const drogue_edge *edges, const drogue_mask *mask, const drogue_config *config)
+{
+    drogue_moments sum;
+    drogue_ellipse_frame frame;
+    drogue_q16 threshold;
+    uint32_t near_count = 0;
+    int k;
+    drogue_moments_clear(&sum);
+    for (k = 0; k < 4; k++) {
+        if ((combination >> k) & 1u) {
+            drogue_moments_add(&sum, &q->moments[k]);
+        }
+    }
+    if (drogue_ellipse_fit(&out->ellipse, &sum, EDGE_FRAC) != DROGUE_OK) {
+        return 0;
+    }
+    out->ellipse.xc_px_q16 = drogue_q16_add(out->ellipse.xc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
+    out->ellipse.yc_px_q16 = drogue_q16_add(out->ellipse.yc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
+    if (!plausible(&out->ellipse, mask, config) || drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
+        return 0;
+    }
+    threshold = drogue_quality_threshold(&out->ellipse, config->quality.fit_error_px_q16);
+    for (k = 0; k < 4; k++) {
+        if ((combination >> k) & 1u) {
+            near_count += count_near(&frame, threshold, edges, q->arc[k]);
+        }
+    }
+    drogue_quality_score(quality, &out->ellipse, near_count, (uint32_t)sum.n, &config->quality);
+    out->reliability_q16 = quality->reliability_q16;
+    out->arcs = combination;
+    return quality->fit_ratio_q16 > config->min_fit_ratio_q16;
+}
+
+/* All combinations of one polarity's arcs; returns the new number of candidates. */
+static uint32_t add_candidates(drogue_candidate *candidates, drogue_quality *qualities, uint32_t count,
+                               const quadrants *q, uint32_t present, drogue_polarity polarity,
+                               const drogue_edge *edges, const drogue_mask *mask, const drogue_config *config)
+{
+    uint32_t combination;
+    for (combination = 1; combination < 16; combination++) {
+        if ((combination & ~present) == 0 && count < MAX_CANDIDATES &&
+            try_combination(&candidates[count], &qualities[count], q, combination, edges, mask, config)) {
+            candidates[count].polarity = (uint32_t)polarity;
+            count++;
+        }
+    }
+    return count;
+}
+
+/* Edge points that belong to an ellipse, the lens distortion removed where a camera is given. */
+typedef struct collection {
+    drogue_moments moments;
+    drogue_q16 x_px_q16; /* origin of the moments */
+    drogue_q16 y_px_q16;
+    int frac_bits;
+} collection;
+
+static void collect_point(collection *c, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+{
+    int64_t x = drogue_shr_round_s64((int64_t)x_px_q16 - c->x_px_q16, 16 - c->frac_bits);
+    int64_t y = drogue_shr_round_s64((int64_t)y_px_q16 - c->y_px_q16, 16 - c->frac_bits);
+    if (x >= INT16_MIN && x <= INT16_MAX && y >= INT16_MIN && y <= INT16_MAX) {
+        drogue_moments_add_point(&c->moments, (int32_t)x, (int32_t)y);
+    }
+}
+
+/* Begin a collection about an ellipse: the finest unit in which four semi-axes fit 16 bits. */
+static void collection_begin(collection *c, const drogue_ellipse *e)
+{
+    drogue_moments_clear(&c->moments);
+    c->x_px_q16 = e->xc_px_q16;
+    c->y_px_q16 = e->yc_px_q16;
+    c->frac_bits = 10;
+    while (c->frac_bits > 0 && ((int64_t)e->a_px_q16 * 4) >> (16 - c->frac_bits) > INT16_MAX) {
+        c->frac_bits--;
+    }
+}
+
+static drogue_status collection_fit(drogue_ellipse *out, const collection *c)
+{
+    drogue_status status = drogue_ellipse_fit(out, &c->moments, c->frac_bits);
+    out->xc_px_q16 = drogue_q16_add(out->xc_px_q16, c->x_px_q16);
+    out->yc_px_q16 = drogue_q16_add(out->yc_px_q16, c->y_px_q16);
+    return status;
+}
+
+static drogue_band band_of(const drogue_config *config, drogue_polarity polarity)
+{
+    drogue_band band;
+    band.half_width_px_q16 = config->refit_band_px_q16;
+    band.cos_q16 = config->refit_cos_q16;
+    band.polarity = polarity;
+    return band;
+}
+
+static int edge_in_band(const drogue_ellipse_frame *frame, const drogue_band *band, const drogue_edge *e)
+{
+    return drogue_ellipse_band_holds(frame, band, edge_q16(e->x_q5), edge_q16(e->y_q5), e->gx, e->gy);
+}
+
+/* Refit on the points that belong to the outline, as often as configured; stops at the last good fit. */
+static void refit(drogue_outline *outline, const drogue_workspace *workspace, const drogue_edge_list *list,
+                  const drogue_mask *mask, const drogue_config *config)
+{
+    const drogue_band band = band_of(config, outline->polarity);
+    uint32_t round;
+    uint32_t i;
+    for (round = 0; round < config->refit_rounds; round++) {
+        drogue_ellipse_frame frame;
+        drogue_ellipse ellipse;
+        collection c;
+        if (drogue_ellipse_frame_of(&frame, &outline->ellipse) != DROGUE_OK) {
+            return;
+        }
+        collection_begin(&c, &outline->ellipse);
+        for (i = 0; i < list->edge_count; i++) {
+            const drogue_edge *e = &workspace->edges[i];
+            if (edge_in_band(&frame, &band, e)) {
+                collect_point(&c, edge_q16(e->x_q5), edge_q16(e->y_q5));
+            }
+        }
+        if (collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, mask, config)) {
+            return;
+        }
+        outline->ellipse = ellipse;
+        outline->refit_points = (uint32_t)c.moments.n;
+    }
+}
+
+drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
+                                  const drogue_mask *mask, const drogue_config *config)
+{
+    drogue_candidate candidates[MAX_CANDIDATES];
+    drogue_quality qualities[MAX_CANDIDATES];
+    drogue_farthest farthest;
+    drogue_status status;
+    uint32_t count = 0;
+    int32_t best;
+    int polarity;
+    int k;
+    memset(out, 0, sizeof *out);
+    for (k = 0; k < 4; k++) {
+        out->arcs[k] = DROGUE_NO_ARC;
+    }
+    if (list->edge_count == 0) {
+        return DROGUE_E_NO_EDGES;
+    }
+    status = drogue_select_farthest(&farthest, workspace->hull, workspace->edges, workspace->arcs, list->arc_count,
+                                    mask, config->min_short_px_q16);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    for (polarity = 0; polarity < 2; polarity++) {
+        quadrants q;
+        uint32_t present = 0;
+        if (config->polarity != DROGUE_POLARITY_BOTH && (int)config->polarity != polarity) {
+            continue;
+        }
+        for (k = 0; k < 4; k++) {
+            uint32_t index = farthest.arc[polarity][k];
+            q.arc[k] = NULL;
+            if (index != DROGUE_NO_ARC) {
+                q.arc[k] = &workspace->arcs[index];
+                arc_moments(&q.moments[k], workspace->edges, q.arc[k]);
+                present |= 1u << k;
+            }
+        }
+        count = add_candidates(candidates, qualities, count, &q, present, (drogue_polarity)polarity, workspace->edges,
+                               mask, config);
+    }
+    best = drogue_cluster_best(&out->cluster_members, candidates, count, &config->cluster);
+    if (best < 0) {
+        return DROGUE_E_NO_ELLIPSE;
+    }
+    out->ellipse = candidates[best].ellipse;
+    out->quality = qualities[best];
+    out->polarity = (drogue_polarity)candidates[best].polarity;
+    for (k = 0; k < 4; k++) {
+        if ((candidates[best].arcs >> k) & 1u) {
+            out->arcs[k] = farthest.arc[out->polarity][k];
+        }
+    }
+    refit(out, workspace, list, mask, config);
+    return DROGUE_OK;
+}
+
+drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outline *outline,
+                                         const drogue_workspace *workspace, const drogue_edge_list *list,
+                                         const drogue_config *config, const drogue_camera *camera, int32_t x_px,
+                                         int32_t y_px)
+{
+    const drogue_band band = band_of(config, outline->polarity);
+    drogue_ellipse_frame frame;
+    drogue_ellipse centre = outline->ellipse;
+    collection c;
+    uint32_t i;
+    memset(out, 0, sizeof *out);
+    centre.xc_px_q16 = drogue_q16_add(centre.xc_px_q16, drogue_q16_from_int(x_px));
+    centre.yc_px_q16 = drogue_q16_add(centre.yc_px_q16, drogue_q16_from_int(y_px));
+    if (drogue_ellipse_frame_of(&frame, &outline->ellipse) != DROGUE_OK ||
+        drogue_undistort_point(&centre.xc_px_q16, &centre.yc_px_q16, camera) != DROGUE_OK) {
+        return DROGUE_E_DEGENERATE;
+    }
+    collection_begin(&c, &centre);
+    for (i = 0; i < list->edge_count; i++) {
+        const drogue_edge *e = &workspace->edges[i];
+        drogue_q16 x = drogue_q16_add(edge_q16(e->x_q5), drogue_q16_from_int(x_px));
+        drogue_q16 y = drogue_q16_add(edge_q16(e->y_q5), drogue_q16_from_int(y_px));
+        if (edge_in_band(&frame, &band, e) && drogue_undistort_point(&x, &y, camera) == DROGUE_OK) {
+            collect_point(&c, x, y);
+        }
+    }
+    return collection_fit(out, &c);
+}

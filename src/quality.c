@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Quality of a fitted ellipse: paper (10)-(15). */
+#include "drogue/quality.h"
+
+#define PI_Q29 INT64_C(1686629713)
+
+static int32_t over_q30(int32_t v_q30, drogue_q16 length_px_q16)
+{
+    return (int32_t)drogue_div_round_s64((int64_t)v_q30 * DROGUE_Q16_ONE, length_px_q16);
+}
+
+drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_ellipse *ellipse)
+{
+    int32_t s_q30;
+    int32_t c_q30;
+    if (ellipse->b_px_q16 < DROGUE_Q16_ONE || ellipse->a_px_q16 < ellipse->b_px_q16) {
+        return DROGUE_E_DOMAIN;
+    }
+    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(ellipse->angle_rad_q16, 13));
+    out->xc_px_q16 = ellipse->xc_px_q16;
+    out->yc_px_q16 = ellipse->yc_px_q16;
+    out->b_px_q16 = ellipse->b_px_q16;
+    out->cos_over_a_q30 = over_q30(c_q30, ellipse->a_px_q16);
+    out->sin_over_a_q30 = over_q30(s_q30, ellipse->a_px_q16);
+    out->cos_over_b_q30 = over_q30(c_q30, ellipse->b_px_q16);
+    out->sin_over_b_q30 = over_q30(s_q30, ellipse->b_px_q16);
+    out->cos_q14 = (int32_t)drogue_shr_round_s64(c_q30, 16);
+    out->sin_q14 = (int32_t)drogue_shr_round_s64(s_q30, 16);
+    out->cos_ratio_q14 = (int32_t)drogue_shr_round_s64((int64_t)out->cos_over_a_q30 * out->b_px_q16, 32);
+    out->sin_ratio_q14 = (int32_t)drogue_shr_round_s64((int64_t)out->sin_over_a_q30 * out->b_px_q16, 32);
+    return DROGUE_OK;
+}
+
+static int32_t clamp_q24(int64_t v_q46)
+{
+    const int64_t most = INT64_C(16) << 24;
+    int64_t v = drogue_shr_round_s64(v_q46, 22);
+    return (int32_t)(v > most ? most : v < -most ? -most : v);
+}
+
+void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame,
+                                drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+{
+    int64_t dx = (int64_t)x_px_q16 - frame->xc_px_q16;
+    int64_t dy = (int64_t)y_px_q16 - frame->yc_px_q16;
+    *u_q24 = clamp_q24(dx * frame->cos_over_a_q30 + dy * frame->sin_over_a_q30);
+    *v_q24 = clamp_q24(dy * frame->cos_over_b_q30 - dx * frame->sin_over_b_q30);
+}
+
+/* u^2 + v^2 - 1, Q48 */
+static int64_t conic_q48(int32_t u_q24, int32_t v_q24)
+{
+    return (int64_t)u_q24 * u_q24 + (int64_t)v_q24 * v_q24 - (INT64_C(1) << 48);
+}
+
+drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+{
+    int32_t u_q24;
+    int32_t v_q24;
+    int64_t d_q48;
+    drogue_ellipse_frame_point(&u_q24, &v_q24, frame, x_px_q16, y_px_q16);
+    d_q48 = conic_q48(u_q24, v_q24);
+    return drogue_sat_s32(drogue_shr_round_s64(d_q48 < 0 ? -d_q48 : d_q48, 32));
+}
+
+int drogue_ellipse_band_holds(const drogue_ellipse_frame *frame, const drogue_band *band, drogue_q16 x_px_q16,
+                              drogue_q16 y_px_q16, int16_t gx, int16_t gy)
+{
+    int32_t u_q24;
+    int32_t v_q24;
+    int64_t f_q24;
+    int64_t f_b_px_q16;
+    int64_t nx;
+    int64_t ny;
+    int64_t n2_q28;
+    int64_t g2;
+    int64_t along;
+    int64_t most2_q32;
+    int64_t cos2_q10;
+    drogue_ellipse_frame_point(&u_q24, &v_q24, frame, x_px_q16, y_px_q16);
+    f_q24 = drogue_shr_round_s64(conic_q48(u_q24, v_q24), 24);
+    if (f_q24 > (INT64_C(1) << 24) || f_q24 < -(INT64_C(3) << 22)) {
+        return 0; /* inside half or outside 1.4 of the outline */
+    }
+    /* Half the gradient of F times b: between b / a and about 1 in length. */
+    nx = drogue_shr_round_s64((int64_t)u_q24 * frame->cos_ratio_q14 - (int64_t)v_q24 * frame->sin_q14, 24);
+    ny = drogue_shr_round_s64((int64_t)u_q24 * frame->sin_ratio_q14 + (int64_t)v_q24 * frame->cos_q14, 24);
+    n2_q28 = nx * nx + ny * ny;
+    /* |F| / |grad F| <= t  <=>  (F b)^2 <= 4 t^2 n^2 */
+    f_b_px_q16 = drogue_shr_round_s64(f_q24 * frame->b_px_q16, 24);
+    if (f_b_px_q16 < 0) {
+        f_b_px_q16 = -f_b_px_q16;
+    }
+    if (f_b_px_q16 > 4 * (int64_t)band->half_width_px_q16) {
+        return 0;
+    }
+    most2_q32 = drogue_shr_round_s64((int64_t)band->half_width_px_q16 * band->half_width_px_q16, 8) *
+                drogue_shr_round_s64(n2_q28, 8);
+    if (f_b_px_q16 * f_b_px_q16 > drogue_shr_round_s64(most2_q32, 10)) {
+        return 0;
+    }
+    along = gx * nx + gy * ny;
+    if (band->polarity == DROGUE_POLARITY_BRIGHT) {
+        along = -along;
+    }
+    g2 = (int64_t)gx * gx + (int64_t)gy * gy;
+    cos2_q10 = drogue_shr_round_s64((int64_t)band->cos_q16 * band->cos_q16, 22);
+    return along > 0 && along * along * 1024 >= cos2_q10 * (g2 * n2_q28);
+}
+
+drogue_q16 drogue_quality_threshold(const drogue_ellipse *ellipse, drogue_q16 fit_error_px_q16)
+{
+    return drogue_q16_div(drogue_q16_add(fit_error_px_q16, fit_error_px_q16), ellipse->a_px_q16);
+}
+
+drogue_q16 drogue_ellipse_circumference(const drogue_ellipse *ellipse)
+{
+    int64_t a = ellipse->a_px_q16;
+    int64_t b = ellipse->b_px_q16;
+    uint64_t square_q32;
+    uint64_t root_q16;
+    if (a < 0 || b < 0 || a + b >= (INT64_C(1) << 29)) {
+        return DROGUE_Q16_MAX;
+    }
+    square_q32 = (uint64_t)(3 * a + b) * (uint64_t)(a + 3 * b);
+    root_q16 = drogue_isqrt_u64(square_q32);
+    if (square_q32 - root_q16 * root_q16 > root_q16) {
+        root_q16++;
+    }
+    return drogue_sat_s32(drogue_shr_round_s64((3 * (a + b) - (int64_t)root_q16) * PI_Q29, 29));
+}
+
+/* s(s_r) of (14): 0 at the ratio k2, 0.5 for a circle. */
+static drogue_q16 axis_ratio_score(drogue_q16 ratio_q16, const drogue_quality_config *config)
+{
+    drogue_q16 t = drogue_q16_div(drogue_q16_sub(ratio_q16, config->k2_q16),
+                                  drogue_q16_sub(DROGUE_Q16_ONE, config->k2_q16));
+    int64_t decay_q30;
+    if (t <= 0) {
+        return 0;
+    }
+    decay_q30 = drogue_exp_neg_q30(drogue_q16_mul(config->k1_q16, t));
+    return (drogue_q16)drogue_shr_round_s64(
+        drogue_shr_round_s64((int64_t)(t - DROGUE_Q16_ONE) * decay_q30, 16) + (INT64_C(1) << 30), 15);
+}
+
+static drogue_q16 ratio_to_one(int64_t num_q16, int64_t den)
+{
+    if (den <= 0 || num_q16 >= den * DROGUE_Q16_ONE) {
+        return DROGUE_Q16_ONE;
+    }
+    return (drogue_q16)drogue_div_round_s64(num_q16, den);
+}
+
+void drogue_quality_score(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
+                          const drogue_quality_config *config)
+{
+    drogue_q16 circumference = drogue_ellipse_circumference(ellipse);
+    out->fit_ratio_q16 = ratio_to_one((int64_t)near_count * DROGUE_Q16_ONE, total);
+    out->length_ratio_q16 =
+        ratio_to_one(drogue_shl_s64((int64_t)(total >> 26 ? (uint32_t)1 << 26 : total), 32), circumference);
+    out->axis_ratio_q16 = drogue_q16_div(ellipse->b_px_q16, ellipse->a_px_q16);
+    out->score_q16 = (drogue_q16)drogue_shr_round_s64(out->length_ratio_q16, 1) +
+                     axis_ratio_score(out->axis_ratio_q16, config);
+    out->reliability_q16 = (drogue_q16)drogue_shr_round_s64((int64_t)out->score_q16 + out->fit_ratio_q16, 1);
+}

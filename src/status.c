@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Names of statuses. */
+#include "drogue/status.h"
+
+const char *drogue_status_name(drogue_status status)
+{
+    switch (status) {
+    case DROGUE_OK: return "ok";
+    case DROGUE_E_ARGUMENT: return "argument";
+    case DROGUE_E_REGION: return "region";
+    case DROGUE_E_WORKSPACE: return "workspace";
+    case DROGUE_E_LABELS_FULL: return "labels_full";
+    case DROGUE_E_EDGES_FULL: return "edges_full";
+    case DROGUE_E_ARCS_FULL: return "arcs_full";
+    case DROGUE_E_NO_EDGES: return "no_edges";
+    case DROGUE_E_NO_ARCS: return "no_arcs";
+    case DROGUE_E_NO_ELLIPSE: return "no_ellipse";
+    case DROGUE_E_TOO_FEW_POINTS: return "too_few_points";
+    case DROGUE_E_DEGENERATE: return "degenerate";
+    case DROGUE_E_NO_DARK_PART: return "no_dark_part";
+    case DROGUE_E_DOMAIN: return "domain";
+    case DROGUE_E_BEHIND_CAMERA: return "behind_camera";
+    case DROGUE_STATUS_COUNT: break;
+    }
+    return "unknown";
+}

@@ -1,0 +1,358 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Ray tracer, background, optics and sensor of the rendered scenes. */
+#include "scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace accuracy {
+
+namespace {
+
+/* Rays of a pixel: a Fibonacci lattice of an odd number of points covers it evenly, no two of them in one row or
+ * column, and is its own mirror image through the pixel's centre, so that no direction of an edge is favoured. */
+struct Lattice {
+    int points;
+    int step;
+};
+constexpr Lattice outline_lattice = {233, 89}; /* pixels that hold background and drogue */
+constexpr Lattice detail_lattice = {89, 34};   /* edges within the drogue */
+
+enum : uint64_t { stream_texture = 1, stream_noise = 2 };
+
+/* Rays and light in the drogue's frame, where the axis is z and the end plane z = 0. */
+class Tracer {
+public:
+    explicit Tracer(const Scene &scene) : scene_(scene), d_(scene.drogue), look_(scene.look)
+    {
+        const cv::Vec3d e1 = scene.pose.first();
+        const cv::Vec3d e2 = scene.pose.second();
+        const cv::Vec3d n = scene.pose.axis;
+        to_drogue_ = cv::Matx33d(e1[0], e1[1], e1[2], e2[0], e2[1], e2[2], n[0], n[1], n[2]);
+        eye_ = to_drogue_ * -scene.pose.position_m;
+        sun_ = to_drogue_ * scene.look.sun;
+        slope_ = (d_.coupling_radius_m - d_.rim_radius_m) / d_.inner_depth_m;
+    }
+
+    Hit operator()(const cv::Point2d &seen_px) const
+    {
+        if (on_probe(seen_px)) {
+            return {Surface::probe, scene_.probe.grey, {0, 0, 0}};
+        }
+        const cv::Vec3d ray = to_drogue_ * scene_.camera.ray(seen_px);
+        Hit hit = {Surface::background, 0, {0, 0, 0}};
+        double nearest = std::numeric_limits<double>::infinity();
+        const double housing_end_m = d_.inner_depth_m + d_.housing_length_m;
+        meet_disc(hit, nearest, ray);
+        meet_cone(hit, nearest, ray);
+        meet_cylinder(hit, nearest, ray, d_.coupling_radius_m, d_.inner_depth_m, housing_end_m, Surface::housing);
+        meet_cylinder(hit, nearest, ray, d_.hose_radius_m, housing_end_m, housing_end_m + d_.hose_length_m, Surface::hose);
+        return hit;
+    }
+
+private:
+    bool on_probe(const cv::Point2d &p) const
+    {
+        const Probe &probe = scene_.probe;
+        if (probe.half_width_px <= 0) {
+            return false;
+        }
+        const cv::Point2d along = probe.root_px - probe.tip_px;
+        const cv::Point2d to = p - probe.tip_px;
+        const double t = std::clamp(to.dot(along) / along.dot(along), 0.0, 1.0);
+        return cv::norm(to - t * along) <= probe.half_width_px;
+    }
+
+    double lambert(double albedo, const cv::Vec3d &unit_normal) const
+    {
+        return albedo * (look_.ambient + (1 - look_.ambient) * std::max(0.0, unit_normal.dot(sun_)));
+    }
+
+    /* Black disc and the coupling's face around it. */
+    void meet_disc(Hit &hit, double &nearest, const cv::Vec3d &ray) const
+    {
+        const double t = (d_.inner_depth_m - eye_[2]) / ray[2];
+        if (!(t > 0) || t >= nearest) {
+            return;
+        }
+        const cv::Vec3d p = eye_ + t * ray;
+        const double r = std::hypot(p[0], p[1]);
+        if (r > d_.coupling_radius_m) {
+            return;
+        }
+        nearest = t;
+        const bool black = r <= d_.inner_radius_m;
+        const double facing = ray[2] > 0 ? -1 : 1;
+        hit = {black ? Surface::inner : Surface::coupling,
+               black ? look_.inner_grey : lambert(look_.coupling_grey, {0, 0, facing}), p};
+    }
+
+    /* Canopy: radius(z) = rim + slope z on [0, depth]. */
+    void meet_cone(Hit &hit, double &nearest, const cv::Vec3d &ray) const
+    {
+        const double radius = d_.rim_radius_m + slope_ * eye_[2];
+        const double a = ray[0] * ray[0] + ray[1] * ray[1] - slope_ * slope_ * ray[2] * ray[2];
+        const double b = ray[0] * eye_[0] + ray[1] * eye_[1] - slope_ * ray[2] * radius;
+        const double c = eye_[0] * eye_[0] + eye_[1] * eye_[1] - radius * radius;
+        const double disc = b * b - a * c;
+        if (disc < 0) {
+            return;
+        }
+        const double q = -(b + std::copysign(std::sqrt(disc), b)); /* stable roots q / a and c / q */
+        for (const double t : {q / a, c / q}) {
+            if (!(t > 0) || t >= nearest) {
+                continue;
+            }
+            const cv::Vec3d p = eye_ + t * ray;
+            if (p[2] < 0 || p[2] > d_.inner_depth_m) {
+                continue; /* also drops the cone's other half */
+            }
+            const double turn = std::atan2(p[1], p[0]) / (2 * CV_PI) * d_.ribs + d_.rib_phase;
+            const double part = turn - std::floor(turn + 0.5); /* [-0.5, 0.5), 0 in the middle of a rib */
+            const double half = std::sin(CV_PI * part);
+            if (p[2] < d_.scallop_m * half * half) {
+                continue;
+            }
+            const bool rib = d_.ribs > 0 && std::fabs(part) < d_.rib_share / 2;
+            const double r = std::hypot(p[0], p[1]);
+            cv::Vec3d normal = cv::Vec3d(p[0] / r, p[1] / r, -slope_) / std::sqrt(1 + slope_ * slope_); /* outward */
+            const bool inside = ray.dot(normal) > 0;
+            double albedo = look_.canopy_grey * (rib ? look_.rib_gain : 1.0);
+            if (inside) {
+                normal = -normal;
+                albedo *= 1 - look_.depth_loss * p[2] / d_.inner_depth_m;
+            }
+            nearest = t;
+            hit = {inside ? (rib ? Surface::inside_rib : Surface::inside) : (rib ? Surface::outside_rib : Surface::outside),
+                   lambert(albedo, normal), p};
+        }
+    }
+
+    void meet_cylinder(Hit &hit, double &nearest, const cv::Vec3d &ray, double radius, double from, double to,
+                       Surface surface) const
+    {
+        const double a = ray[0] * ray[0] + ray[1] * ray[1];
+        const double b = ray[0] * eye_[0] + ray[1] * eye_[1];
+        const double c = eye_[0] * eye_[0] + eye_[1] * eye_[1] - radius * radius;
+        const double disc = b * b - a * c;
+        if (disc < 0 || a == 0) {
+            return;
+        }
+        const double t = (-b - std::sqrt(disc)) / a; /* the outside is met first */
+        const cv::Vec3d p = eye_ + t * ray;
+        if (!(t > 0) || t >= nearest || p[2] < from || p[2] > to) {
+            return;
+        }
+        nearest = t;
+        hit = {surface, lambert(surface == Surface::hose ? look_.hose_grey : look_.coupling_grey,
+                                {p[0] / radius, p[1] / radius, 0}), p};
+    }
+
+    const Scene &scene_;
+    const Drogue &d_;
+    const Look &look_;
+    cv::Matx33d to_drogue_;
+    cv::Vec3d eye_;
+    cv::Vec3d sun_;
+    double slope_;
+};
+
+/* Value noise in [-1, 1] with a quintic fade between lattice values. */
+double value_noise(uint64_t seed, double x, double y)
+{
+    const double fx = std::floor(x);
+    const double fy = std::floor(y);
+    const auto ix = static_cast<int64_t>(fx);
+    const auto iy = static_cast<int64_t>(fy);
+    const auto fade = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
+    const auto at = [&](int64_t dx, int64_t dy) { return 2 * unit(hash_at(seed, ix + dx, iy + dy)) - 1; };
+    const double u = fade(x - fx);
+    const double v = fade(y - fy);
+    return (at(0, 0) * (1 - u) + at(1, 0) * u) * (1 - v) + (at(0, 1) * (1 - u) + at(1, 1) * u) * v;
+}
+
+/* Grey of each pixel averaged over its area. Pixels whose neighbourhood shows one surface need one ray. */
+cv::Mat trace_area(const Scene &scene, const cv::Rect &area)
+{
+    const Tracer tracer(scene);
+    const auto background = static_cast<uint8_t>(Surface::background);
+    cv::Mat surface(area.height + 2, area.width + 2, CV_8U);
+    cv::Mat grey(area.height + 2, area.width + 2, CV_64F);
+    for (int y = 0; y < surface.rows; y++) {
+        for (int x = 0; x < surface.cols; x++) {
+            const Hit hit = tracer(cv::Point2d(area.x - 1 + x, area.y - 1 + y));
+            surface.at<uint8_t>(y, x) = static_cast<uint8_t>(hit.surface);
+            grey.at<double>(y, x) = hit.grey;
+        }
+    }
+    cv::Mat out(area.size(), CV_64F);
+    for (int y = 0; y < area.height; y++) {
+        for (int x = 0; x < area.width; x++) {
+            const cv::Mat near = surface(cv::Rect(x, y, 3, 3));
+            const uint8_t own = near.at<uint8_t>(1, 1);
+            const bool plain = cv::countNonZero(near == own) == 9;
+            const bool outline = cv::countNonZero(near == background) > 0;
+            const double behind = outline ? background_grey(scene, area.x + x, area.y + y) : 0;
+            double &result = out.at<double>(y, x);
+            if (plain) {
+                result = own == background ? behind : grey.at<double>(y + 1, x + 1);
+                continue;
+            }
+            const Lattice lattice = outline ? outline_lattice : detail_lattice;
+            double sum = 0;
+            for (int i = -(lattice.points / 2); i <= lattice.points / 2; i++) {
+                const double dx = static_cast<double>(i) / lattice.points;
+                const double dy = std::remainder(dx * lattice.step, 1.0);
+                const Hit hit = tracer(cv::Point2d(area.x + x + dx, area.y + y + dy));
+                sum += hit.surface == Surface::background ? behind : hit.grey;
+            }
+            result = sum / lattice.points;
+        }
+    }
+    return out;
+}
+
+/* Gaussian sampled out to four sigma, sum 1. */
+std::vector<double> gaussian(double sigma)
+{
+    const int reach = static_cast<int>(std::ceil(4 * sigma));
+    std::vector<double> taps(static_cast<size_t>(2 * reach + 1));
+    double sum = 0;
+    for (int i = -reach; i <= reach; i++) {
+        sum += taps[static_cast<size_t>(i + reach)] = sigma > 0 ? std::exp(-0.5 * i * i / (sigma * sigma)) : 1;
+    }
+    for (double &t : taps) {
+        t /= sum;
+    }
+    return taps;
+}
+
+/* Both passes of a separable filter; the result loses the filter's reach on every side. */
+cv::Mat filter(const cv::Mat &in, const std::vector<double> &taps)
+{
+    const int reach = static_cast<int>(taps.size()) / 2;
+    cv::Mat rows = cv::Mat::zeros(in.rows, in.cols - 2 * reach, CV_64F);
+    cv::Mat out = cv::Mat::zeros(in.rows - 2 * reach, in.cols - 2 * reach, CV_64F);
+    for (int i = -reach; i <= reach; i++) {
+        rows += taps[static_cast<size_t>(i + reach)] * in.colRange(reach + i, reach + i + rows.cols);
+    }
+    for (int i = -reach; i <= reach; i++) {
+        out += taps[static_cast<size_t>(i + reach)] * rows.rowRange(reach + i, reach + i + out.rows);
+    }
+    return out;
+}
+
+/* Mean along a straight path of the given length about each pixel; the result loses 'reach' on every side. */
+cv::Mat smear(const cv::Mat &in, double length, double angle, int reach)
+{
+    const int steps = std::max(1, static_cast<int>(std::ceil(4 * length)));
+    cv::Mat out = cv::Mat::zeros(in.rows - 2 * reach, in.cols - 2 * reach, CV_64F);
+    for (int i = 0; i < steps; i++) {
+        const double s = length * ((i + 0.5) / steps - 0.5);
+        const double x = reach + s * std::cos(angle);
+        const double y = reach + s * std::sin(angle);
+        const int ix = static_cast<int>(std::floor(x));
+        const int iy = static_cast<int>(std::floor(y));
+        const auto part = [&](int dx, int dy) { return in(cv::Rect(ix + dx, iy + dy, out.cols, out.rows)); };
+        out += ((1 - (x - ix)) * (1 - (y - iy)) / steps) * part(0, 0);
+        out += ((x - ix) * (1 - (y - iy)) / steps) * part(1, 0);
+        out += ((1 - (x - ix)) * (y - iy) / steps) * part(0, 1);
+        out += ((x - ix) * (y - iy) / steps) * part(1, 1);
+    }
+    return out;
+}
+
+} // namespace
+
+Background Background::sky()
+{
+    return {205, 225, 6, 256, 3};
+}
+
+Background Background::cloud()
+{
+    return {125, 115, 20, 192, 4};
+}
+
+Background Background::ground()
+{
+    return {60, 50, 18, 48, 4};
+}
+
+Look Look::dark()
+{
+    return Look();
+}
+
+Look Look::bright()
+{
+    Look look;
+    look.canopy_grey = 215;
+    look.rib_gain = 0.85;
+    look.coupling_grey = 120;
+    look.hose_grey = 90;
+    return look;
+}
+
+Hit trace(const Scene &scene, const cv::Point2d &seen_px)
+{
+    return Tracer(scene)(seen_px);
+}
+
+double background_grey(const Scene &scene, int x_px, int y_px)
+{
+    const Background &b = scene.background;
+    const double down = static_cast<double>(y_px) / scene.image_px.height;
+    double sum = 0;
+    double weights = 0;
+    for (int k = 0; k < b.octaves; k++) {
+        const double size = b.texture_px / (1 << k);
+        const double weight = 1.0 / (1 << k);
+        const uint64_t seed = hash_at(scene.seed, static_cast<int64_t>(stream_texture), k);
+        sum += weight * value_noise(seed, x_px / size, y_px / size);
+        weights += weight;
+    }
+    return b.top_grey + (b.bottom_grey - b.top_grey) * down + (weights > 0 ? b.texture_grey * sum / weights : 0);
+}
+
+cv::Mat render_light(const Scene &scene, const cv::Rect &region)
+{
+    const Sensor &s = scene.sensor;
+    const std::vector<double> taps = gaussian(std::hypot(s.blur_px, s.motion_sigma_px));
+    const int blur_reach = static_cast<int>(taps.size()) / 2;
+    const int smear_reach = s.motion_length_px > 0 ? static_cast<int>(std::ceil(s.motion_length_px / 2)) + 1 : 0;
+    const int reach = blur_reach + smear_reach;
+    cv::Mat light = trace_area(scene, cv::Rect(region.x - reach, region.y - reach, region.width + 2 * reach,
+                                               region.height + 2 * reach));
+    light = filter(light, taps);
+    if (smear_reach > 0) {
+        light = smear(light, s.motion_length_px, s.motion_angle_rad, smear_reach);
+    }
+    if (s.light_radius_px > 0) {
+        for (int y = 0; y < region.height; y++) {
+            for (int x = 0; x < region.width; x++) {
+                const double distance = std::hypot(region.x + x - s.light_at_px.x, region.y + y - s.light_at_px.y);
+                light.at<double>(y, x) *= std::max(0.0, s.light_k * (1 - distance / s.light_radius_px));
+            }
+        }
+    }
+    return light;
+}
+
+cv::Mat render(const Scene &scene, const cv::Rect &region)
+{
+    const cv::Mat light = render_light(scene, region);
+    const uint64_t seed = hash_at(scene.seed, static_cast<int64_t>(stream_noise), 0);
+    cv::Mat out(region.size(), CV_8U);
+    for (int y = 0; y < region.height; y++) {
+        for (int x = 0; x < region.width; x++) {
+            const double noisy = light.at<double>(y, x) + scene.sensor.noise * normal_at(seed, region.x + x, region.y + y);
+            out.at<uint8_t>(y, x) = static_cast<uint8_t>(std::clamp(std::floor(noisy + 0.5), 0.0, 255.0));
+        }
+    }
+    return out;
+}
+
+} // namespace accuracy

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Names of statuses: each has its own, every other value is "unknown". */
+#include "suite.h"
+
+#include "drogue/status.h"
+
+START_TEST(names_are_the_documented_ones)
+{
+    static const char *const names[DROGUE_STATUS_COUNT] = {
+        "ok",       "argument", "region",     "workspace",      "labels_full", "edges_full",   "arcs_full",    "no_edges",
+        "no_arcs",  "no_ellipse", "too_few_points", "degenerate", "no_dark_part", "domain", "behind_camera"};
+    int i;
+    for (i = 0; i < (int)DROGUE_STATUS_COUNT; i++) {
+        ck_assert_str_eq(drogue_status_name((drogue_status)i), names[i]);
+    }
+}
+END_TEST
+
+START_TEST(other_values_are_unknown)
+{
+    ck_assert_str_eq(drogue_status_name(DROGUE_STATUS_COUNT), "unknown");
+    ck_assert_str_eq(drogue_status_name((drogue_status)((int)DROGUE_STATUS_COUNT + 1)), "unknown");
+    ck_assert_str_eq(drogue_status_name((drogue_status)INT32_MAX), "unknown");
+}
+END_TEST
+
+SUITE_MAIN("status", names_are_the_documented_ones, other_values_are_unknown)
