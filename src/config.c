@@ -25,6 +25,8 @@ void drogue_config_default(drogue_config *config)
     config->refit_band_px_q16 = DROGUE_Q16(3, 2);
     config->refit_cos_q16 = DROGUE_Q16(87, 100);
     config->refit_rounds = 3;
+    config->min_cover_q16 = DROGUE_Q16(45, 100);
+    config->optics_blur_px_q16 = 0;
     config->min_dark_area_px = 9;
     config->inner_gate_q16 = DROGUE_Q16(1, 4);
 }

@@ -129,6 +129,7 @@ static drogue_status measure(drogue_result *out, drogue_workspace *workspace, co
     out->polarity = outline.polarity;
     out->cluster_members = outline.cluster_members;
     out->refit_points = outline.refit_points;
+    out->cover_q16 = outline.cover_q16;
     out->ellipse = outline.ellipse;
     out->ellipse.xc_px_q16 = drogue_q16_add(out->ellipse.xc_px_q16, drogue_q16_from_int(out->region.x_px));
     out->ellipse.yc_px_q16 = drogue_q16_add(out->ellipse.yc_px_q16, drogue_q16_from_int(out->region.y_px));

@@ -139,6 +139,22 @@ static drogue_status collection_fit(drogue_ellipse *out, const collection *c)
     return status;
 }
 
+/* Put back what blur takes: an edge of curvature c under blur of variance v shows v c / 2 further in. The front end's
+ * own share of v / 2 is measured on discs of 20 to 160 px. Curvature is a / b^2 at the ends of the major axis, b / a^2
+ * at those of the minor. */
+static void undo_blur(drogue_ellipse *e, const drogue_config *config)
+{
+    const drogue_wide own = drogue_wide_from_q16(config->smooth ? DROGUE_Q16(82, 100) : DROGUE_Q16(32, 100));
+    drogue_wide blur = drogue_wide_from_q16(config->optics_blur_px_q16);
+    drogue_wide half = drogue_wide_add(own, drogue_wide_scale(drogue_wide_mul(blur, blur), -1));
+    drogue_wide a = drogue_wide_from_q16(e->a_px_q16);
+    drogue_wide b = drogue_wide_from_q16(e->b_px_q16);
+    e->a_px_q16 = drogue_wide_to_q16(
+        drogue_wide_add(a, drogue_wide_div(drogue_wide_mul(half, a), drogue_wide_mul(b, b))));
+    e->b_px_q16 = drogue_wide_to_q16(
+        drogue_wide_add(b, drogue_wide_div(drogue_wide_mul(half, b), drogue_wide_mul(a, a))));
+}
+
 static drogue_band band_of(const drogue_config *config, drogue_polarity polarity)
 {
     drogue_band band;
@@ -153,33 +169,48 @@ static int edge_in_band(const drogue_ellipse_frame *frame, const drogue_band *ba
     return drogue_ellipse_band_holds(frame, band, edge_q16(e->x_q5), edge_q16(e->y_q5), e->gx, e->gy);
 }
 
-/* Refit on the points that belong to the outline, as often as configured; stops at the last good fit. */
-static void refit(drogue_outline *outline, const drogue_workspace *workspace, const drogue_edge_list *list,
-                  const drogue_mask *mask, const drogue_config *config)
+/* Collect the edge points that belong to the outline. */
+static drogue_status collect_outline(collection *c, const drogue_outline *outline, const drogue_workspace *workspace,
+                                     const drogue_edge_list *list, const drogue_config *config)
 {
     const drogue_band band = band_of(config, outline->polarity);
-    uint32_t round;
+    drogue_ellipse_frame frame;
+    drogue_status status = drogue_ellipse_frame_of(&frame, &outline->ellipse);
     uint32_t i;
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    collection_begin(c, &outline->ellipse);
+    for (i = 0; i < list->edge_count; i++) {
+        const drogue_edge *e = &workspace->edges[i];
+        if (edge_in_band(&frame, &band, e)) {
+            collect_point(c, edge_q16(e->x_q5), edge_q16(e->y_q5));
+        }
+    }
+    return DROGUE_OK;
+}
+
+/* Refit on the points that belong to the outline, as often as configured; stops at the last good fit. Judges the
+ * outline by the share of its circumference that they cover. */
+static drogue_status refit(drogue_outline *outline, const drogue_workspace *workspace, const drogue_edge_list *list,
+                           const drogue_mask *mask, const drogue_config *config)
+{
+    uint32_t round;
+    collection c;
     for (round = 0; round < config->refit_rounds; round++) {
-        drogue_ellipse_frame frame;
         drogue_ellipse ellipse;
-        collection c;
-        if (drogue_ellipse_frame_of(&frame, &outline->ellipse) != DROGUE_OK) {
-            return;
-        }
-        collection_begin(&c, &outline->ellipse);
-        for (i = 0; i < list->edge_count; i++) {
-            const drogue_edge *e = &workspace->edges[i];
-            if (edge_in_band(&frame, &band, e)) {
-                collect_point(&c, edge_q16(e->x_q5), edge_q16(e->y_q5));
-            }
-        }
-        if (collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, mask, config)) {
-            return;
+        if (collect_outline(&c, outline, workspace, list, config) != DROGUE_OK ||
+            collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, mask, config)) {
+            break;
         }
         outline->ellipse = ellipse;
         outline->refit_points = (uint32_t)c.moments.n;
     }
+    if (collect_outline(&c, outline, workspace, list, config) != DROGUE_OK) {
+        return DROGUE_E_NO_ELLIPSE;
+    }
+    outline->cover_q16 = drogue_length_ratio((uint32_t)c.moments.n, &outline->ellipse);
+    return outline->cover_q16 >= config->min_cover_q16 ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
 }
 
 drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
@@ -235,8 +266,9 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
             out->arcs[k] = farthest.arc[out->polarity][k];
         }
     }
-    refit(out, workspace, list, mask, config);
-    return DROGUE_OK;
+    status = refit(out, workspace, list, mask, config);
+    undo_blur(&out->ellipse, config);
+    return status;
 }
 
 drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outline *outline,
@@ -248,6 +280,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     drogue_ellipse_frame frame;
     drogue_ellipse centre = outline->ellipse;
     collection c;
+    drogue_status status;
     uint32_t i;
     memset(out, 0, sizeof *out);
     centre.xc_px_q16 = drogue_q16_add(centre.xc_px_q16, drogue_q16_from_int(x_px));
@@ -265,5 +298,9 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
             collect_point(&c, x, y);
         }
     }
-    return collection_fit(out, &c);
+    status = collection_fit(out, &c);
+    if (status == DROGUE_OK) {
+        undo_blur(out, config);
+    }
+    return status;
 }

@@ -152,13 +152,17 @@ static drogue_q16 ratio_to_one(int64_t num_q16, int64_t den)
     return (drogue_q16)drogue_div_round_s64(num_q16, den);
 }
 
+drogue_q16 drogue_length_ratio(uint32_t points, const drogue_ellipse *ellipse)
+{
+    const uint32_t most = (uint32_t)1 << 26; /* more points than any region has */
+    return ratio_to_one(drogue_shl_s64(points > most ? most : points, 32), drogue_ellipse_circumference(ellipse));
+}
+
 void drogue_quality_score(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
                           const drogue_quality_config *config)
 {
-    drogue_q16 circumference = drogue_ellipse_circumference(ellipse);
     out->fit_ratio_q16 = ratio_to_one((int64_t)near_count * DROGUE_Q16_ONE, total);
-    out->length_ratio_q16 =
-        ratio_to_one(drogue_shl_s64((int64_t)(total >> 26 ? (uint32_t)1 << 26 : total), 32), circumference);
+    out->length_ratio_q16 = drogue_length_ratio(total, ellipse);
     out->axis_ratio_q16 = drogue_q16_div(ellipse->b_px_q16, ellipse->a_px_q16);
     out->score_q16 = (drogue_q16)drogue_shr_round_s64(out->length_ratio_q16, 1) +
                      axis_ratio_score(out->axis_ratio_q16, config);

@@ -28,6 +28,10 @@ typedef struct drogue_config {
     drogue_q16 refit_band_px_q16;  /* 1.5 px: the last fit takes all edge points this near with agreeing gradient */
     drogue_q16 refit_cos_q16;      /* 0.87 (30 degrees): least cosine between gradient and normal that agrees */
     uint32_t refit_rounds;         /* 3: times the band is applied; 0 keeps the fit of the arcs */
+    drogue_q16 min_cover_q16;      /* 0.45: least number of edge points that belong to the outline, over its
+                                      circumference; half an outline gives about 0.45 */
+    drogue_q16 optics_blur_px_q16; /* 0 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
+                                      draws a curved edge inward, which is put back (outline.h) */
     uint32_t min_dark_area_px;     /* 9 px: smaller dark parts are noise */
     drogue_q16 inner_gate_q16;     /* 0.25: the inner centre decides only when it lies within this share of the
                                       major semi-axis of a projected one */

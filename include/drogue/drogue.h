@@ -54,6 +54,7 @@ typedef struct drogue_result {
     drogue_polarity polarity; /* DARK or BRIGHT: the outline's inside against its outside */
     uint32_t cluster_members; /* candidates that agree with the winner, itself included */
     uint32_t refit_points;    /* points in the final fit */
+    drogue_q16 cover_q16;     /* edge points that belong to the outline over its circumference, at most 1 */
     int32_t has_inner;        /* 1: an inner dark part was found */
     drogue_dark_part inner;   /* its centroid, as seen; meaningful when has_inner */
     drogue_pose pose;         /* the pose chosen, or the first of the two */

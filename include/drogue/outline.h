@@ -19,6 +19,7 @@ typedef struct drogue_outline {
     uint32_t arcs[4];         /* the winning combination by quadrant: index into the arc table, or DROGUE_NO_ARC */
     uint32_t cluster_members; /* candidates that agree with the winner, itself included */
     uint32_t refit_points;    /* points in the last fit; 0 when the fit of the arcs was kept */
+    drogue_q16 cover_q16;     /* edge points that belong to the outline over its circumference, at most 1 */
 } drogue_outline;
 
 /* Find the outline.

@@ -36,7 +36,7 @@ void canvas_fill(picture *canvas, int32_t x, int32_t y, int32_t width, int32_t h
 
 static int64_t clamp(int64_t v, int64_t low, int64_t high) { return v < low ? low : v > high ? high : v; }
 
-void canvas_line(picture *canvas, int64_t x0_q8, int64_t y0_q8, int64_t x1_q8, int64_t y1_q8, colour c)
+void canvas_line(picture *canvas, int64_t x0_q8, int64_t y0_q8, int64_t x1_q8, int64_t y1_q8, int32_t width, colour c)
 {
     int64_t dx = x1_q8 - x0_q8, dy = y1_q8 - y0_q8;
     int steep = drogue_abs_u64(dy) > drogue_abs_u64(dx);
@@ -54,8 +54,8 @@ void canvas_line(picture *canvas, int64_t x0_q8, int64_t y0_q8, int64_t x1_q8, i
         du = -du;
         dv = -dv;
     }
-    /* Half the width measured along v: one pixel times the hypotenuse over the longer side. */
-    half_q8 = (int64_t)drogue_isqrt_u64((uint64_t)(du * du + dv * dv)) * 256 / du;
+    /* Half the width measured along v: longer by the hypotenuse over the longer side. */
+    half_q8 = (int64_t)drogue_isqrt_u64((uint64_t)(du * du + dv * dv)) * width * 128 / du;
     last = clamp((u0 + du + 255) >> 8, 0, limit);
     for (u = clamp((u0 + 255) >> 8, 0, limit); u < last; u++) {
         int64_t v_q8 = v0 + dv * ((u << 8) - u0) / du;

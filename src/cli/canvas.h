@@ -15,9 +15,9 @@ void canvas_blend(picture *canvas, int32_t x, int32_t y, colour c, int32_t alpha
 /* Mix a colour into a rectangle. */
 void canvas_fill(picture *canvas, int32_t x, int32_t y, int32_t width, int32_t height, colour c, int32_t alpha);
 
-/* Straight line two pixels wide with soft edges, its ends cut along the pixel grid so that the lines of a
+/* Straight line of a width in canvas pixels with soft edges, its ends cut along the pixel grid so that the lines of a
  * polygon join without a gap or an overlap. */
-void canvas_line(picture *canvas, int64_t x0_q8, int64_t y0_q8, int64_t x1_q8, int64_t y1_q8, colour c);
+void canvas_line(picture *canvas, int64_t x0_q8, int64_t y0_q8, int64_t x1_q8, int64_t y1_q8, int32_t width, colour c);
 
 /* Text with its top left corner at (x, y), every pixel of the font 'scale' pixels wide.
  *

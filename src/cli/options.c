@@ -7,6 +7,7 @@
 
 #include "cli.h"
 #include "decimal.h"
+#include "drogue/drogue.h"
 
 /* What getopt_long answers; below every printable character. */
 enum {
@@ -192,6 +193,9 @@ static int parse_region(drogue_region *region, const char *list)
     }
     if (v[2] <= 0 || v[3] <= 0) {
         return complain("--roi", "width and height must be greater than 0");
+    }
+    if (v[2] > DROGUE_MAX_REGION || v[3] > DROGUE_MAX_REGION) {
+        return complain("--roi", "width and height must not exceed %d", DROGUE_MAX_REGION);
     }
     region->x_px = v[0];
     region->y_px = v[1];

@@ -97,10 +97,10 @@ static int64_t to_canvas(const view *v, int64_t position_q16, int32_t first_px)
     return q8 > most ? most : q8 < -most ? -most : q8;
 }
 
-static void draw_line(view *v, int64_t x0_q16, int64_t y0_q16, int64_t x1_q16, int64_t y1_q16, colour c)
+static void draw_line(view *v, int64_t x0_q16, int64_t y0_q16, int64_t x1_q16, int64_t y1_q16, int32_t width, colour c)
 {
     canvas_line(&v->canvas, to_canvas(v, x0_q16, v->x_px), to_canvas(v, y0_q16, v->y_px), to_canvas(v, x1_q16, v->x_px),
-                to_canvas(v, y1_q16, v->y_px), c);
+                to_canvas(v, y1_q16, v->y_px), width, c);
 }
 
 static void draw_region(view *v, const drogue_region *r)
@@ -108,18 +108,20 @@ static void draw_region(view *v, const drogue_region *r)
     /* Along the outer edges of its outermost pixels. */
     int64_t left = (int64_t)r->x_px * 65536 - 32768, right = left + (int64_t)r->width_px * 65536;
     int64_t top = (int64_t)r->y_px * 65536 - 32768, bottom = top + (int64_t)r->height_px * 65536;
-    draw_line(v, left, top, right, top, REGION_COLOUR);
-    draw_line(v, left, bottom, right, bottom, REGION_COLOUR);
-    draw_line(v, left, top, left, bottom, REGION_COLOUR);
-    draw_line(v, right, top, right, bottom, REGION_COLOUR);
+    draw_line(v, left, top, right, top, 2, REGION_COLOUR);
+    draw_line(v, left, bottom, right, bottom, 2, REGION_COLOUR);
+    draw_line(v, left, top, left, bottom, 2, REGION_COLOUR);
+    draw_line(v, right, top, right, bottom, 2, REGION_COLOUR);
 }
 
-static void draw_edge(view *v, const drogue_result *r, const drogue_edge *e, colour c, int32_t alpha)
+/* One edge point as a square that is 'rim' canvas pixels larger on each side than the image pixel. */
+static void draw_edge(view *v, const drogue_result *r, const drogue_edge *e, int32_t rim, colour c, int32_t alpha)
 {
     int32_t x = drogue_edge_x_px(e) + r->region.x_px - v->x_px;
     int32_t y = drogue_edge_y_px(e) + r->region.y_px - v->y_px;
     if (x < v->width_px && y < v->height_px) {
-        canvas_fill(&v->canvas, x * v->scale, y * v->scale, v->scale, v->scale, c, alpha);
+        canvas_fill(&v->canvas, x * v->scale - rim, y * v->scale - rim, v->scale + 2 * rim, v->scale + 2 * rim, c,
+                    alpha);
     }
 }
 
@@ -127,7 +129,7 @@ static void draw_edges(view *v, const drogue_result *r, const drogue_workspace *
 {
     uint32_t i;
     for (i = 0; i < r->list.edge_count; i++) {
-        draw_edge(v, r, &w->edges[i], EDGE_COLOUR, 120);
+        draw_edge(v, r, &w->edges[i], 0, EDGE_COLOUR, 120);
     }
 }
 
@@ -138,7 +140,7 @@ static void draw_arcs(view *v, const drogue_result *r, const drogue_workspace *w
         if (r->arcs[quadrant] < r->list.arc_count) {
             const drogue_arc *arc = &w->arcs[r->arcs[quadrant]];
             for (i = arc->first; i < arc->first + arc->count; i++) {
-                draw_edge(v, r, &w->edges[i], ARC_COLOURS[quadrant], 256);
+                draw_edge(v, r, &w->edges[i], 1, ARC_COLOURS[quadrant], 256);
             }
         }
     }
@@ -167,7 +169,7 @@ static void draw_ellipse(view *v, const drogue_ellipse *e)
     for (i = 1; i <= ELLIPSE_SIDES; i++) {
         int64_t x1, y1;
         ellipse_point(&x1, &y1, e, i);
-        draw_line(v, x0, y0, x1, y1, ELLIPSE_COLOUR);
+        draw_line(v, x0, y0, x1, y1, v->scale == 1 ? 1 : 2, ELLIPSE_COLOUR);
         x0 = x1;
         y0 = y1;
     }
@@ -176,8 +178,8 @@ static void draw_ellipse(view *v, const drogue_ellipse *e)
 static void draw_cross(view *v, drogue_q16 x_q16, drogue_q16 y_q16, colour c)
 {
     int64_t arm_q16 = (int64_t)(8 + 2 * v->scale) * 65536 / v->scale;
-    draw_line(v, x_q16 - arm_q16, y_q16, x_q16 + arm_q16, y_q16, c);
-    draw_line(v, x_q16, y_q16 - arm_q16, x_q16, y_q16 + arm_q16, c);
+    draw_line(v, x_q16 - arm_q16, y_q16, x_q16 + arm_q16, y_q16, 2, c);
+    draw_line(v, x_q16, y_q16 - arm_q16, x_q16, y_q16 + arm_q16, 2, c);
 }
 
 /* The axis from the centre of the end plane two rim radii into the drogue, as the lens shows it. */
@@ -193,7 +195,7 @@ static void draw_axis(view *v, const drogue_pose *pose, const options *o, colour
             return;
         }
         if (i > 0) {
-            draw_line(v, x0, y0, x, y, c);
+            draw_line(v, x0, y0, x, y, 2, c);
         } else {
             int32_t dot = v->word_scale;
             canvas_fill(&v->canvas, (int32_t)(to_canvas(v, x, v->x_px) >> 8) - dot,
@@ -266,10 +268,10 @@ int overlay_write(const char *path, const options *o, const picture *grey, const
     }
     draw_edges(&v, result, workspace);
     draw_region(&v, region);
+    draw_arcs(&v, result, workspace);
     if (result->ellipse.a_px_q16 > 0) {
         draw_ellipse(&v, &result->ellipse);
     }
-    draw_arcs(&v, result, workspace);
     if (result->status == DROGUE_OK) {
         if (!result->orientation_resolved) {
             draw_axis(&v, &result->alternative, o, TWIN_COLOUR);

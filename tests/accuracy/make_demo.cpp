@@ -46,10 +46,10 @@ std::array<Frame, 4> frames()
 
     Scene ground;
     ground.seed = 7;
-    ground.pose = {{-0.5, 0.3, 5}, axis_of(radians(-11), radians(6))};
+    ground.pose = {{0.5, 0.3, 5}, axis_of(radians(-11), radians(-6))};
     ground.look = Look::bright();
     ground.background = Background::ground();
-    f[1] = {"bright_ground", ground, {700, 930, 360, 360}};
+    f[1] = {"bright_ground", ground, {960, 910, 360, 360}};
 
     Scene cloud;
     cloud.seed = 8;

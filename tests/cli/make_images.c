@@ -8,7 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SCENE_WIDTH = 320, SCENE_HEIGHT = 240, SCENE_RADIUS = 80, TRACK_FRAMES = 16, TRACK_SEEN = 4, TRACK_STEP_PX = 2 };
+enum {
+    SCENE_WIDTH = 320,
+    SCENE_HEIGHT = 240,
+    SCENE_RADIUS = 80,
+    TRACK_FRAMES = 16,
+    TRACK_SEEN = 4,
+    TRACK_STEP_PX = 2,
+    HUGE_SIDE = 900000
+};
 
 static const char *folder;
 
@@ -157,6 +165,9 @@ static void write_scenes(void)
     write_as("scene_rgba16.png", grey, SCENE_WIDTH, SCENE_HEIGHT, PNG_COLOR_TYPE_RGB_ALPHA, 16, PNG_INTERLACE_ADAM7);
     write_as("scene_palette.png", grey, SCENE_WIDTH, SCENE_HEIGHT, PNG_COLOR_TYPE_PALETTE, 8, PNG_INTERLACE_NONE);
     free(grey);
+    grey = draw_scene(16 * 100, 16 * 70);
+    write_grey("scene_cut.png", grey, SCENE_WIDTH, SCENE_HEIGHT);
+    free(grey);
     for (i = 0; i < TRACK_FRAMES; i++) {
         char name[32];
         snprintf(name, sizeof name, "frame%02d.png", i);
@@ -170,21 +181,25 @@ static void write_scenes(void)
     }
 }
 
-/* A header that promises a huge image, and nothing after it. */
+/* A header that promises a huge image, and one row of it. */
 static void write_huge(const char *name)
 {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
     png_infop info = png_create_info_struct(png);
     FILE *file = open_file(name);
+    uint8_t *row = allocate(HUGE_SIDE, 1);
     if (setjmp(png_jmpbuf(png)) != 0) {
         exit(EXIT_FAILURE);
     }
     png_init_io(png, file);
-    png_set_IHDR(png, info, 900000, 900000, 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                 PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, HUGE_SIDE, HUGE_SIDE, 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_write_info(png, info);
+    png_write_row(png, row);
+    png_write_flush(png);
     png_destroy_write_struct(&png, &info);
     fclose(file);
+    free(row);
 }
 
 int main(int argc, char **argv)

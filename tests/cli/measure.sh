@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: Apache-2.0
+# drogue measure: the known pose of a drawn scene, JSON and table, region, overlay.
+. "$(dirname "$0")/common.sh"
+model=--drogue=0.35,0.175,0.02
+
+# A disc of radius 80 px and 0.35 m about (161.25, 118.5), seen head-on with f = 800 px, stands at 3.5 m.
+run 0 measure scene.png $camera $roi $model --json
+same "$(wc -l <out | tr -d ' ')" 1
+same "$(json image)" '"scene.png"'
+same "$(json status)" '"ok"'
+same "$(json polarity)" '"dark"'
+same "$(json orientation_resolved)" true
+near "$(json ellipse.xc)" 161.25 0.02
+near "$(json ellipse.yc)" 118.5 0.02
+near "$(json ellipse.a)" 80 0.05
+near "$(json ellipse.b)" 80 0.05
+near "$(json reliability)" 1 0.1
+near "$(json inner_centre.x)" 161.25 0.05
+near "$(json inner_centre.y)" 118.5 0.05
+near "$(json position_m.0)" '3.5 * 1.75 / 800' 0.001
+near "$(json position_m.1)" '3.5 * -1 / 800' 0.001
+near "$(json position_m.2)" 3.5 0.005
+near "$(json axis.2)" 1 0.001
+near "$(json yaw_deg)" 0 1
+near "$(json pitch_deg)" 0 1
+near "$(json alternative.position_m.2)" 3.5 0.005
+near "$(json alternative.axis.2)" 1 0.01
+near "$(json ambiguity)" 0.5 0.5
+near "$(json ellipse.angle_deg)" 0 90.001
+# Each number has a decimal and no more digits than it needs.
+tr ',:[]{}' '\n\n\n\n\n\n' <out | grep -E '^-?[0-9]' >numbers
+same "$(grep -cE '^-?(0|[1-9][0-9]*)\.([0-9]|[0-9]{1,5}[1-9])$' numbers)" "$(wc -l <numbers | tr -d ' ')"
+# yaw and pitch belong to the axis: n = (sin yaw cos pitch, sin pitch, cos yaw cos pitch).
+near "$(json axis.1)" "sin($(json pitch_deg) * atan2(0, -1) / 180)" 0.0001
+near "$(json axis.0)" "sin($(json yaw_deg) * atan2(0, -1) / 180) * cos($(json pitch_deg) * atan2(0, -1) / 180)" 0.0001
+
+# The keys are all there when nothing is found.
+run 1 measure black.png $camera --json
+same "$(json status)" '"no_edges"'
+for key in ellipse reliability polarity inner_centre position_m axis yaw_deg pitch_deg alternative orientation_resolved ambiguity; do
+    same "$(json $key)" null
+done
+
+# Without the inner part the orientation stays open; without --drogue lengths are rim radii.
+run 0 measure scene.png $camera $roi --drogue 0.35 --json
+same "$(json orientation_resolved)" false
+same "$(json inner_centre)" null
+near "$(json position_m.2)" 3.5 0.005
+run 0 measure scene.png $camera $roi --json
+near "$(json position_m.2)" 10 0.015
+
+# The lens: distortion moves the ideal outline, not the one seen.
+run 0 measure scene.png $camera $roi --json --distortion 0.5,0,0,0,0
+near "$(json ellipse.a)" 80 0.05
+near "$(json position_m.2)" 10.05 0.04
+
+# The table.
+run 0 measure scene.png $camera $roi $model
+for line in 'image         scene.png' 'status        ok' 'dark inside' ' m' 'degrees' 'resolved'; do
+    prints "$line"
+done
+run 0 measure scene.png $camera $roi
+prints 'rim radii'
+prints 'unresolved'
+run 1 measure black.png $camera
+prints 'no_edges'
+
+# Regions: past the image is clipped, outside it is nothing measurable.
+run 0 measure scene_cut.png $camera --roi 0,-30,200,200 --json --overlay over.png
+near "$(json ellipse.xc)" 100 0.1
+near "$(json ellipse.yc)" 70 0.1
+near "$(json ellipse.b)" 80 0.2
+run 1 measure scene.png $camera --roi 320,0,50,50 --json --overlay over.png
+same "$(json status)" '"region"'
+run 1 measure scene.png $camera --roi -50,-50,50,50 --json --overlay over.png
+same "$(json status)" '"region"'
+run 1 measure scene.png $camera --roi -1048576,1048576,8192,8192 --json --overlay over.png
+same "$(json status)" '"region"'
+run 1 measure scene.png $camera --roi 5,5,1,1 --json --overlay over.png
+
+# File names become proper JSON strings, whatever bytes they have.
+for name in 'quote".png' 'back\slash.png' "$(printf 'tab\tline\nend\001.png')" "$(printf 'gr\303\274n.png')" \
+    "$(printf '\342\202\254\360\237\233\251.png')"; do
+    cp black.png "$name"
+    run 1 measure "$name" $camera --json
+    "$json_check" <out || fail "file name $name"
+done
+same "$(json image)" "$(printf '"\342\202\254\360\237\233\251.png"')"
+for bytes in '\377' '\300\257' '\355\240\200' '\364\220\200\200' '\340\200\200' '\303' '\200'; do
+    # shellcheck disable=SC2059
+    name=$(printf "a${bytes}z.png")
+    cp black.png "$name"
+    run 1 measure "$name" $camera --json
+    grep -qF 'a\ufffd' out || fail "bytes $bytes: $(cat out)"
+    "$json_check" <out || fail "bytes $bytes"
+done
+cp black.png 'quote".png'
+run 1 measure 'quote".png' $camera --json
+same "$(json image)" '"quote\".png"'
+
+# The overlay is another picture for what was found, wide enough to read, and the answer is the same.
+png_side() { # FILE OFFSET
+    od -A n -t u1 -j "$2" -N 4 "$1" | awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4 }'
+}
+run 0 measure scene.png $camera $roi $model --json
+cp out first
+run 0 measure scene.png $camera $roi $model --json --overlay found.png
+cmp -s out first || fail 'another answer with --overlay'
+same "$(png_side found.png 16)" 640
+[ "$(png_side found.png 20)" -gt 480 ] || fail 'no room for words'
+run 0 measure scene.png $camera $roi --overlay unresolved.png
+run 1 measure scene.png $camera --overlay nothing.png
+cmp -s found.png unresolved.png && fail 'overlays do not show the orientation'
+cmp -s found.png nothing.png && fail 'overlays do not show what was found'
+run 1 measure one.png $camera --overlay over.png
+[ "$(png_side over.png 16)" -ge 640 ] || fail 'the overlay of one pixel is too small to read'
+run 1 measure wide.png $camera --roi 5000,0,100,1 --overlay over.png
+[ "$(png_side over.png 16)" -lt 3300 ] || fail 'the overlay of a large image is not cropped'
+
+finish

@@ -1,0 +1,469 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The one-pass front end against two passes with flood fill: same points, same arcs, same order; full tables. */
+#include "suite.h"
+
+#include "images.h"
+#include "workspace.h"
+
+/* What two passes over a stored image give. */
+typedef struct model {
+    int32_t width, height;
+    uint8_t *verdict;      /* of suppression and thresholds, a pixel */
+    uint8_t *alive;        /* connected to a strong candidate */
+    uint8_t *key;          /* direction class + 1 of candidates in the ring, else 0 */
+    uint32_t *arc;         /* component of equal key, 1 ... in raster order of the first pixel */
+    drogue_edge *edge;     /* by pixel */
+    uint32_t arcs;         /* components that are alive or not */
+    uint32_t candidates;   /* points with a key */
+    drogue_edge *list;     /* as documented */
+    uint32_t *list_arc;    /* arc of each listed point, or DROGUE_NO_ARC */
+    uint32_t listed, long_arcs;
+} model;
+
+static void *pixels_of(const model *m, size_t each)
+{
+    return calloc((size_t)m->width * (size_t)m->height + 1u, each);
+}
+
+/* Flood fill from 'start' over equal nonzero codes; sets mark to 'value'. Returns the number of pixels. */
+static uint32_t flood(const model *m, const uint8_t *code, uint32_t *mark, int32_t start, uint32_t value)
+{
+    int32_t *stack = malloc((size_t)m->width * (size_t)m->height * sizeof *stack), top = 0, k;
+    uint32_t count = 0;
+    mark[start] = value;
+    stack[top++] = start;
+    while (top > 0) {
+        int32_t at = stack[--top];
+        count++;
+        for (k = 0; k < 9; k++) {
+            int32_t x = at % m->width + k % 3 - 1, y = at / m->width + k / 3 - 1, to = y * m->width + x;
+            if (x >= 0 && x < m->width && y >= 0 && y < m->height && mark[to] == 0 && code[to] == code[at]) {
+                mark[to] = value;
+                stack[top++] = to;
+            }
+        }
+    }
+    free(stack);
+    return count;
+}
+
+static void model_verdicts(model *m, const uint8_t *pixels, const drogue_frontend_config *config)
+{
+    drogue_image image = {pixels, m->width, m->height, m->width};
+    uint8_t *smooth = pixels_of(m, 1), *zero = pixels_of(m, 2);
+    uint16_t *column = pixels_of(m, 2), *magnitude = pixels_of(m, 2);
+    int16_t *gx = pixels_of(m, 2), *gy = pixels_of(m, 2);
+    int32_t x, y;
+    if (config->smooth) {
+        ck_assert_int_eq(drogue_smooth_image(smooth, column, &image), DROGUE_OK);
+        image.data = smooth;
+    }
+    ck_assert_int_eq(drogue_gradient_image(gx, gy, magnitude, &image), DROGUE_OK);
+    for (y = 0; y < m->height; y++) {
+        const uint16_t *rows[3];
+        rows[0] = y > 0 ? magnitude + (y - 1) * m->width : (const uint16_t *)(const void *)zero;
+        rows[1] = magnitude + y * m->width;
+        rows[2] = y + 1 < m->height ? magnitude + (y + 1) * m->width : (const uint16_t *)(const void *)zero;
+        drogue_canny_row(m->verdict + y * m->width, rows, gx + y * m->width, gy + y * m->width, m->width,
+                         config->canny_low, config->canny_high);
+        for (x = 0; x < m->width; x++) {
+            int32_t at = y * m->width + x, before, after, offset;
+            drogue_sector sector = drogue_canny_sector(gx[at], gy[at]);
+            drogue_canny_neighbours(&before, &after, sector, rows, x, m->width);
+            offset = drogue_canny_offset_q5(before, rows[1][x], after);
+            m->edge[at].gx = gx[at];
+            m->edge[at].gy = gy[at];
+            if (m->verdict[at] != DROGUE_CANNY_NONE) {
+                m->edge[at].x_q5 = (uint16_t)(32 * x + drogue_canny_step_x(sector) * offset);
+                m->edge[at].y_q5 = (uint16_t)(32 * y + drogue_canny_step_y(sector) * offset);
+                if (!config->use_ring || drogue_mask_in_ring(&config->ring, x, y)) {
+                    m->key[at] = (uint8_t)(1u + drogue_direction_class(gx[at], gy[at]));
+                    m->candidates++;
+                }
+            }
+        }
+    }
+    free(smooth);
+    free(zero);
+    free(column);
+    free(magnitude);
+    free(gx);
+    free(gy);
+}
+
+static void append_arc(model *m, uint32_t arc, uint32_t index)
+{
+    int32_t i;
+    for (i = 0; i < m->width * m->height; i++) {
+        if (m->arc[i] == arc && m->alive[i]) {
+            m->list_arc[m->listed] = index;
+            m->list[m->listed++] = m->edge[i];
+        }
+    }
+}
+
+static model model_of(const uint8_t *pixels, int32_t width, int32_t height, const drogue_frontend_config *config)
+{
+    model m;
+    uint32_t *mark, *length, components = 0, k;
+    uint8_t *candidate, *strong;
+    int32_t i;
+    memset(&m, 0, sizeof m);
+    m.width = width;
+    m.height = height;
+    m.verdict = pixels_of(&m, 1);
+    m.alive = pixels_of(&m, 1);
+    m.key = pixels_of(&m, 1);
+    m.arc = pixels_of(&m, sizeof(uint32_t));
+    m.edge = pixels_of(&m, sizeof(drogue_edge));
+    m.list = pixels_of(&m, sizeof(drogue_edge));
+    m.list_arc = pixels_of(&m, sizeof(uint32_t));
+    candidate = pixels_of(&m, 1);
+    strong = pixels_of(&m, 1);
+    mark = pixels_of(&m, sizeof *mark);
+    length = pixels_of(&m, sizeof *length);
+    model_verdicts(&m, pixels, config);
+    for (i = 0; i < width * height; i++) {
+        candidate[i] = m.verdict[i] != DROGUE_CANNY_NONE;
+    }
+    for (i = 0; i < width * height; i++) {
+        if (candidate[i] && mark[i] == 0) {
+            flood(&m, candidate, mark, i, ++components);
+        }
+        if (m.key[i] != 0 && m.arc[i] == 0) {
+            m.arcs++;
+            length[m.arcs - 1u] = flood(&m, m.key, m.arc, i, m.arcs);
+        }
+    }
+    for (i = 0; i < width * height; i++) {
+        strong[mark[i]] |= m.verdict[i] == DROGUE_CANNY_STRONG; /* components are fewer than pixels */
+    }
+    for (i = 0; i < width * height; i++) {
+        m.alive[i] = candidate[i] && strong[mark[i]];
+    }
+    for (k = 1; k <= m.arcs; k++) {
+        uint32_t before = m.listed;
+        if (length[k - 1u] >= config->min_arc_px) {
+            append_arc(&m, k, m.long_arcs);
+        }
+        m.long_arcs += m.listed > before;
+    }
+    for (i = 0; i < width * height; i++) { /* the rest */
+        if (m.arc[i] != 0 && m.alive[i] && length[m.arc[i] - 1u] < config->min_arc_px) {
+            m.list_arc[m.listed] = DROGUE_NO_ARC;
+            m.list[m.listed++] = m.edge[i];
+        }
+    }
+    free(candidate);
+    free(strong);
+    free(mark);
+    free(length);
+    return m;
+}
+
+static void model_free(model *m)
+{
+    free(m->verdict);
+    free(m->alive);
+    free(m->key);
+    free(m->arc);
+    free(m->edge);
+    free(m->list);
+    free(m->list_arc);
+}
+
+static void compare(const model *m, const drogue_workspace *w, const drogue_edge_list *list, int seed)
+{
+    uint32_t i, next = 0;
+    MUST(list->edge_count == m->listed, "seed %d: %u points instead of %u", seed, (unsigned)list->edge_count,
+         (unsigned)m->listed);
+    MUST(list->arc_count == m->long_arcs, "seed %d: %u arcs instead of %u", seed, (unsigned)list->arc_count,
+         (unsigned)m->long_arcs);
+    for (i = 0; i < m->listed; i++) {
+        const drogue_edge *e = &w->edges[i], *f = &m->list[i];
+        MUST(e->x_q5 == f->x_q5 && e->y_q5 == f->y_q5 && e->gx == f->gx && e->gy == f->gy, "seed %d: point %u", seed,
+             (unsigned)i);
+        MUST(e->arc == m->list_arc[i], "seed %d: arc of point %u", seed, (unsigned)i);
+        MUST(m->edge[drogue_edge_y_px(e) * m->width + drogue_edge_x_px(e)].x_q5 == f->x_q5, "seed %d: pixel of point %u",
+             seed, (unsigned)i);
+    }
+    for (i = 0; i < list->arc_count; i++) {
+        const drogue_arc *a = &w->arcs[i];
+        MUST(a->first == next && a->count > 0, "seed %d: arc %u is not where the last one ends", seed, (unsigned)i);
+        next += a->count;
+        MUST(a->direction == drogue_direction_class(w->edges[a->first].gx, w->edges[a->first].gy) &&
+                 w->edges[a->first].arc == i && w->edges[next - 1].arc == i,
+             "seed %d: arc %u", seed, (unsigned)i);
+    }
+}
+
+static drogue_frontend_config random_config(int32_t width, int32_t height, uint64_t *rng)
+{
+    drogue_frontend_config c;
+    static const int32_t most[4] = {0, 60, 600, 3000};
+    c.canny_low = rng_range(rng, 0, most[rng_range(rng, 0, 3)]);
+    c.canny_high = c.canny_low + rng_range(rng, 0, most[rng_range(rng, 0, 3)]);
+    c.smooth = rng_range(rng, 0, 1);
+    c.use_ring = rng_range(rng, 0, 1);
+    c.ring = drogue_mask_of_size(width, height);
+    c.ring.centre2_x += rng_range(rng, -8, 8) * rng_range(rng, 0, 1);
+    c.ring.longest_px += rng_range(rng, 0, 8) * rng_range(rng, 0, 1);
+    c.min_arc_px = (uint32_t)rng_range(rng, 0, 12);
+    return c;
+}
+
+/* One random image through 'workspace' of the width and more, or through a fresh one. */
+static void check_seed(int seed, int32_t width, int32_t height, test_workspace *shared)
+{
+    uint64_t rng = (uint64_t)seed;
+    drogue_frontend_config config = random_config(width, height, &rng);
+    uint8_t *pixels = malloc((size_t)width * (size_t)height);
+    test_workspace fresh = test_workspace_ample(width, height);
+    test_workspace *t = shared != NULL ? shared : &fresh;
+    drogue_edge_list list;
+    model m;
+    image_fill(pixels, width, height, seed % IMAGE_KINDS, &rng);
+    m = model_of(pixels, width, height, &config);
+    MUST(frontend_run(&list, &t->workspace, &config, pixels, width, height) == DROGUE_OK, "seed %d refused", seed);
+    compare(&m, &t->workspace, &list, seed);
+    MUST(guarded_intact(&t->memory), "seed %d wrote outside", seed);
+    model_free(&m);
+    test_workspace_free(&fresh);
+    free(pixels);
+}
+
+START_TEST(every_small_size)
+{
+    int32_t width, height, k;
+    for (height = 1; height <= 8; height++) {
+        for (width = 1; width <= 8; width++) {
+            for (k = 0; k < 14; k++) {
+                check_seed(1000 * height + 100 * width + k, width, height, NULL);
+            }
+        }
+    }
+    for (k = 0; k < 14; k++) {
+        check_seed(k, 1, 200, NULL);
+        check_seed(k, 200, 1, NULL);
+        check_seed(k, DROGUE_MAX_SIDE, 2, NULL);
+        check_seed(k, 2, DROGUE_MAX_SIDE, NULL);
+    }
+}
+END_TEST
+
+START_TEST(random_images)
+{
+    int seed;
+    for (seed = 1; seed <= 350; seed++) {
+        uint64_t rng = (uint64_t)seed + 7000u;
+        check_seed(seed, rng_range(&rng, 1, 64), rng_range(&rng, 1, 64), NULL);
+    }
+}
+END_TEST
+
+START_TEST(one_workspace_for_many_sizes)
+{
+    test_workspace t = test_workspace_ample(80, 80);
+    int seed;
+    for (seed = 1; seed <= 150; seed++) {
+        uint64_t rng = (uint64_t)seed + 9000u;
+        check_seed(seed, rng_range(&rng, 1, 80), rng_range(&rng, 1, 80), &t);
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* A ring of noise in a 60 x 60 image: enough of everything to fill each table. */
+static model full_case(uint8_t pixels[3600], drogue_frontend_config *config)
+{
+    uint64_t rng = 5;
+    image_fill(pixels, 60, 60, IMAGE_NOISE, &rng);
+    memset(config, 0, sizeof *config);
+    config->canny_low = 100;
+    config->canny_high = 500;
+    config->use_ring = 1;
+    config->ring = drogue_mask_of_size(60, 60);
+    config->min_arc_px = 3;
+    return model_of(pixels, 60, 60, config);
+}
+
+START_TEST(edge_table_overfilled_by_one)
+{
+    uint8_t pixels[3600];
+    drogue_frontend_config config;
+    model m = full_case(pixels, &config);
+    uint32_t less, i;
+    for (less = 0; less <= 1; less++) {
+        test_workspace t = test_workspace_of(60, m.candidates - less, 3600, 3600);
+        drogue_edge_list list;
+        drogue_status status = frontend_run(&list, &t.workspace, &config, pixels, 60, 60);
+        ck_assert_int_eq(status, less ? DROGUE_E_EDGES_FULL : DROGUE_OK);
+        ck_assert(guarded_intact(&t.memory));
+        ck_assert_uint_le(m.listed - list.edge_count, less);
+        for (i = 0; i < list.edge_count; i++) {
+            const drogue_edge *e = &t.workspace.edges[i];
+            int32_t at = drogue_edge_y_px(e) * 60 + drogue_edge_x_px(e);
+            MUST(m.alive[at] && m.key[at] && m.edge[at].gx == e->gx && m.edge[at].gy == e->gy, "point %u is none", (unsigned)i);
+        }
+        test_workspace_free(&t);
+    }
+    model_free(&m);
+}
+END_TEST
+
+START_TEST(arc_table_overfilled_by_one)
+{
+    uint8_t pixels[3600];
+    drogue_frontend_config config;
+    model m = full_case(pixels, &config);
+    uint32_t less, i;
+    ck_assert_uint_gt(m.long_arcs, 2);
+    for (less = 0; less <= 1; less++) {
+        test_workspace t = test_workspace_of(60, 3600, 3600, m.long_arcs - less);
+        drogue_edge_list list;
+        drogue_status status = frontend_run(&list, &t.workspace, &config, pixels, 60, 60);
+        ck_assert_int_eq(status, less ? DROGUE_E_ARCS_FULL : DROGUE_OK);
+        ck_assert(guarded_intact(&t.memory));
+        ck_assert_uint_eq(list.edge_count, m.listed);
+        ck_assert_uint_eq(list.arc_count, m.long_arcs - less);
+        for (i = 0; i < list.edge_count && m.list_arc[i] < list.arc_count; i++) {
+            MUST(t.workspace.edges[i].x_q5 == m.list[i].x_q5 && t.workspace.edges[i].y_q5 == m.list[i].y_q5, "point %u",
+                 (unsigned)i);
+        }
+        for (; i < list.edge_count; i++) {
+            MUST(t.workspace.edges[i].arc == DROGUE_NO_ARC, "point %u has an arc", (unsigned)i);
+        }
+        test_workspace_free(&t);
+    }
+    model_free(&m);
+}
+END_TEST
+
+START_TEST(label_table_overfilled_by_one)
+{
+    uint8_t pixels[3600];
+    drogue_frontend_config config;
+    model m = full_case(pixels, &config);
+    uint32_t low = 2, high = 3600, i; /* low is too few, high enough */
+    drogue_edge_list list;
+    while (high - low > 1) {
+        uint32_t middle = (low + high) / 2;
+        test_workspace t = test_workspace_of(60, 3600, middle, 3600);
+        drogue_status status = frontend_run(&list, &t.workspace, &config, pixels, 60, 60);
+        ck_assert(status == DROGUE_OK || status == DROGUE_E_LABELS_FULL);
+        ck_assert(guarded_intact(&t.memory));
+        for (i = 0; i < list.edge_count; i++) {
+            const drogue_edge *e = &t.workspace.edges[i];
+            MUST(m.key[drogue_edge_y_px(e) * 60 + drogue_edge_x_px(e)] != 0, "point %u is none", (unsigned)i);
+        }
+        if (status == DROGUE_OK) {
+            compare(&m, &t.workspace, &list, 0);
+            high = middle;
+        } else {
+            low = middle;
+        }
+        test_workspace_free(&t);
+    }
+    ck_assert_uint_gt(high, m.long_arcs);
+    model_free(&m);
+}
+END_TEST
+
+START_TEST(workspace_arguments)
+{
+    static const drogue_capacity good = {33, 7, 5, 3};
+    static const drogue_capacity bad[] = {{0, 7, 5, 3},  {DROGUE_MAX_SIDE + 1, 7, 5, 3}, {33, 0, 5, 3},
+                                          {33, 7, 1, 3}, {33, 7, 5, 0}, {33, (1u << 24) + 1u, 5, 3},
+                                          {33, 7, (1u << 24) + 1u, 3}, {33, 7, 5, (1u << 24) + 1u}};
+    static uint32_t macro_memory[DROGUE_WORKSPACE_BYTES(33, 7, 5, 3) / 4 + 1];
+    drogue_workspace w;
+    guarded g = guarded_alloc(drogue_workspace_bytes(&good) + 4u);
+    size_t i, bytes = drogue_workspace_bytes(&good);
+    ck_assert_uint_eq(bytes, DROGUE_WORKSPACE_BYTES(33, 7, 5, 3));
+    ck_assert_int_eq(drogue_workspace_init(&w, macro_memory, sizeof macro_memory, &good), DROGUE_OK);
+    ck_assert_int_eq(drogue_workspace_init(&w, g.data, bytes, &good), DROGUE_OK);
+    ck_assert_int_eq(drogue_workspace_init(&w, g.data, bytes - 1u, &good), DROGUE_E_WORKSPACE);
+    ck_assert_int_eq(drogue_workspace_init(&w, g.data, 0, &good), DROGUE_E_WORKSPACE);
+    for (i = 1; i <= 3; i++) {
+        ck_assert_int_eq(drogue_workspace_init(&w, (uint8_t *)g.data + i, bytes, &good), DROGUE_E_ARGUMENT);
+    }
+    ck_assert_int_eq(drogue_workspace_init(&w, NULL, bytes, &good), DROGUE_E_ARGUMENT);
+    for (i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        ck_assert_int_eq(drogue_workspace_init(&w, g.data, g.bytes, &bad[i]), DROGUE_E_ARGUMENT);
+    }
+    guarded_free(&g);
+}
+END_TEST
+
+START_TEST(begin_arguments)
+{
+    test_workspace t = test_workspace_of(16, 16, 16, 16);
+    drogue_frontend f;
+    drogue_frontend_config c = {40, 100, 1, 1, {15, 15, 16}, 10}, bad = c;
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &c, 16, DROGUE_MAX_SIDE), DROGUE_OK);
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &c, 17, 16), DROGUE_E_WORKSPACE);
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &c, 0, 16), DROGUE_E_REGION);
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &c, 16, 0), DROGUE_E_REGION);
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &c, -1, 16), DROGUE_E_REGION);
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &c, DROGUE_MAX_SIDE + 1, 16), DROGUE_E_REGION);
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &c, 16, DROGUE_MAX_SIDE + 1), DROGUE_E_REGION);
+    bad.canny_low = -1;
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &bad, 16, 16), DROGUE_E_ARGUMENT);
+    bad.canny_low = 101;
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &bad, 16, 16), DROGUE_E_ARGUMENT);
+    test_workspace_free(&t);
+}
+END_TEST
+
+START_TEST(missing_rows)
+{
+    test_workspace t = test_workspace_of(16, 16, 16, 16);
+    drogue_frontend f;
+    const drogue_frontend_config c = {40, 100, 1, 0, {15, 15, 16}, 10};
+    static const uint8_t row[16] = {0};
+    drogue_edge_list list;
+    int rows, k;
+    for (rows = 0; rows < 16; rows++) {
+        list.edge_count = list.arc_count = 77;
+        ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &c, 16, 16), DROGUE_OK);
+        for (k = 0; k < rows; k++) {
+            drogue_frontend_row(&f, row);
+        }
+        ck_assert_int_eq(drogue_frontend_end(&list, &f), DROGUE_E_ARGUMENT);
+        ck_assert_uint_eq(list.edge_count, 0);
+        ck_assert_uint_eq(list.arc_count, 0);
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* A weak circle of one long chain with a single strong pixel survives whole, and without it vanishes. */
+START_TEST(endless_weak_chain)
+{
+    enum { SIDE = 180 };
+    static uint8_t pixels[SIDE * SIDE];
+    test_workspace t = test_workspace_ample(SIDE, SIDE);
+    drogue_frontend_config c = {30, 300, 0, 0, {SIDE - 1, SIDE - 1, SIDE}, 1};
+    drogue_edge_list list;
+    int32_t i, strong;
+    for (strong = 0; strong <= 1; strong++) {
+        for (i = 0; i < SIDE * SIDE; i++) {
+            pixels[i] = image_grey(100 + 30 * (hypot(i % SIDE - 89.5, i / SIDE - 89.5) < 75.3));
+        }
+        if (strong) {
+            pixels[89 * SIDE + 14] = 0; /* just outside the left end */
+        }
+        ck_assert_int_eq(frontend_run(&list, &t.workspace, &c, pixels, SIDE, SIDE), DROGUE_OK);
+        if (strong) {
+            ck_assert_uint_ge(list.edge_count, 400);
+        } else {
+            ck_assert_uint_eq(list.edge_count, 0);
+        }
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+SUITE_MAIN("frontend", every_small_size, random_images, one_workspace_for_many_sizes, edge_table_overfilled_by_one,
+           arc_table_overfilled_by_one, label_table_overfilled_by_one, workspace_arguments, begin_arguments, missing_rows,
+           endless_weak_chain)

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Ring and disc masks against distances, with the points that lie exactly on a border. */
+#include "suite.h"
+
+#include "drogue/mask.h"
+
+static void check_point(const drogue_mask *mask, int32_t x, int32_t y)
+{
+    long double d = hypotl(x - mask->centre2_x / 2.0L, y - mask->centre2_y / 2.0L);
+    long double third = mask->longest_px / 3.0L, half = mask->longest_px / 2.0L;
+    long double nearest = fminl(fabsl(d - third), fabsl(d - half));
+    if (nearest > 1e-9L) {
+        MUST(!!drogue_mask_in_ring(mask, x, y) == (d > third && d < half), "ring of %d at %d %d", mask->longest_px, x, y);
+        MUST(!!drogue_mask_in_disc(mask, x, y) == (d < third), "disc of %d at %d %d", mask->longest_px, x, y);
+    }
+}
+
+START_TEST(every_pixel_of_small_regions)
+{
+    int32_t width, height, x, y;
+    for (height = 1; height <= 24; height++) {
+        for (width = 1; width <= 24; width++) {
+            drogue_mask mask = drogue_mask_of_size(width, height);
+            ck_assert_int_eq(mask.longest_px, width > height ? width : height);
+            for (y = -2; y < height + 2; y++) {
+                for (x = -2; x < width + 2; x++) {
+                    check_point(&mask, x, y);
+                }
+            }
+        }
+    }
+}
+END_TEST
+
+START_TEST(large_regions)
+{
+    uint64_t rng = 1;
+    int32_t i;
+    for (i = 0; i < 1000000; i++) {
+        drogue_mask mask;
+        mask.longest_px = rng_range(&rng, 1, 1 << (1 + i % 20));
+        mask.centre2_x = rng_range(&rng, -(1 << 21), 1 << 21);
+        mask.centre2_y = rng_range(&rng, -(1 << 21), 1 << 21);
+        check_point(&mask, mask.centre2_x / 2 + rng_range(&rng, -mask.longest_px, mask.longest_px),
+                    mask.centre2_y / 2 + rng_range(&rng, -mask.longest_px, mask.longest_px));
+    }
+}
+END_TEST
+
+START_TEST(borders_belong_to_the_masks)
+{
+    const drogue_mask even = {0, 0, 30};  /* radii 10 and 15 about (0, 0) */
+    const drogue_mask odd = {15, 15, 15}; /* radii 5 and 7.5 about (7.5, 7.5) */
+    ck_assert(drogue_mask_in_ring(&even, 10, 0) && drogue_mask_in_disc(&even, 10, 0));
+    ck_assert(drogue_mask_in_ring(&even, -6, 8) && drogue_mask_in_disc(&even, -6, 8));
+    ck_assert(drogue_mask_in_ring(&even, 15, 0) && drogue_mask_in_ring(&even, 9, -12));
+    ck_assert(!drogue_mask_in_ring(&even, 9, 0) && !drogue_mask_in_disc(&even, 11, 0));
+    ck_assert(!drogue_mask_in_ring(&even, 16, 0) && !drogue_mask_in_ring(&even, 15, 1));
+    ck_assert(!drogue_mask_in_ring(&odd, 15, 8) && drogue_mask_in_ring(&odd, 3, 13)); /* 4 * distance^2: 226, 202 */
+    ck_assert(drogue_mask_in_ring(&odd, 12, 13) && !drogue_mask_in_disc(&odd, 12, 13));
+}
+END_TEST
+
+START_TEST(whole_region_of_one_pixel)
+{
+    const drogue_mask mask = drogue_mask_of_size(1, 1);
+    ck_assert(drogue_mask_in_disc(&mask, 0, 0));
+    ck_assert(!drogue_mask_in_ring(&mask, 0, 0));
+}
+END_TEST
+
+SUITE_MAIN("mask", every_pixel_of_small_regions, large_regions, borders_belong_to_the_masks, whole_region_of_one_pixel)
