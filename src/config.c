@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Default thresholds. */
+/* Default thresholds and their ranges. */
 #include "drogue/config.h"
 
 void drogue_config_default(drogue_config *config)
@@ -29,4 +29,24 @@ void drogue_config_default(drogue_config *config)
     config->optics_blur_px_q16 = 0;
     config->min_dark_area_px = 9;
     config->inner_gate_q16 = DROGUE_Q16(1, 4);
+}
+
+static int within(int32_t v, int32_t low, int32_t high)
+{
+    return v >= low && v <= high;
+}
+
+int drogue_config_valid(const drogue_config *c)
+{
+    return within(c->canny_low, 0, c->canny_high) && within(c->min_short_px_q16, 0, INT32_MAX) &&
+           within((int32_t)c->polarity, DROGUE_POLARITY_DARK, DROGUE_POLARITY_BOTH) &&
+           within(c->quality.fit_error_px_q16, 0, DROGUE_Q16(1024, 1)) &&
+           within(c->quality.k1_q16, 0, DROGUE_Q16(64, 1)) && within(c->quality.k2_q16, 0, DROGUE_Q16_ONE - 1) &&
+           within(c->min_fit_ratio_q16, 0, DROGUE_Q16_ONE) && within(c->min_axis_ratio_q16, 0, DROGUE_Q16_ONE) &&
+           within(c->min_size_q16, 0, c->max_size_q16) && within(c->cluster.centre_px_q16, 0, INT32_MAX) &&
+           within(c->cluster.a_px_q16, 0, INT32_MAX) && within(c->cluster.b_px_q16, 0, INT32_MAX) &&
+           within(c->cluster.angle_rad_q16, 0, INT32_MAX) && within(c->cluster.round_q16, 0, DROGUE_Q16_ONE) &&
+           within(c->refit_band_px_q16, 1, DROGUE_Q16(8, 1)) && within(c->refit_cos_q16, 0, DROGUE_Q16_ONE) &&
+           c->refit_rounds <= 16 && within(c->min_cover_q16, 0, DROGUE_Q16_ONE) &&
+           within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) && within(c->inner_gate_q16, 0, INT32_MAX);
 }

@@ -26,21 +26,21 @@ static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, con
                                   const drogue_region *region)
 {
     const int32_t far_px = 1 << 20;
-    *clipped = *region;
-    if (region->width_px < 1 || region->height_px < 1 || region->width_px > DROGUE_MAX_REGION ||
-        region->height_px > DROGUE_MAX_REGION || region->x_px > far_px || region->x_px < -far_px ||
-        region->y_px > far_px || region->y_px < -far_px) {
+    drogue_region r = *region;
+    if (r.width_px < 1 || r.height_px < 1 || r.width_px > DROGUE_MAX_REGION || r.height_px > DROGUE_MAX_REGION ||
+        r.x_px > far_px || r.x_px < -far_px || r.y_px > far_px || r.y_px < -far_px) {
         return DROGUE_E_REGION;
     }
-    clip(&clipped->x_px, &clipped->width_px, image->width_px);
-    clip(&clipped->y_px, &clipped->height_px, image->height_px);
+    clip(&r.x_px, &r.width_px, image->width_px);
+    clip(&r.y_px, &r.height_px, image->height_px);
+    if (r.width_px < 1 || r.height_px < 1 || r.width_px > DROGUE_MAX_SIDE || r.height_px > DROGUE_MAX_SIDE) {
+        return DROGUE_E_REGION;
+    }
     *mask = drogue_mask_of_size(region->width_px, region->height_px);
-    mask->centre2_x += 2 * (region->x_px - clipped->x_px);
-    mask->centre2_y += 2 * (region->y_px - clipped->y_px);
-    return clipped->width_px < 1 || clipped->height_px < 1 || clipped->width_px > DROGUE_MAX_SIDE ||
-                   clipped->height_px > DROGUE_MAX_SIDE
-               ? DROGUE_E_REGION
-               : DROGUE_OK;
+    mask->centre2_x += 2 * (region->x_px - r.x_px);
+    mask->centre2_y += 2 * (region->y_px - r.y_px);
+    *clipped = r;
+    return DROGUE_OK;
 }
 
 static drogue_status run_frontend(drogue_edge_list *list, drogue_workspace *workspace, const drogue_config *config,
@@ -162,7 +162,7 @@ drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, co
     }
     if (image->data == NULL || image->width_px < 1 || image->height_px < 1 || image->stride < image->width_px ||
         camera->fx_px_q16 <= 0 || camera->fy_px_q16 <= 0 || model->rim_radius_m_q16 <= 0 ||
-        model->inner_radius_m_q16 < 0) {
+        model->inner_radius_m_q16 < 0 || !drogue_config_valid(config)) {
         out->status = DROGUE_E_ARGUMENT;
     } else {
         out->status = measure(out, workspace, config, camera, model, image, region);

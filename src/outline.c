@@ -86,20 +86,64 @@ static int try_combination(drogue_candidate *out, drogue_quality *quality, const
     return quality->fit_ratio_q16 > config->min_fit_ratio_q16;
 }
 
-/* All combinations of one polarity's arcs; returns the new number of candidates. */
-static uint32_t add_candidates(drogue_candidate *candidates, drogue_quality *qualities, uint32_t count,
-                               const quadrants *q, uint32_t present, drogue_polarity polarity,
-                               const drogue_edge *edges, const drogue_mask *mask, const drogue_config *config)
+/* Look up the farthest arcs of one polarity and sum their moments; returns the bit set of quadrants present. */
+static uint32_t gather(quadrants *q, const drogue_farthest *farthest, int polarity, const drogue_workspace *workspace)
 {
-    uint32_t combination;
-    for (combination = 1; combination < 16; combination++) {
-        if ((combination & ~present) == 0 && count < MAX_CANDIDATES &&
-            try_combination(&candidates[count], &qualities[count], q, combination, edges, mask, config)) {
-            candidates[count].polarity = (uint32_t)polarity;
-            count++;
+    uint32_t present = 0;
+    int k;
+    for (k = 0; k < 4; k++) {
+        uint32_t index = farthest->arc[polarity][k];
+        q->arc[k] = NULL;
+        if (index != DROGUE_NO_ARC) {
+            q->arc[k] = &workspace->arcs[index];
+            arc_moments(&q->moments[k], workspace->edges, q->arc[k]);
+            present |= 1u << k;
         }
     }
-    return count;
+    return present;
+}
+
+/* The most reliable combination of arcs, both polarities considered. */
+static drogue_status best_combination(drogue_outline *out, const drogue_farthest *farthest,
+                                      const drogue_workspace *workspace, const drogue_mask *mask,
+                                      const drogue_config *config)
+{
+    drogue_candidate candidates[MAX_CANDIDATES];
+    quadrants q;
+    uint32_t count = 0;
+    int32_t best;
+    int polarity;
+    int k;
+    for (polarity = 0; polarity < 2; polarity++) {
+        uint32_t combination;
+        uint32_t present;
+        if (config->polarity != DROGUE_POLARITY_BOTH && (int)config->polarity != polarity) {
+            continue;
+        }
+        present = gather(&q, farthest, polarity, workspace);
+        for (combination = 1; combination < 16; combination++) {
+            if ((combination & ~present) == 0 &&
+                try_combination(&candidates[count], &out->quality, &q, combination, workspace->edges, mask, config)) {
+                candidates[count].polarity = (uint32_t)polarity;
+                count++;
+            }
+        }
+    }
+    best = drogue_cluster_best(&out->cluster_members, candidates, count, &config->cluster);
+    if (best < 0) {
+        memset(&out->quality, 0, sizeof out->quality);
+        return DROGUE_E_NO_ELLIPSE;
+    }
+    out->polarity = (drogue_polarity)candidates[best].polarity;
+    (void)gather(&q, farthest, out->polarity, workspace); /* once more, for the winner's quality */
+    (void)try_combination(&candidates[0], &out->quality, &q, candidates[best].arcs, workspace->edges, mask, config);
+    out->ellipse = candidates[0].ellipse;
+    for (k = 0; k < 4; k++) {
+        if ((candidates[0].arcs >> k) & 1u) {
+            out->arcs[k] = farthest->arc[out->polarity][k];
+        }
+    }
+    return DROGUE_OK;
 }
 
 /* Edge points that belong to an ellipse, the lens distortion removed where a camera is given. */
@@ -216,13 +260,8 @@ static drogue_status refit(drogue_outline *outline, const drogue_workspace *work
 drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                                   const drogue_mask *mask, const drogue_config *config)
 {
-    drogue_candidate candidates[MAX_CANDIDATES];
-    drogue_quality qualities[MAX_CANDIDATES];
     drogue_farthest farthest;
     drogue_status status;
-    uint32_t count = 0;
-    int32_t best;
-    int polarity;
     int k;
     memset(out, 0, sizeof *out);
     for (k = 0; k < 4; k++) {
@@ -233,41 +272,13 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
     }
     status = drogue_select_farthest(&farthest, workspace->hull, workspace->edges, workspace->arcs, list->arc_count,
                                     mask, config->min_short_px_q16);
-    if (status != DROGUE_OK) {
-        return status;
+    if (status == DROGUE_OK) {
+        status = best_combination(out, &farthest, workspace, mask, config);
     }
-    for (polarity = 0; polarity < 2; polarity++) {
-        quadrants q;
-        uint32_t present = 0;
-        if (config->polarity != DROGUE_POLARITY_BOTH && (int)config->polarity != polarity) {
-            continue;
-        }
-        for (k = 0; k < 4; k++) {
-            uint32_t index = farthest.arc[polarity][k];
-            q.arc[k] = NULL;
-            if (index != DROGUE_NO_ARC) {
-                q.arc[k] = &workspace->arcs[index];
-                arc_moments(&q.moments[k], workspace->edges, q.arc[k]);
-                present |= 1u << k;
-            }
-        }
-        count = add_candidates(candidates, qualities, count, &q, present, (drogue_polarity)polarity, workspace->edges,
-                               mask, config);
+    if (status == DROGUE_OK) {
+        status = refit(out, workspace, list, mask, config);
+        undo_blur(&out->ellipse, config);
     }
-    best = drogue_cluster_best(&out->cluster_members, candidates, count, &config->cluster);
-    if (best < 0) {
-        return DROGUE_E_NO_ELLIPSE;
-    }
-    out->ellipse = candidates[best].ellipse;
-    out->quality = qualities[best];
-    out->polarity = (drogue_polarity)candidates[best].polarity;
-    for (k = 0; k < 4; k++) {
-        if ((candidates[best].arcs >> k) & 1u) {
-            out->arcs[k] = farthest.arc[out->polarity][k];
-        }
-    }
-    status = refit(out, workspace, list, mask, config);
-    undo_blur(&out->ellipse, config);
     return status;
 }
 

@@ -58,16 +58,11 @@ static void axis_of(drogue_q16 axis_q16[3], drogue_q16 yaw_rad_q16, drogue_q16 p
     axis_q16[2] = (drogue_q16)drogue_shr_round_s64((int64_t)cos_yaw * cos_pitch, 44);
 }
 
-/* An angle within [-pi, pi], Q16: filtered angles may pass it. */
+/* An angle within [-pi, pi), Q16: filtered angles may pass it. */
 static drogue_q16 wrap_q16(drogue_q16 angle)
 {
-    while (angle > DROGUE_Q16_PI) {
-        angle -= 2 * DROGUE_Q16_PI;
-    }
-    while (angle < -DROGUE_Q16_PI) {
-        angle += 2 * DROGUE_Q16_PI;
-    }
-    return angle;
+    const int64_t turn = 2 * (int64_t)DROGUE_Q16_PI;
+    return (drogue_q16)(angle - turn * drogue_floor_div_s64((int64_t)angle + DROGUE_Q16_PI, turn));
 }
 
 void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
@@ -105,11 +100,12 @@ static int predicted_region(drogue_region *region, const drogue_track *track)
         (drogue_camera_distorts(&track->camera) && drogue_distort_point(&x, &y, &track->camera) != DROGUE_OK)) {
         return 0;
     }
-    side_px = drogue_shr_round_s64(
-        (int64_t)drogue_q16_mul(track->config.region_scale_q16,
-                                drogue_q16_div(drogue_q16_mul(track->camera.fx_px_q16, track->model.rim_radius_m_q16),
-                                               pose.position_m_q16[2])),
-        16);
+    side_px = drogue_wide_to_s64(
+        drogue_wide_mul(drogue_wide_mul(drogue_wide_from_q16(track->config.region_scale_q16),
+                                        drogue_wide_from_q16(track->camera.fx_px_q16)),
+                        drogue_wide_div(drogue_wide_from_q16(track->model.rim_radius_m_q16),
+                                        drogue_wide_from_q16(pose.position_m_q16[2]))),
+        0);
     if (side_px < track->config.min_region_px) {
         side_px = track->config.min_region_px;
     }

@@ -39,6 +39,10 @@ typedef struct drogue_config {
 
 void drogue_config_default(drogue_config *config);
 
+/* 1 when every threshold is within its range: counts and lengths not negative, low <= high, shares in [0, 1],
+ * refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px, k1 in [0, 64], k2 in [0, 1). */
+int drogue_config_valid(const drogue_config *config);
+
 #ifdef __cplusplus
 }
 #endif

@@ -24,7 +24,7 @@ typedef struct drogue_outline {
 
 /* Find the outline.
  *
- *  out        outline; all zero but for the arcs (none) when there is none
+ *  out        outline; on failure what is known of the best candidate, zero when there is none
  *  workspace  edges and arcs as the front end left them
  *  mask       centre and longest side of the region
  *  return     DROGUE_OK, DROGUE_E_NO_EDGES, DROGUE_E_NO_ARCS, DROGUE_E_NO_ELLIPSE

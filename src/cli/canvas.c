@@ -58,13 +58,13 @@ void canvas_line(picture *canvas, int64_t x0_q8, int64_t y0_q8, int64_t x1_q8, i
     half_q8 = (int64_t)drogue_isqrt_u64((uint64_t)(du * du + dv * dv)) * width * 128 / du;
     last = clamp((u0 + du + 255) >> 8, 0, limit);
     for (u = clamp((u0 + 255) >> 8, 0, limit); u < last; u++) {
-        int64_t v_q8 = v0 + dv * ((u << 8) - u0) / du;
+        int64_t v_q8 = v0 + dv * (u * 256 - u0) / du;
         int64_t v;
         if (v_q8 < -1024 || v_q8 > INT64_C(1) << 24) {
             continue;
         }
         for (v = (v_q8 >> 8) - 2; v <= (v_q8 >> 8) + 3; v++) {
-            int64_t distance_q8 = (int64_t)drogue_abs_u64((v << 8) - v_q8);
+            int64_t distance_q8 = (int64_t)drogue_abs_u64(v * 256 - v_q8);
             int32_t alpha = (int32_t)clamp(half_q8 + 128 - distance_q8, 0, 256);
             canvas_blend(canvas, (int32_t)(steep ? v : u), (int32_t)(steep ? u : v), c, alpha);
         }

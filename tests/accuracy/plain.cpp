@@ -23,6 +23,7 @@ PlainScene plain_scene(uint64_t seed, double distance_m, int index)
     s.look = index % 3 == 1 || index % 6 == 5 ? Look::bright() : Look::dark();
     s.background = index % 3 == 0 ? Background::sky() : index % 3 == 1 ? Background::ground() : Background::cloud();
     s.look.sun = cv::normalize(cv::Vec3d(random.uniform(-1, 1), random.uniform(-1, -0.2), random.uniform(-1, 0.5)));
+    s.sensor.blur_px = random.uniform(0.5, 0.9);
 
     const Ellipse rim = s.rim();
     const int side = static_cast<int>(std::lround(2.5 * rim.a_px));

@@ -11,10 +11,14 @@ struct PlainScene {
     cv::Rect region; /* where a detector would send the library */
 };
 
-/* Scene number 'index' of a distance: yaw and pitch uniform in +-20 degrees; the drogue anywhere within +-14 degrees of
- * the optical axis, across and down, since the receiver flies at it; sky, ground and cloud in turn, the canopy dark
- * before the sky, bright before the ground, one and the other before cloud. The region is a square of side 2.5 true
- * semi-axes, off by up to 3 % of one in x and y. */
+/* Scene number 'index' of a distance.
+ *
+ *  axis        yaw and pitch uniform in +-20 degrees
+ *  position    within +-14 degrees of the optical axis, across and down, since the receiver flies at it
+ *  background  sky, ground, cloud in turn; canopy dark before the sky, bright before the ground, either before cloud
+ *  sensor      optics' blur of sigma 0.5 to 0.9 px, noise of sigma 2 grey levels
+ *  region      square of side 2.5 true semi-axes, off by up to 3 % of one in x and y
+ */
 PlainScene plain_scene(uint64_t seed, double distance_m, int index);
 
 } // namespace accuracy

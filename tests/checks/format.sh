@@ -18,7 +18,18 @@ while IFS= read -r -d '' file; do
 done < <(list)
 [ ${#files[@]} -gt 0 ] || { echo 'format: no files found' >&2; exit 1; }
 
-case ${1:-} in
---apply) clang-format-14 -i "${files[@]}" ;;
-*) clang-format-14 --dry-run -Werror "${files[@]}" && echo "format: ${#files[@]} files as they should be" ;;
-esac
+if [ "${1:-}" = --apply ]; then
+    clang-format-14 -i "${files[@]}"
+    exit
+fi
+status=0
+for file in "${files[@]}"; do
+    if ! clang-format-14 --dry-run -Werror "$file" 2>/dev/null; then
+        echo "format: $file differs from what ./run format gives"
+        status=1
+    fi
+done
+if [ $status -eq 0 ]; then
+    echo "format: ${#files[@]} files as they should be"
+fi
+exit $status

@@ -181,13 +181,13 @@ static void write_scenes(void)
     }
 }
 
-/* A header that promises a huge image, and one row of it. */
+/* A header that promises a huge image, and the start of its data. */
 static void write_huge(const char *name)
 {
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, NULL, NULL);
     png_infop info = png_create_info_struct(png);
     FILE *file = open_file(name);
-    uint8_t *row = allocate(HUGE_SIDE, 1);
+    static const png_byte start[] = {0x78, 0x9C};
     if (setjmp(png_jmpbuf(png)) != 0) {
         exit(EXIT_FAILURE);
     }
@@ -195,11 +195,9 @@ static void write_huge(const char *name)
     png_set_IHDR(png, info, HUGE_SIDE, HUGE_SIDE, 8, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_write_info(png, info);
-    png_write_row(png, row);
-    png_write_flush(png);
+    png_write_chunk(png, (png_const_bytep) "IDAT", start, sizeof start);
     png_destroy_write_struct(&png, &info);
     fclose(file);
-    free(row);
 }
 
 int main(int argc, char **argv)

@@ -1,0 +1,325 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Smallest rectangles against every hull edge tried, verdicts on arcs, choice of the farthest. */
+#include "suite.h"
+
+#include "drogue/constraints.h"
+
+#define MOST_POINTS 4096
+
+static drogue_edge edge_at(int32_t x, int32_t y, uint64_t *rng)
+{
+    drogue_edge e;
+    memset(&e, 0, sizeof e);
+    e.x_q5 = (uint16_t)(32 * x + (rng != NULL && x > 0 ? rng_range(rng, -15, 15) : 0));
+    e.y_q5 = (uint16_t)(32 * y + (rng != NULL && y > 0 ? rng_range(rng, -15, 15) : 0));
+    return e;
+}
+
+static int raster_order(const void *p, const void *q)
+{
+    const drogue_edge *e = p, *f = q;
+    int32_t d = drogue_edge_y_px(e) - drogue_edge_y_px(f);
+    return d != 0 ? d : drogue_edge_x_px(e) - drogue_edge_x_px(f);
+}
+
+static uint32_t sort_unique(drogue_edge *e, uint32_t count)
+{
+    uint32_t i, left = 0;
+    qsort(e, count, sizeof *e, raster_order);
+    for (i = 0; i < count; i++) {
+        if (left == 0 || raster_order(&e[left - 1], &e[i]) != 0) {
+            e[left++] = e[i];
+        }
+    }
+    return left;
+}
+
+/* Is (dx, dy) from i the direction of a hull edge? Extents of all points along and across it. */
+static int hull_edge(int64_t low[2], int64_t high[2], const drogue_edge *e, uint32_t count, uint32_t i, int64_t dx,
+                     int64_t dy)
+{
+    int64_t own = -dy * drogue_edge_x_px(&e[i]) + dx * drogue_edge_y_px(&e[i]);
+    uint32_t k;
+    low[0] = low[1] = INT64_MAX;
+    high[0] = high[1] = INT64_MIN;
+    for (k = 0; k < count; k++) {
+        int64_t x = drogue_edge_x_px(&e[k]), y = drogue_edge_y_px(&e[k]);
+        int64_t p[2];
+        int d;
+        p[0] = dx * x + dy * y;
+        p[1] = -dy * x + dx * y;
+        if (p[1] < own) {
+            return 0;
+        }
+        for (d = 0; d < 2; d++) {
+            low[d] = p[d] < low[d] ? p[d] : low[d];
+            high[d] = p[d] > high[d] ? p[d] : high[d];
+        }
+    }
+    return 1;
+}
+
+/* Largest difference, LSB, from the nearest of the rectangles that share the least area. */
+static double rect_error(const drogue_min_rect *r, const drogue_edge *e, uint32_t count)
+{
+    long double best = -1;
+    double error = INFINITY;
+    uint32_t i, j;
+    for (i = 0; i < count; i++) {
+        for (j = 0; j < count; j++) {
+            int64_t dx = drogue_edge_x_px(&e[j]) - drogue_edge_x_px(&e[i]);
+            int64_t dy = drogue_edge_y_px(&e[j]) - drogue_edge_y_px(&e[i]), low[2], high[2];
+            double length2 = (double)(dx * dx + dy * dy), length = sqrt(length2), along, across, x, y, d;
+            long double area;
+            if (i == j || !hull_edge(low, high, e, count, i, dx, dy)) {
+                continue;
+            }
+            area = (long double)(high[0] - low[0]) * (long double)(high[1] - low[1]) / (long double)length2;
+            if (best >= 0 && area > best * (1 + 1e-15L)) {
+                continue;
+            }
+            along = (double)(high[0] - low[0]) / length;
+            across = (double)(high[1] - low[1]) / length;
+            x = ((double)dx * (double)(high[0] + low[0]) - (double)dy * (double)(high[1] + low[1])) / 2 / length2;
+            y = ((double)dy * (double)(high[0] + low[0]) + (double)dx * (double)(high[1] + low[1])) / 2 / length2;
+            d = fmax(fmax(fabs(r->xc_px_q16 - x * 65536), fabs(r->yc_px_q16 - y * 65536)),
+                     fmax(fabs(r->short_px_q16 - fmin(along, across) * 65536),
+                          fabs(r->long_px_q16 - fmax(along, across) * 65536)));
+            error = best < 0 || area < best * (1 - 1e-15L) ? d : fmin(error, d);
+            best = best < 0 || area < best ? area : best;
+        }
+    }
+    return error;
+}
+
+static void check_points(const drogue_edge *e, uint32_t count, const char *what)
+{
+    guarded hull = guarded_alloc(DROGUE_HULL_MAX * sizeof(drogue_point));
+    drogue_min_rect r;
+    double error;
+    MUST(drogue_min_area_rect(&r, hull.data, e, count) == DROGUE_OK, "%s refused", what);
+    MUST(guarded_intact(&hull), "%s: hull overrun", what);
+    if (count > 1) {
+        error = rect_error(&r, e, count);
+        MUST(error <= 1.0, "%s, %u points: off by %.3f LSB", what, (unsigned)count, error);
+    }
+    guarded_free(&hull);
+}
+
+START_TEST(rectangle_of_random_points)
+{
+    uint64_t rng = 1;
+    drogue_edge e[40];
+    int32_t i, k;
+    for (i = 0; i < 4000; i++) {
+        int32_t count = rng_range(&rng, 1, 40), side = 1 << rng_range(&rng, 1, 11);
+        for (k = 0; k < count; k++) {
+            e[k] = edge_at(rng_range(&rng, 0, side - 1), rng_range(&rng, 0, side - 1), &rng);
+        }
+        check_points(e, sort_unique(e, (uint32_t)count), "random");
+    }
+}
+END_TEST
+
+START_TEST(rectangle_of_arcs)
+{
+    uint64_t rng = 2;
+    static drogue_edge e[MOST_POINTS];
+    int32_t i, k;
+    for (i = 0; i < 150; i++) {
+        double radius = rng_real(&rng, 2, i < 145 ? 60 : 800), from = rng_real(&rng, 0, 7), span = rng_real(&rng, 0.2, 6.3);
+        int32_t count = (int32_t)(radius * span * 1.2) + 2;
+        count = count < MOST_POINTS ? count : MOST_POINTS;
+        for (k = 0; k < count; k++) {
+            double t = from + span * k / count;
+            e[k] = edge_at((int32_t)(1000 + radius * cos(t)), (int32_t)(1000 + 0.7 * radius * sin(t)), NULL);
+        }
+        check_points(e, sort_unique(e, (uint32_t)count), "arc");
+    }
+}
+END_TEST
+
+START_TEST(rectangle_of_points_on_a_line)
+{
+    static const int32_t step[8][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {3, 1}, {-2, 5}, {7, 0}, {0, 9}};
+    drogue_min_rect r;
+    drogue_point hull[DROGUE_HULL_MAX];
+    drogue_edge e[60];
+    int32_t d, count, k;
+    for (d = 0; d < 8; d++) {
+        for (count = 1; count <= 60; count++) {
+            for (k = 0; k < count; k++) {
+                e[k] = edge_at(1000 + k * step[d][0], 10 + k * step[d][1], NULL);
+            }
+            ck_assert_int_eq(drogue_min_area_rect(&r, hull, e, (uint32_t)count), DROGUE_OK);
+            ck_assert_int_eq(r.short_px_q16, 0);
+            ck_assert_int_le(abs(r.long_px_q16 - q16_of((count - 1) * hypot(step[d][0], step[d][1]))), 1);
+            ck_assert_int_eq(r.xc_px_q16, (2000 + (count - 1) * step[d][0]) * 32768);
+            ck_assert_int_eq(r.yc_px_q16, (20 + (count - 1) * step[d][1]) * 32768);
+        }
+    }
+}
+END_TEST
+
+static int by_angle(const void *p, const void *q)
+{
+    const drogue_point *a = p, *b = q;
+    double d = atan2(a->y, a->x) - atan2(b->y, b->x);
+    return d < 0 ? -1 : d > 0;
+}
+
+/* Primitive steps in order of angle make the lattice polygon of the most corners in its square. */
+START_TEST(hull_of_the_most_corners)
+{
+    static drogue_point steps[MOST_POINTS];
+    static drogue_edge e[MOST_POINTS];
+    drogue_min_rect r;
+    guarded hull = guarded_alloc(DROGUE_HULL_MAX * sizeof(drogue_point));
+    uint32_t count = 0, k;
+    int32_t dx, dy, a, b, x = 1000, y = 0, low = 0, high = 0;
+    const int32_t reach = 16;
+    for (dy = -reach; dy <= reach; dy++) {
+        for (dx = -reach; dx <= reach; dx++) {
+            for (a = abs(dx), b = abs(dy); b != 0;) {
+                int32_t t = a % b;
+                a = b;
+                b = t;
+            }
+            if (a == 1 && dx * dx + dy * dy <= 206) {
+                steps[count].x = dx;
+                steps[count++].y = dy;
+            }
+        }
+    }
+    qsort(steps, count, sizeof steps[0], by_angle);
+    for (k = 0; k < count; k++) { /* find the extent first, then place the polygon within the region */
+        y += steps[k].y;
+        low = y < low ? y : low;
+        high = y > high ? y : high;
+    }
+    ck_assert_int_lt(high - low, DROGUE_MAX_SIDE);
+    y = -low;
+    for (k = 0; k < count; k++) {
+        e[k] = edge_at(x, y, NULL);
+        x += steps[k].x;
+        y += steps[k].y;
+    }
+    ck_assert_uint_gt(count, 350);
+    ck_assert_uint_eq(sort_unique(e, count), count);
+    ck_assert_int_eq(drogue_min_area_rect(&r, hull.data, e, count), DROGUE_OK);
+    ck_assert(guarded_intact(&hull));
+    ck_assert(rect_error(&r, e, count) <= 1.0);
+    guarded_free(&hull);
+}
+END_TEST
+
+START_TEST(no_points)
+{
+    drogue_min_rect r;
+    drogue_point hull[DROGUE_HULL_MAX];
+    drogue_edge e = edge_at(3, 4, NULL);
+    ck_assert_int_eq(drogue_min_area_rect(&r, hull, &e, 0), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_min_area_rect(&r, hull, &e, 1), DROGUE_OK);
+    ck_assert(r.xc_px_q16 == 3 * 65536 && r.yc_px_q16 == 4 * 65536 && r.short_px_q16 == 0 && r.long_px_q16 == 0);
+}
+END_TEST
+
+START_TEST(quadrants)
+{
+    ck_assert_int_eq(drogue_quadrant(1, -1), 0);
+    ck_assert_int_eq(drogue_quadrant(-1, -1), 1);
+    ck_assert_int_eq(drogue_quadrant(-1, 1), 2);
+    ck_assert_int_eq(drogue_quadrant(1, 1), 3);
+    ck_assert_int_eq(drogue_quadrant(INT32_MAX, INT32_MIN), 0);
+    ck_assert_int_eq(drogue_quadrant(0, 1), -1);
+    ck_assert_int_eq(drogue_quadrant(1, 0), -1);
+    ck_assert_int_eq(drogue_quadrant(0, 0), -1);
+}
+END_TEST
+
+/* An L of three points, its rectangle 2 by 1 or so, with its middle at (x + 1, y + 0.5). */
+static void put_arc(drogue_edge *e, drogue_arc *arc, uint32_t first, int32_t x, int32_t y, uint32_t direction)
+{
+    e[first] = edge_at(x, y, NULL);
+    e[first + 1] = edge_at(x + 2, y, NULL);
+    e[first + 2] = edge_at(x, y + 1, NULL);
+    e[first + 3] = edge_at(x + 2, y + 1, NULL);
+    arc->first = first;
+    arc->count = 4;
+    arc->direction = direction;
+}
+
+START_TEST(verdict_on_every_direction_in_every_quadrant)
+{
+    static const int32_t at[4][2] = {{70, 10}, {10, 20}, {20, 80}, {90, 60}};
+    const drogue_mask mask = drogue_mask_of_size(101, 101);
+    drogue_point hull[DROGUE_HULL_MAX];
+    drogue_arc_verdict v;
+    drogue_edge e[4];
+    drogue_arc arc;
+    uint32_t direction;
+    int q;
+    for (q = 0; q < 4; q++) {
+        for (direction = 0; direction < 4; direction++) {
+            double dx = at[q][0] + 1 - 50, dy = at[q][1] + 0.5 - 50;
+            int turn = (q - (int)direction) & 3;
+            put_arc(e, &arc, 0, at[q][0], at[q][1], direction);
+            drogue_judge_arc(&v, hull, e, &arc, &mask, 65536);
+            ck_assert_int_eq(v.quadrant, turn == 0 || turn == 2 ? q : -1);
+            ck_assert(v.distance2_q32 == (int64_t)((dx * dx + dy * dy) * 4294967296.0));
+            if (v.quadrant >= 0) {
+                ck_assert_int_eq(v.polarity, turn == 0 ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT);
+            }
+            drogue_judge_arc(&v, hull, e, &arc, &mask, 65537); /* one LSB too straight */
+            ck_assert_int_eq(v.quadrant, -1);
+        }
+    }
+    put_arc(e, &arc, 0, 49, 10, 0); /* its middle on the vertical axis */
+    drogue_judge_arc(&v, hull, e, &arc, &mask, 0);
+    ck_assert_int_eq(v.quadrant, -1);
+}
+END_TEST
+
+START_TEST(farthest_of_each_quadrant_and_polarity)
+{
+    const drogue_mask mask = drogue_mask_of_size(200, 200);
+    drogue_point hull[DROGUE_HULL_MAX];
+    static drogue_edge e[400];
+    static drogue_arc arcs[100];
+    drogue_farthest got, model;
+    uint64_t rng = 3;
+    uint32_t i, p, q;
+    int round;
+    for (round = 0; round < 300; round++) {
+        uint32_t count = (uint32_t)rng_range(&rng, 0, round & 1 ? 100 : 6);
+        int64_t far[2][4] = {{-1, -1, -1, -1}, {-1, -1, -1, -1}};
+        memset(&model, 0xFF, sizeof model);
+        for (i = 0; i < count; i++) { /* a coarse grid gives equals */
+            int32_t x = 10 * rng_range(&rng, 0, 19), y = 10 * rng_range(&rng, 0, 19);
+            double dx = x + 1 - 99.5, dy = y + 0.5 - 99.5;
+            int quadrant = drogue_quadrant(dx > 0 ? 1 : -1, dy > 0 ? 1 : -1), turn;
+            int64_t d = (int64_t)(dx * dx * 4 + dy * dy * 4);
+            put_arc(e, &arcs[i], 4 * i, x, y, (uint32_t)rng_range(&rng, 0, 3));
+            turn = (quadrant - (int)arcs[i].direction) & 3;
+            if ((turn & 1) == 0 && d > far[turn / 2][quadrant]) {
+                far[turn / 2][quadrant] = d;
+                model.arc[turn / 2][quadrant] = i;
+            }
+        }
+        i = 0;
+        for (p = 0; p < 2; p++) {
+            for (q = 0; q < 4; q++) {
+                i += model.arc[p][q] != DROGUE_NO_ARC;
+            }
+        }
+        ck_assert_int_eq(drogue_select_farthest(&got, hull, e, arcs, count, &mask, 65536),
+                         i > 0 ? DROGUE_OK : DROGUE_E_NO_ARCS);
+        ck_assert_int_eq(memcmp(&got, &model, sizeof got), 0);
+    }
+    ck_assert_int_eq(drogue_select_farthest(&got, hull, e, arcs, 0, &mask, 0), DROGUE_E_NO_ARCS);
+}
+END_TEST
+
+SUITE_MAIN("constraints", rectangle_of_random_points, rectangle_of_arcs, rectangle_of_points_on_a_line,
+           hull_of_the_most_corners, no_points, quadrants, verdict_on_every_direction_in_every_quadrant,
+           farthest_of_each_quadrant_and_polarity)
