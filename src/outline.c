@@ -135,7 +135,7 @@ static drogue_status best_combination(drogue_outline *out, const drogue_farthest
         return DROGUE_E_NO_ELLIPSE;
     }
     out->polarity = (drogue_polarity)candidates[best].polarity;
-    (void)gather(&q, farthest, out->polarity, workspace); /* once more, for the winner's quality */
+    (void)gather(&q, farthest, (int)out->polarity, workspace); /* once more, for the winner's quality */
     (void)try_combination(&candidates[0], &out->quality, &q, candidates[best].arcs, workspace->edges, mask, config);
     out->ellipse = candidates[0].ellipse;
     for (k = 0; k < 4; k++) {
