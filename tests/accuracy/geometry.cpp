@@ -14,10 +14,7 @@ cv::Point2d Camera::project_ideal(const cv::Vec3d &p) const
     return {fx_px * p[0] / p[2] + cx_px, fy_px * p[1] / p[2] + cy_px};
 }
 
-cv::Point2d Camera::project(const cv::Vec3d &p) const
-{
-    return distort(project_ideal(p));
-}
+cv::Point2d Camera::project(const cv::Vec3d &p) const { return distort(project_ideal(p)); }
 
 cv::Point2d Camera::distort(const cv::Point2d &ideal_px) const
 {
@@ -41,8 +38,10 @@ cv::Point2d Camera::undistort(const cv::Point2d &seen_px) const
         if (std::hypot(miss.x, miss.y) < 1e-9) {
             return guess;
         }
-        const cv::Point2d dx = (distort(guess + cv::Point2d(step, 0)) - distort(guess - cv::Point2d(step, 0))) / (2 * step);
-        const cv::Point2d dy = (distort(guess + cv::Point2d(0, step)) - distort(guess - cv::Point2d(0, step))) / (2 * step);
+        const cv::Point2d dx =
+            (distort(guess + cv::Point2d(step, 0)) - distort(guess - cv::Point2d(step, 0))) / (2 * step);
+        const cv::Point2d dy =
+            (distort(guess + cv::Point2d(0, step)) - distort(guess - cv::Point2d(0, step))) / (2 * step);
         const double det = dx.x * dy.y - dx.y * dy.x;
         guess += cv::Point2d(miss.x * dy.y - miss.y * dy.x, dx.x * miss.y - dx.y * miss.x) / det;
     }
@@ -63,30 +62,18 @@ Camera Camera::cropped(const cv::Point &origin_px) const
     return c;
 }
 
-cv::Vec3d Pose::first() const
-{
-    return cv::normalize(cv::Vec3d(axis[2], 0, -axis[0]));
-}
+cv::Vec3d Pose::first() const { return cv::normalize(cv::Vec3d(axis[2], 0, -axis[0])); }
 
-cv::Vec3d Pose::second() const
-{
-    return axis.cross(first());
-}
+cv::Vec3d Pose::second() const { return axis.cross(first()); }
 
 cv::Vec3d axis_of(double yaw_rad, double pitch_rad)
 {
     return {std::sin(yaw_rad) * std::cos(pitch_rad), std::sin(pitch_rad), std::cos(yaw_rad) * std::cos(pitch_rad)};
 }
 
-double yaw_of(const cv::Vec3d &axis)
-{
-    return std::atan2(axis[0], axis[2]);
-}
+double yaw_of(const cv::Vec3d &axis) { return std::atan2(axis[0], axis[2]); }
 
-double pitch_of(const cv::Vec3d &axis)
-{
-    return std::asin(std::clamp(axis[1], -1.0, 1.0));
-}
+double pitch_of(const cv::Vec3d &axis) { return std::asin(std::clamp(axis[1], -1.0, 1.0)); }
 
 double angle_between_deg(const cv::Vec3d &a, const cv::Vec3d &b)
 {

@@ -26,10 +26,7 @@ struct Frame {
     cv::Rect crop; /* of the scene's camera */
 };
 
-double radians(double degrees)
-{
-    return degrees * CV_PI / 180;
-}
+double radians(double degrees) { return degrees * CV_PI / 180; }
 
 std::array<Frame, 4> frames()
 {
@@ -90,16 +87,17 @@ std::string sidecar(const Frame &frame)
     const int side = cvRound(2.5 * e.a_px);
     return format("{\n  \"image\": \"%s.png\",\n  \"width_px\": %d,\n  \"height_px\": %d,\n", frame.name.c_str(),
                   frame.crop.width, frame.crop.height) +
-           format("  \"camera\": { \"fx_px\": %.6f, \"fy_px\": %.6f, \"cx_px\": %.6f, \"cy_px\": %.6f },\n", s.camera.fx_px,
-                  s.camera.fy_px, s.camera.cx_px, s.camera.cy_px) +
+           format("  \"camera\": { \"fx_px\": %.6f, \"fy_px\": %.6f, \"cx_px\": %.6f, \"cy_px\": %.6f },\n",
+                  s.camera.fx_px, s.camera.fy_px, s.camera.cx_px, s.camera.cy_px) +
            format("  \"drogue\": { \"rim_radius_m\": %.6f, \"inner_radius_m\": %.6f, \"inner_depth_m\": %.6f },\n",
                   d.rim_radius_m, d.inner_radius_m, d.inner_depth_m) +
            format("  \"region\": { \"x_px\": %d, \"y_px\": %d, \"width_px\": %d, \"height_px\": %d },\n",
                   cvRound(e.xc_px - (side - 1) / 2.0), cvRound(e.yc_px - (side - 1) / 2.0), side, side) +
-           format("  \"position_m\": [%.6f, %.6f, %.6f],\n  \"axis\": [%.6f, %.6f, %.6f],\n", p[0], p[1], p[2], n[0], n[1],
-                  n[2]) +
+           format("  \"position_m\": [%.6f, %.6f, %.6f],\n  \"axis\": [%.6f, %.6f, %.6f],\n", p[0], p[1], p[2], n[0],
+                  n[1], n[2]) +
            format("  \"yaw_rad\": %.6f,\n  \"pitch_rad\": %.6f,\n", yaw_of(n), pitch_of(n)) +
-           format("  \"ellipse\": { \"xc_px\": %.6f, \"yc_px\": %.6f, \"a_px\": %.6f, \"b_px\": %.6f, \"angle_rad\": %.6f },\n",
+           format("  \"ellipse\": { \"xc_px\": %.6f, \"yc_px\": %.6f, \"a_px\": %.6f, \"b_px\": %.6f, "
+                  "\"angle_rad\": %.6f },\n",
                   e.xc_px, e.yc_px, e.a_px, e.b_px, e.angle_rad) +
            format("  \"inner_centre_px\": [%.6f, %.6f]\n}\n", inner.x, inner.y);
 }

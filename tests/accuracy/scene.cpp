@@ -48,7 +48,8 @@ public:
         meet_disc(hit, nearest, ray);
         meet_cone(hit, nearest, ray);
         meet_cylinder(hit, nearest, ray, d_.coupling_radius_m, d_.inner_depth_m, housing_end_m, Surface::housing);
-        meet_cylinder(hit, nearest, ray, d_.hose_radius_m, housing_end_m, housing_end_m + d_.hose_length_m, Surface::hose);
+        meet_cylinder(hit, nearest, ray, d_.hose_radius_m, housing_end_m, housing_end_m + d_.hose_length_m,
+                      Surface::hose);
         return hit;
     }
 
@@ -125,7 +126,8 @@ private:
                 albedo *= 1 - look_.depth_loss * p[2] / d_.inner_depth_m;
             }
             nearest = t;
-            hit = {inside ? (rib ? Surface::inside_rib : Surface::inside) : (rib ? Surface::outside_rib : Surface::outside),
+            hit = {inside ? (rib ? Surface::inside_rib : Surface::inside)
+                          : (rib ? Surface::outside_rib : Surface::outside),
                    lambert(albedo, normal), p};
         }
     }
@@ -146,8 +148,10 @@ private:
             return;
         }
         nearest = t;
-        hit = {surface, lambert(surface == Surface::hose ? look_.hose_grey : look_.coupling_grey,
-                                {p[0] / radius, p[1] / radius, 0}), p};
+        hit = {surface,
+               lambert(surface == Surface::hose ? look_.hose_grey : look_.coupling_grey,
+                       {p[0] / radius, p[1] / radius, 0}),
+               p};
     }
 
     const Scene &scene_;
@@ -266,25 +270,13 @@ cv::Mat smear(const cv::Mat &in, double length, double angle, int reach)
 
 } // namespace
 
-Background Background::sky()
-{
-    return {205, 225, 6, 256, 3};
-}
+Background Background::sky() { return {205, 225, 6, 256, 3}; }
 
-Background Background::cloud()
-{
-    return {125, 115, 20, 192, 4};
-}
+Background Background::cloud() { return {125, 115, 20, 192, 4}; }
 
-Background Background::ground()
-{
-    return {60, 50, 18, 48, 4};
-}
+Background Background::ground() { return {60, 50, 18, 48, 4}; }
 
-Look Look::dark()
-{
-    return Look();
-}
+Look Look::dark() { return Look(); }
 
 Look Look::bright()
 {
@@ -296,10 +288,7 @@ Look Look::bright()
     return look;
 }
 
-Hit trace(const Scene &scene, const cv::Point2d &seen_px)
-{
-    return Tracer(scene)(seen_px);
-}
+Hit trace(const Scene &scene, const cv::Point2d &seen_px) { return Tracer(scene)(seen_px); }
 
 double background_grey(const Scene &scene, int x_px, int y_px)
 {
@@ -324,8 +313,8 @@ cv::Mat render_light(const Scene &scene, const cv::Rect &region)
     const int blur_reach = static_cast<int>(taps.size()) / 2;
     const int smear_reach = s.motion_length_px > 0 ? static_cast<int>(std::ceil(s.motion_length_px / 2)) + 1 : 0;
     const int reach = blur_reach + smear_reach;
-    cv::Mat light = trace_area(scene, cv::Rect(region.x - reach, region.y - reach, region.width + 2 * reach,
-                                               region.height + 2 * reach));
+    cv::Mat light = trace_area(
+        scene, cv::Rect(region.x - reach, region.y - reach, region.width + 2 * reach, region.height + 2 * reach));
     light = filter(light, taps);
     if (smear_reach > 0) {
         light = smear(light, s.motion_length_px, s.motion_angle_rad, smear_reach);
@@ -348,7 +337,8 @@ cv::Mat render(const Scene &scene, const cv::Rect &region)
     cv::Mat out(region.size(), CV_8U);
     for (int y = 0; y < region.height; y++) {
         for (int x = 0; x < region.width; x++) {
-            const double noisy = light.at<double>(y, x) + scene.sensor.noise * normal_at(seed, region.x + x, region.y + y);
+            const double noisy =
+                light.at<double>(y, x) + scene.sensor.noise * normal_at(seed, region.x + x, region.y + y);
             out.at<uint8_t>(y, x) = static_cast<uint8_t>(std::clamp(std::floor(noisy + 0.5), 0.0, 255.0));
         }
     }

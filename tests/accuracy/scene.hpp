@@ -45,9 +45,9 @@ struct Look {
 struct Background {
     double top_grey = 205;
     double bottom_grey = 225;
-    double texture_grey = 6;   /* amplitude: the texture stays within plus and minus this */
-    double texture_px = 256;   /* largest structure */
-    int octaves = 3;           /* each half the size and amplitude of the one before */
+    double texture_grey = 6; /* amplitude: the texture stays within plus and minus this */
+    double texture_px = 256; /* largest structure */
+    int octaves = 3;         /* each half the size and amplitude of the one before */
 
     static Background sky();    /* bright */
     static Background cloud();  /* mid grey */
@@ -56,8 +56,8 @@ struct Background {
 
 /* What stands between the scene and the number in a pixel. */
 struct Sensor {
-    double blur_px = 0.7; /* sigma of the optics' Gaussian, beyond the pixel's own area */
-    double noise = 2;     /* sigma, grey levels */
+    double blur_px = 0.7;        /* sigma of the optics' Gaussian, beyond the pixel's own area */
+    double noise = 2;            /* sigma, grey levels */
     double motion_sigma_px = 0;  /* Gaussian motion blur, all directions */
     double motion_length_px = 0; /* linear motion blur */
     double motion_angle_rad = 0; /* from +x towards +y */
@@ -97,8 +97,8 @@ enum class Surface { background, inner, coupling, inside, inside_rib, outside, o
 /* What the ray of a pixel (as seen, subpixel) meets, and the light that it gives off. */
 struct Hit {
     Surface surface;
-    double grey;         /* 0 for the background, which is a function of whole pixels */
-    cv::Vec3d point_m;   /* in the drogue's frame (first, second, axis); zero for background and probe */
+    double grey;       /* 0 for the background, which is a function of whole pixels */
+    cv::Vec3d point_m; /* in the drogue's frame (first, second, axis); zero for background and probe */
 };
 Hit trace(const Scene &scene, const cv::Point2d &seen_px);
 

@@ -26,17 +26,16 @@ void near(const char *what, double got, double want, double tolerance)
     }
 }
 
-void truth(const char *what, bool holds)
-{
-    near(what, holds ? 1 : 0, 1, 0);
-}
+void truth(const char *what, bool holds) { near(what, holds ? 1 : 0, 1, 0); }
 
-const Camera barrel = {842.16254, 841.36851, 510.2825, 365.61146, -0.4352204, 0.2898102, 0.0008622, -0.0001471, -0.1643185};
+const Camera barrel = {842.16254, 841.36851, 510.2825,   365.61146, -0.4352204,
+                       0.2898102, 0.0008622, -0.0001471, -0.1643185};
 
 /* Point of the drogue at a depth, radius and angle about the axis. */
 cv::Vec3d place(const Pose &pose, double depth, double radius, double angle)
 {
-    return pose.position_m + depth * pose.axis + radius * (std::cos(angle) * pose.first() + std::sin(angle) * pose.second());
+    return pose.position_m + depth * pose.axis +
+           radius * (std::cos(angle) * pose.first() + std::sin(angle) * pose.second());
 }
 
 Scene tilted()
@@ -98,7 +97,8 @@ void test_ellipse()
         near("a against cv::fitEllipse", e.a_px, std::max(fitted.size.width, fitted.size.height) / 2.0, 1e-3);
         near("b against cv::fitEllipse", e.b_px, std::min(fitted.size.width, fitted.size.height) / 2.0, 1e-3);
         const cv::Point2d end = e.at(0);
-        near("angle points along a", std::atan((end.y - e.yc_px) / (end.x - e.xc_px)), std::atan(std::tan(e.angle_rad)), 1e-9);
+        near("angle points along a", std::atan((end.y - e.yc_px) / (end.x - e.xc_px)), std::atan(std::tan(e.angle_rad)),
+             1e-9);
         truth("angle in (-pi/2, pi/2]", e.angle_rad > -CV_PI / 2 && e.angle_rad <= CV_PI / 2 && e.a_px >= e.b_px);
     }
     const Ellipse e = {10, 20, 8, 5, 0.4};
@@ -124,8 +124,10 @@ void test_trace(const Camera &camera)
         };
         const Hit wall = at(0.1, s.drogue.rim_radius_m + 0.1 * slope);
         truth("wall seen from inside", wall.surface == Surface::inside || wall.surface == Surface::inside_rib);
-        near("wall point", cv::norm(wall.point_m - cv::Vec3d(std::cos(angle) * (0.35 + 0.1 * slope),
-                                                            std::sin(angle) * (0.35 + 0.1 * slope), 0.1)), 0, 1e-8);
+        near("wall point",
+             cv::norm(wall.point_m -
+                      cv::Vec3d(std::cos(angle) * (0.35 + 0.1 * slope), std::sin(angle) * (0.35 + 0.1 * slope), 0.1)),
+             0, 1e-8);
         truth("inner disc", at(0.25, 0.999 * s.drogue.inner_radius_m).surface == Surface::inner);
         truth("coupling's face", at(0.25, 1.001 * s.drogue.inner_radius_m).surface == Surface::coupling);
         const Surface in = at(0, 0.9999 * s.drogue.rim_radius_m).surface;
@@ -135,8 +137,10 @@ void test_trace(const Camera &camera)
     }
     const double ribs = s.drogue.ribs;
     const double mid = s.drogue.rim_radius_m + 0.05 * slope;
-    truth("middle of rib 3", trace(s, s.camera.project(place(s.pose, 0.05, mid, 3 * 2 * CV_PI / ribs))).surface == Surface::inside_rib);
-    truth("between two ribs", trace(s, s.camera.project(place(s.pose, 0.05, mid, 3.5 * 2 * CV_PI / ribs))).surface == Surface::inside);
+    truth("middle of rib 3",
+          trace(s, s.camera.project(place(s.pose, 0.05, mid, 3 * 2 * CV_PI / ribs))).surface == Surface::inside_rib);
+    truth("between two ribs",
+          trace(s, s.camera.project(place(s.pose, 0.05, mid, 3.5 * 2 * CV_PI / ribs))).surface == Surface::inside);
 
     /* From the side the outside hides the inner part, and the hose comes into sight. */
     s.pose.axis = axis_of(1.2, 0);
@@ -159,7 +163,8 @@ void test_light()
     s.look.sun = {0, 0, -1};
     const double slope = (s.drogue.coupling_radius_m - s.drogue.rim_radius_m) / s.drogue.inner_depth_m;
     const cv::Vec3d p = place(s.pose, 0.1, s.drogue.rim_radius_m + 0.1 * slope, CV_PI / s.drogue.ribs);
-    const double cosine = -slope / std::sqrt(1 + slope * slope); /* wall's inward normal with the sun behind the camera */
+    const double cosine =
+        -slope / std::sqrt(1 + slope * slope); /* wall's inward normal with the sun behind the camera */
     near("Lambert's law on the wall", trace(s, s.camera.project(p)).grey,
          s.look.canopy_grey * (1 - s.look.depth_loss * 0.4) * (s.look.ambient + (1 - s.look.ambient) * cosine), 1e-6);
     s.look.sun = {0, 0, 1};
@@ -199,7 +204,8 @@ void test_picture()
             const Ellipse e = s.rim();
             const cv::Rect region = around(e, e.a_px + 6);
             const cv::Moments m = cv::moments(render_light(s, region));
-            near("area of the silhouette, as radius in px", std::sqrt(m.m00 / 100 / CV_PI), std::sqrt(e.a_px * e.b_px), 1e-3);
+            near("area of the silhouette, as radius in px", std::sqrt(m.m00 / 100 / CV_PI), std::sqrt(e.a_px * e.b_px),
+                 1e-3);
             near("centre x of the silhouette", m.m10 / m.m00 + region.x, e.xc_px, 2e-3);
             near("centre y of the silhouette", m.m01 / m.m00 + region.y, e.yc_px, 2e-3);
             near("spread of the silhouette", (m.mu20 + m.mu02) / m.m00,
@@ -215,8 +221,8 @@ void test_picture()
     near("centre x of the inner part", m.m10 / m.m00 + region.x, inner.xc_px, 1e-3);
     near("centre y of the inner part", m.m01 / m.m00 + region.y, inner.yc_px, 1e-3);
     const cv::Point2d on_axis = s.inner_centre_ideal();
-    near("inner centre off the disc's image by perspective alone", cv::norm(on_axis - cv::Point2d(inner.xc_px, inner.yc_px)),
-         s.camera.fx_px * 0.0144 / 5.25 / 5.25 * 0.33, 0.1);
+    near("inner centre off the disc's image by perspective alone",
+         cv::norm(on_axis - cv::Point2d(inner.xc_px, inner.yc_px)), s.camera.fx_px * 0.0144 / 5.25 / 5.25 * 0.33, 0.1);
 
     /* Scallops take area away, ribs keep their place. */
     Scene cut = silhouette();

@@ -10,8 +10,8 @@
  *  unmeas.   drogue_measure() gave no pose
  *  no inner  measured, but without the inner part
  *  twin      measured, but the pose not chosen is nearer to the true axis, by more than 2 degrees
- *  point     distance of the inner part's centroid from the image of the disc's centre, px: not judged, since the image
- *            of a tilted disc is not centred on the image of its centre (0.5 px at 3 m) and the prototype's disc is unknown
+ *  point     distance of the inner part's centroid from the image of the disc's centre, px: not judged, since the
+ *            image of a tilted disc is not centred on the image of its centre (0.5 px at 3 m)
  *  sub z, a  ratio of z and axis to the prototype with subpixel edges: not judged
  *
  * Medians are over the scenes that were measured without gross error. */
@@ -81,12 +81,9 @@ Outcome judge(const PlainScene &plain, const Measurement &m)
     const double percent = 100 / s.pose.position_m[2];
     const Ellipse disc = project_circle(s.camera, s.pose, s.drogue.inner_radius_m, s.drogue.inner_depth_m);
     o.point_px = cv::norm(m.inner_px - s.inner_centre_ideal());
-    o.error = {ellipse_error_px(m.ideal, rim),
-               cv::norm(m.inner_px - cv::Point2d(disc.xc_px, disc.yc_px)),
-               std::fabs(miss[0]) * percent,
-               std::fabs(miss[1]) * percent,
-               std::fabs(miss[2]) * percent,
-               axis};
+    o.error = {ellipse_error_px(m.ideal, rim), cv::norm(m.inner_px - cv::Point2d(disc.xc_px, disc.yc_px)),
+               std::fabs(miss[0]) * percent,   std::fabs(miss[1]) * percent,
+               std::fabs(miss[2]) * percent,   axis};
     o.verdict = o.error[0] > std::max(1.0, 0.03 * rim.a_px) ? Verdict::gross : Verdict::good;
     o.no_inner = m.raw.has_inner == 0;
     o.twin = angle_between_deg(m.alternative.axis, s.pose.axis) < axis - 2;
@@ -126,10 +123,11 @@ void print_scene(int index, const PlainScene &plain, const Measurement &m, const
                 p.position_m[0] / p.position_m[2], p.position_m[1] / p.position_m[2], yaw_of(p.axis) * 180 / CV_PI,
                 pitch_of(p.axis) * 180 / CV_PI, drogue_status_name(m.raw.status));
     if (m.ok) {
-        std::printf(" %.3f  %.3f  %.4f %.4f %.4f  %.3f  other %.2f  refit %u  ambiguity %.2f%s%s%s", o.error[0], o.error[1],
-                    o.error[2], o.error[3], o.error[4], o.error[5], angle_between_deg(m.alternative.axis, p.axis),
-                    m.raw.refit_points, from_q16(m.raw.ambiguity_q16), o.verdict == Verdict::gross ? "  GROSS" : "",
-                    o.no_inner ? "  NO INNER" : "", o.twin ? "  TWIN" : "");
+        std::printf(" %.3f  %.3f  %.4f %.4f %.4f  %.3f  other %.2f  refit %u  ambiguity %.2f%s%s%s", o.error[0],
+                    o.error[1], o.error[2], o.error[3], o.error[4], o.error[5],
+                    angle_between_deg(m.alternative.axis, p.axis), m.raw.refit_points, from_q16(m.raw.ambiguity_q16),
+                    o.verdict == Verdict::gross ? "  GROSS" : "", o.no_inner ? "  NO INNER" : "",
+                    o.twin ? "  TWIN" : "");
     }
     std::printf("\n");
 }
@@ -179,7 +177,8 @@ bool run_row(const Row &row, const Options &options, Counts &total)
             print_scene(i, plain, m, o);
         }
         if (!options.dump.empty() && (o.verdict != Verdict::good || o.no_inner || o.twin)) {
-            const std::string name = std::to_string(static_cast<int>(row.distance_m)) + "m_" + std::to_string(i) + ".png";
+            const std::string name =
+                std::to_string(static_cast<int>(row.distance_m)) + "m_" + std::to_string(i) + ".png";
             dump(options.dump + "/" + name, plain, m, part);
         }
     }
@@ -214,7 +213,8 @@ void usage(FILE *to)
                "  --scenes N   scenes a row (24)\n"
                "  --seed S     seed of the scenes (1)\n"
                "  --verbose    a line for each scene\n"
-               "  --dump DIR   write scenes that fail there as PNG: truth green, measurement red\n", to);
+               "  --dump DIR   write scenes that fail there as PNG: truth green, measurement red\n",
+               to);
 }
 
 Options parse(int argc, char **argv)
@@ -249,13 +249,14 @@ int main(int argc, char **argv)
     Counts total;
     bool met = true;
     std::printf("each column: median, the prototype's median, ratio (* above %.1f)\n", bar);
-    std::printf("%-6s | %-20s | %-20s | %-20s | %-20s | %-20s | %-20s | %5s %7s %8s %4s | %5s | %s\n", "", "ellipse, px", "centroid, px",
-                "x, %", "y, %", "z, %", "axis, degrees", "gross", "unmeas.", "no inner", "twin", "point", "sub z, a");
+    std::printf("%-6s | %-20s | %-20s | %-20s | %-20s | %-20s | %-20s | %5s %7s %8s %4s | %5s | %s\n", "",
+                "ellipse, px", "centroid, px", "x, %", "y, %", "z, %", "axis, degrees", "gross", "unmeas.", "no inner",
+                "twin", "point", "sub z, a");
     for (const Row &row : rows) {
         met = run_row(row, options, total) && met;
         std::fflush(stdout);
     }
-    std::printf("scenes_table: scenes=%d gross=%d unmeasured=%d no_inner=%d twin=%d bars=%s\n", total.scenes, total.gross,
-                total.unmeasured, total.no_inner, total.twin, met ? "met" : "missed");
+    std::printf("scenes_table: scenes=%d gross=%d unmeasured=%d no_inner=%d twin=%d bars=%s\n", total.scenes,
+                total.gross, total.unmeasured, total.no_inner, total.twin, met ? "met" : "missed");
     return met ? 0 : 1;
 }

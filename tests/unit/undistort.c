@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Lens distortion and its inverse against long double; domain and failures. */
+#include "suite.h"
+
+#include "drogue/undistort.h"
+#include "geometry.h"
+
+/* Distorted position of the normalised (x, y) and the Jacobian xx xy yx yy. */
+static void model_distort(long double out[2], long double jacobian[4], const drogue_camera *c, long double x, long double y)
+{
+    long double k1 = c->k1_q16 / 65536.0L, k2 = c->k2_q16 / 65536.0L, k3 = c->k3_q16 / 65536.0L;
+    long double p1 = c->p1_q16 / 65536.0L, p2 = c->p2_q16 / 65536.0L, r2 = x * x + y * y;
+    long double radial = 1 + r2 * (k1 + r2 * (k2 + r2 * k3)), slope = k1 + r2 * (2 * k2 + r2 * 3 * k3);
+    out[0] = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x);
+    out[1] = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y;
+    jacobian[0] = radial + 2 * x * x * slope + 2 * p1 * y + 6 * p2 * x;
+    jacobian[1] = jacobian[2] = 2 * x * y * slope + 2 * p1 * x + 2 * p2 * y;
+    jacobian[3] = radial + 2 * y * y * slope + 6 * p1 * y + 2 * p2 * x;
+}
+
+static drogue_camera random_camera(uint64_t *rng, double least_focal, double most_focal, double strength)
+{
+    double f = exp(rng_real(rng, log(least_focal), log(most_focal)));
+    drogue_camera c = pinhole(f, f * rng_real(rng, 0.9, 1.1), rng_real(rng, 300, 1100), rng_real(rng, 300, 1100));
+    c.k1_q16 = q16_of(strength * rng_real(rng, -0.3, 0.3));
+    c.k2_q16 = q16_of(strength * rng_real(rng, -0.1, 0.1));
+    c.p1_q16 = q16_of(strength * rng_real(rng, -0.01, 0.01));
+    c.p2_q16 = q16_of(strength * rng_real(rng, -0.01, 0.01));
+    c.k3_q16 = q16_of(strength * rng_real(rng, -0.03, 0.03));
+    return c;
+}
+
+/* Ideal normalised position of the seen pixel by Newton's method; 0 when it does not converge within 4 focal lengths. */
+static int model_undistort(long double out[2], const drogue_camera *c, drogue_q16 u, drogue_q16 v)
+{
+    long double sx = ((long double)u - c->cx_px_q16) / c->fx_px_q16, sy = ((long double)v - c->cy_px_q16) / c->fy_px_q16;
+    long double x = sx, y = sy, d[2], j[4];
+    int step;
+    for (step = 0; step < 60; step++) {
+        long double ex, ey, det;
+        model_distort(d, j, c, x, y);
+        ex = sx - d[0];
+        ey = sy - d[1];
+        det = j[0] * j[3] - j[1] * j[2];
+        if (!(det > 0.05L) || !(j[0] > 0) || !(j[3] > 0)) {
+            return 0;
+        }
+        x += (j[3] * ex - j[1] * ey) / det;
+        y += (j[0] * ey - j[2] * ex) / det;
+    }
+    model_distort(d, j, c, x, y);
+    out[0] = x;
+    out[1] = y;
+    return fabsl(d[0] - sx) + fabsl(d[1] - sy) < 1e-15L && fabsl(x) < 4 && fabsl(y) < 4;
+}
+
+/* Worst error of both directions over random cameras and points, LSB. */
+static void measure_errors(double *forth, double *back, double least_focal, double most_focal, double strength)
+{
+    uint64_t rng = 1;
+    int i, inverted = 0;
+    *forth = *back = 0;
+    for (i = 0; i < 200000; i++) {
+        drogue_camera c = random_camera(&rng, least_focal, most_focal, strength);
+        double reach = fmin(1.2, 20000 / real_of_q16(c.fx_px_q16));
+        drogue_q16 u = q16_of(real_of_q16(c.cx_px_q16) + real_of_q16(c.fx_px_q16) * rng_real(&rng, -reach, reach));
+        drogue_q16 v = q16_of(real_of_q16(c.cy_px_q16) + real_of_q16(c.fy_px_q16) * rng_real(&rng, -reach, reach));
+        drogue_q16 x = u, y = v;
+        long double d[2], j[4], f[2];
+        f[0] = c.fx_px_q16;
+        f[1] = c.fy_px_q16;
+        model_distort(d, j, &c, ((long double)u - c.cx_px_q16) / f[0], ((long double)v - c.cy_px_q16) / f[1]);
+        if (drogue_distort_point(&x, &y, &c) == DROGUE_OK) {
+            *forth = fmax(*forth, (double)fabsl(x - (d[0] * f[0] + c.cx_px_q16)));
+            *forth = fmax(*forth, (double)fabsl(y - (d[1] * f[1] + c.cy_px_q16)));
+        } else {
+            MUST(fabsl(d[0] * f[0]) > 2.0e9L || fabsl(d[1] * f[1]) > 2.0e9L, "case %d: distortion refused", i);
+        }
+        x = u;
+        y = v;
+        if (model_undistort(d, &c, u, v) && fabsl(d[0] * f[0]) < 2.0e9L && fabsl(d[1] * f[1]) < 2.0e9L) {
+            MUST(drogue_undistort_point(&x, &y, &c) == DROGUE_OK, "case %d: inversion refused", i);
+            *back = fmax(*back, (double)fabsl(x - (d[0] * f[0] + c.cx_px_q16)));
+            *back = fmax(*back, (double)fabsl(y - (d[1] * f[1] + c.cy_px_q16)));
+            inverted++;
+        }
+    }
+    ck_assert_int_gt(inverted, 100000);
+}
+
+START_TEST(usual_cameras)
+{
+    double forth, back;
+    measure_errors(&forth, &back, 200, 3000, 1);
+    MUST(forth <= 2.0, "distortion off by %.3f LSB", forth);
+    MUST(back <= 4.0, "inversion off by %.3f LSB", back);
+}
+END_TEST
+
+START_TEST(long_focal_lengths)
+{
+    double forth, back;
+    measure_errors(&forth, &back, 3000, 30000, 1);
+    MUST(forth <= 2.0, "distortion off by %.3f LSB", forth);
+    MUST(back <= 4.0, "inversion off by %.3f LSB", back);
+}
+END_TEST
+
+START_TEST(no_distortion_is_the_identity)
+{
+    uint64_t rng = 2;
+    int i;
+    for (i = 0; i < 100000; i++) {
+        drogue_camera c = random_camera(&rng, 200, 3000, 0);
+        drogue_q16 u = rng_range(&rng, 0, 1400 * 65536), v = rng_range(&rng, 0, 1400 * 65536), x = u, y = v;
+        ck_assert_int_eq(drogue_camera_distorts(&c), 0);
+        if (drogue_distort_point(&x, &y, &c) == DROGUE_OK) {
+            MUST(abs(x - u) <= 2 && abs(y - v) <= 2, "distortion moved a point");
+        }
+        x = u;
+        y = v;
+        if (drogue_undistort_point(&x, &y, &c) == DROGUE_OK) {
+            MUST(abs(x - u) <= 4 && abs(y - v) <= 4, "inversion moved a point");
+        }
+    }
+}
+END_TEST
+
+START_TEST(any_coefficient_distorts)
+{
+    drogue_camera c = pinhole(1000, 1000, 500, 500);
+    drogue_q16 *k[5];
+    int i;
+    k[0] = &c.k1_q16;
+    k[1] = &c.k2_q16;
+    k[2] = &c.p1_q16;
+    k[3] = &c.p2_q16;
+    k[4] = &c.k3_q16;
+    for (i = 0; i < 5; i++) {
+        *k[i] = -1;
+        ck_assert(drogue_camera_distorts(&c));
+        *k[i] = 0;
+    }
+    ck_assert(!drogue_camera_distorts(&c));
+}
+END_TEST
+
+static void must_refuse(const drogue_camera *c, double u, double v, int forth)
+{
+    drogue_q16 x = q16_of(u), y = q16_of(v);
+    MUST((forth ? drogue_distort_point(&x, &y, c) : drogue_undistort_point(&x, &y, c)) == DROGUE_E_DOMAIN,
+         "(%g, %g) accepted", u, v);
+    MUST(forth || (x == q16_of(u) && y == q16_of(v)), "(%g, %g) changed", u, v);
+}
+
+START_TEST(outside_the_domain)
+{
+    drogue_camera c = pinhole(1000, 1000, 500, 500), bad;
+    must_refuse(&c, 500 + 4001, 500, 1);
+    must_refuse(&c, 500, 500 - 4001, 1);
+    must_refuse(&c, 500 + 4001, 500, 0);
+    must_refuse(&c, 500, 500 - 4001, 0);
+    bad = c;
+    bad.fx_px_q16 = 0;
+    must_refuse(&bad, 500, 500, 0);
+    must_refuse(&bad, 500, 500, 1);
+    bad = c;
+    bad.fy_px_q16 = -1;
+    must_refuse(&bad, 500, 500, 0);
+    must_refuse(&bad, 500, 500, 1);
+    bad = c;
+    bad.k1_q16 = q16_of(-0.4); /* the seen radius reaches 0.61 at most */
+    must_refuse(&bad, 500 + 700, 500, 0);
+    must_refuse(&bad, 500 + 600, 500 + 600, 0);
+    bad = c;
+    bad.k3_q16 = INT32_MAX; /* the result leaves Q16 */
+    must_refuse(&bad, 500 + 3900, 500 + 3900, 1);
+    bad.k1_q16 = bad.k2_q16 = bad.p1_q16 = bad.p2_q16 = bad.k3_q16 = INT32_MIN;
+    must_refuse(&bad, 500 + 3999, 500 + 3999, 1);
+    must_refuse(&bad, 500 + 3999, 500 + 3999, 0);
+}
+END_TEST
+
+SUITE_MAIN("undistort", usual_cameras, long_focal_lengths, no_distortion_is_the_identity, any_coefficient_distorts,
+           outside_the_domain)
