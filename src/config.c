@@ -8,6 +8,7 @@ void drogue_config_default(drogue_config *config)
     config->canny_high = 100;
     config->smooth = 1;
     config->min_arc_px = 10;
+    config->min_arc_share_q16 = DROGUE_Q16(1, 8);
     config->min_short_px_q16 = DROGUE_Q16(3, 2);
     config->polarity = DROGUE_POLARITY_BOTH;
     config->quality.fit_error_px_q16 = DROGUE_Q16(1, 1);
@@ -38,7 +39,8 @@ static int within(int32_t v, int32_t low, int32_t high)
 
 int drogue_config_valid(const drogue_config *c)
 {
-    return within(c->canny_low, 0, c->canny_high) && within(c->min_short_px_q16, 0, INT32_MAX) &&
+    return within(c->canny_low, 0, c->canny_high) && within(c->min_arc_share_q16, 0, DROGUE_Q16_ONE) &&
+           within(c->min_short_px_q16, 0, INT32_MAX) &&
            within((int32_t)c->polarity, DROGUE_POLARITY_DARK, DROGUE_POLARITY_BOTH) &&
            within(c->quality.fit_error_px_q16, 0, DROGUE_Q16(1024, 1)) &&
            within(c->quality.k1_q16, 0, DROGUE_Q16(64, 1)) && within(c->quality.k2_q16, 0, DROGUE_Q16_ONE - 1) &&

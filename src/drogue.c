@@ -55,7 +55,10 @@ static drogue_status run_frontend(drogue_edge_list *list, drogue_workspace *work
     front.smooth = config->smooth;
     front.use_ring = 1;
     front.ring = *mask;
-    front.min_arc_px = config->min_arc_px;
+    front.min_arc_px = (uint32_t)drogue_shr_round_s64((int64_t)config->min_arc_share_q16 * mask->longest_px, 16);
+    if (front.min_arc_px < config->min_arc_px) {
+        front.min_arc_px = config->min_arc_px;
+    }
     status = drogue_frontend_begin(&frontend, workspace, &front, view->width_px, view->height_px);
     if (status != DROGUE_OK) {
         return status;

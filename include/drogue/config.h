@@ -17,6 +17,8 @@ typedef struct drogue_config {
     int32_t canny_high;          /* 100, same unit: an edge needs one pixel above it */
     int32_t smooth;              /* 1: smooth before the gradient; 0 for images that are smooth already */
     uint32_t min_arc_px;         /* 10 edge points, Th_length: shorter arcs are not fitted */
+    drogue_q16 min_arc_share_q16; /* 1/8: the same as a share of the region's longest side; a quarter of an outline
+                                     in a region of 2.5 semi-axes has about 0.57: stubs lie farther out than whole arcs */
     drogue_q16 min_short_px_q16; /* 1.5 px, Th_minb: straighter arcs (short side of the rectangle) are not fitted */
     drogue_polarity polarity;    /* BOTH: or only outlines darker (DARK) or brighter (BRIGHT) inside */
     drogue_quality_config quality; /* fit_error 1 px, k1 6, k2 0.3 */

@@ -69,6 +69,13 @@ static inline double real_of_q16(int32_t v)
     return (double)v / 65536.0;
 }
 
+/* Difference of two angles modulo 'turn', in [-turn / 2, turn / 2]. */
+static inline double angle_difference(double p, double q, double turn)
+{
+    double d = fmod(p - q, turn);
+    return d > turn / 2 ? d - turn : d < -turn / 2 ? d + turn : d;
+}
+
 #define GUARD_BYTES 64u
 #define GUARD_PATTERN 0xA5
 

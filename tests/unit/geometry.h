@@ -24,13 +24,6 @@ static inline void axis_of_angles(double axis[3], double yaw, double pitch)
     axis[2] = cos(yaw) * cos(pitch);
 }
 
-/* Difference of two angles modulo 'turn', in [-turn / 2, turn / 2]. */
-static inline double angle_difference(double p, double q, double turn)
-{
-    double d = fmod(p - q, turn);
-    return d > turn / 2 ? d - turn : d < -turn / 2 ? d + turn : d;
-}
-
 /* Ellipse of A x^2 + B xy + C y^2 + D x + E y + F = 0; 0 when the conic is none. */
 static inline int ellipse_of_conic(ellipse_real *out, const double q[6])
 {

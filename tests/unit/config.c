@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Documented defaults, and one step beyond each documented range. */
+#include "suite.h"
+
+#include "drogue/config.h"
+
+START_TEST(defaults_are_the_documented_ones)
+{
+    drogue_config c;
+    memset(&c, 0x5A, sizeof c);
+    drogue_config_default(&c);
+    ck_assert_int_eq(c.canny_low, 40);
+    ck_assert_int_eq(c.canny_high, 100);
+    ck_assert_int_eq(c.smooth, 1);
+    ck_assert_uint_eq(c.min_arc_px, 10);
+    ck_assert_int_eq(c.min_short_px_q16, q16_of(1.5));
+    ck_assert_int_eq(c.polarity, DROGUE_POLARITY_BOTH);
+    ck_assert_int_eq(c.quality.fit_error_px_q16, q16_of(1));
+    ck_assert_int_eq(c.quality.k1_q16, q16_of(6));
+    ck_assert_int_eq(c.quality.k2_q16, q16_of(0.3));
+    ck_assert_int_eq(c.min_fit_ratio_q16, q16_of(0.7));
+    ck_assert_int_eq(c.min_axis_ratio_q16, q16_of(0.4));
+    ck_assert_int_eq(c.min_size_q16, q16_of(0.2));
+    ck_assert_int_eq(c.max_size_q16, q16_of(0.75));
+    ck_assert_int_eq(c.cluster.centre_px_q16, q16_of(3));
+    ck_assert_int_eq(c.cluster.a_px_q16, q16_of(3));
+    ck_assert_int_eq(c.cluster.b_px_q16, q16_of(3));
+    ck_assert_int_eq(c.cluster.angle_rad_q16, q16_of(0.2));
+    ck_assert_int_eq(c.cluster.round_q16, q16_of(0.9));
+    ck_assert_int_eq(c.refit_band_px_q16, q16_of(1.5));
+    ck_assert_int_eq(c.refit_cos_q16, q16_of(0.87));
+    ck_assert_uint_eq(c.refit_rounds, 3);
+    ck_assert_int_eq(c.min_cover_q16, q16_of(0.45));
+    ck_assert_int_eq(c.optics_blur_px_q16, 0);
+    ck_assert_uint_eq(c.min_dark_area_px, 9);
+    ck_assert_int_eq(c.inner_gate_q16, q16_of(0.25));
+    ck_assert(drogue_config_valid(&c));
+}
+END_TEST
+
+/* The member takes 'good' and refuses 'bad'. */
+static void check_limit(const char *name, drogue_config *c, int32_t *member, int32_t good, int32_t bad)
+{
+    int32_t kept = *member;
+    *member = good;
+    MUST(drogue_config_valid(c), "%s = %d refused", name, (int)good);
+    *member = bad;
+    MUST(!drogue_config_valid(c), "%s = %d accepted", name, (int)bad);
+    *member = kept;
+}
+
+#define LIMIT(member, good, bad) check_limit(#member, &c, &c.member, good, bad)
+
+START_TEST(each_limit)
+{
+    drogue_config c;
+    drogue_config_default(&c);
+    LIMIT(canny_low, 0, -1);
+    LIMIT(canny_low, c.canny_high, c.canny_high + 1);
+    LIMIT(canny_high, c.canny_low, c.canny_low - 1);
+    LIMIT(min_short_px_q16, 0, -1);
+    LIMIT(quality.fit_error_px_q16, 0, -1);
+    LIMIT(quality.k1_q16, 0, -1);
+    LIMIT(quality.k1_q16, 64 * 65536, 64 * 65536 + 1);
+    LIMIT(quality.k2_q16, 0, -1);
+    LIMIT(quality.k2_q16, 65535, 65536);
+    LIMIT(min_fit_ratio_q16, 0, -1);
+    LIMIT(min_fit_ratio_q16, 65536, 65537);
+    LIMIT(min_axis_ratio_q16, 0, -1);
+    LIMIT(min_axis_ratio_q16, 65536, 65537);
+    LIMIT(min_size_q16, 0, -1);
+    LIMIT(cluster.centre_px_q16, 0, -1);
+    LIMIT(cluster.a_px_q16, 0, -1);
+    LIMIT(cluster.b_px_q16, 0, -1);
+    LIMIT(cluster.angle_rad_q16, 0, -1);
+    LIMIT(cluster.round_q16, 0, -1);
+    LIMIT(cluster.round_q16, 65536, 65537);
+    LIMIT(refit_band_px_q16, 1, 0);
+    LIMIT(refit_band_px_q16, 8 * 65536, 8 * 65536 + 1);
+    LIMIT(refit_cos_q16, 0, -1);
+    LIMIT(refit_cos_q16, 65536, 65537);
+    LIMIT(min_cover_q16, 0, -1);
+    LIMIT(min_cover_q16, 65536, 65537);
+    LIMIT(optics_blur_px_q16, 0, -1);
+    LIMIT(optics_blur_px_q16, 16 * 65536, 16 * 65536 + 1);
+    LIMIT(inner_gate_q16, 0, -1);
+    c.refit_rounds = 16;
+    ck_assert(drogue_config_valid(&c));
+    c.refit_rounds = 17;
+    ck_assert(!drogue_config_valid(&c));
+    c.refit_rounds = 0;
+    c.polarity = (drogue_polarity)3;
+    ck_assert(!drogue_config_valid(&c));
+}
+END_TEST
+
+SUITE_MAIN("config", defaults_are_the_documented_ones, each_limit)

@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The five small filters against one filter of 15 states in double precision. */
+#include "suite.h"
+
+#include "drogue/kalman.h"
+
+enum { STATES = 15, PARAMETERS = DROGUE_PARAMETERS };
+
+/* State: values, rates, accelerations, five each. */
+typedef struct model {
+    double x[STATES], p[STATES][STATES];
+} model;
+
+static void model_init(model *m, const drogue_q16 value[PARAMETERS], const drogue_q16 std[PARAMETERS][3])
+{
+    int i, k;
+    memset(m, 0, sizeof *m);
+    for (i = 0; i < PARAMETERS; i++) {
+        m->x[i] = real_of_q16(value[i]);
+        for (k = 0; k < 3; k++) {
+            m->p[5 * k + i][5 * k + i] = real_of_q16(std[i][k]) * real_of_q16(std[i][k]);
+        }
+    }
+}
+
+static void model_predict(model *m, double dt, const drogue_q16 std[PARAMETERS])
+{
+    double f[STATES][STATES], fp[STATES][STATES], x[STATES], g[3];
+    int i, j, k;
+    memset(f, 0, sizeof f);
+    for (i = 0; i < STATES; i++) {
+        f[i][i] = 1;
+        if (i < 10) {
+            f[i][i + 5] = dt;
+        }
+        if (i < 5) {
+            f[i][i + 10] = dt * dt / 2;
+        }
+    }
+    for (i = 0; i < STATES; i++) {
+        x[i] = 0;
+        for (j = 0; j < STATES; j++) {
+            x[i] += f[i][j] * m->x[j];
+            fp[i][j] = 0;
+            for (k = 0; k < STATES; k++) {
+                fp[i][j] += f[i][k] * m->p[k][j];
+            }
+        }
+    }
+    memcpy(m->x, x, sizeof x);
+    for (i = 0; i < STATES; i++) {
+        for (j = 0; j < STATES; j++) {
+            m->p[i][j] = 0;
+            for (k = 0; k < STATES; k++) {
+                m->p[i][j] += fp[i][k] * f[j][k];
+            }
+        }
+    }
+    g[0] = dt * dt / 2;
+    g[1] = dt;
+    g[2] = 1;
+    for (i = 0; i < STATES; i++) {
+        for (j = 0; j < STATES; j++) {
+            if (i % 5 == j % 5) {
+                m->p[i][j] += g[i / 5] * g[j / 5] * real_of_q16(std[i % 5]) * real_of_q16(std[i % 5]);
+            }
+        }
+    }
+}
+
+/* One measured value after the other: with a diagonal measurement noise the same as all at once. */
+static void model_correct(model *m, const drogue_q16 value[PARAMETERS], const drogue_q16 std[PARAMETERS])
+{
+    int i, j, k;
+    for (k = 0; k < PARAMETERS; k++) {
+        double variance = m->p[k][k] + real_of_q16(std[k]) * real_of_q16(std[k]);
+        double innovation = real_of_q16(value[k]) - m->x[k], gain[STATES], row[STATES];
+        if (k == DROGUE_PITCH || k == DROGUE_YAW) {
+            innovation -= 2 * TEST_PI * round(innovation / (2 * TEST_PI));
+        }
+        for (i = 0; i < STATES; i++) {
+            gain[i] = m->p[i][k] / variance;
+            row[i] = m->p[k][i];
+        }
+        for (i = 0; i < STATES; i++) {
+            m->x[i] += gain[i] * innovation;
+            for (j = 0; j < STATES; j++) {
+                m->p[i][j] -= gain[i] * row[j];
+            }
+        }
+    }
+}
+
+static double worst_state(const model *m, const drogue_kalman *filter)
+{
+    double worst = 0;
+    drogue_q16 state[PARAMETERS];
+    int i, k;
+    for (k = 0; k < 3; k++) {
+        drogue_kalman_state(state, filter, k);
+        for (i = 0; i < PARAMETERS; i++) {
+            worst = fmax(worst, fabs(state[i] - 65536 * m->x[5 * k + i]));
+        }
+    }
+    return worst;
+}
+
+static double real_of_wide(drogue_wide v)
+{
+    return ldexp((double)v.mantissa, v.exponent);
+}
+
+static void must_be_positive(const drogue_kalman *filter)
+{
+    int i;
+    for (i = 0; i < PARAMETERS; i++) {
+        const drogue_wide *c = filter->parameter[i].covariance;
+        double p00 = real_of_wide(c[0]), p01 = real_of_wide(c[1]), p11 = real_of_wide(c[3]), p22 = real_of_wide(c[5]);
+        MUST(p00 >= 0 && p11 >= 0 && p22 >= 0 && p00 * p11 - p01 * p01 >= -1e-12 * p00 * p11, "covariance of parameter %d", i);
+    }
+}
+
+static const drogue_q16 start_std[PARAMETERS][3] = {{655, 131072, 131072},
+                                                    {655, 131072, 131072},
+                                                    {1311, 131072, 131072},
+                                                    {1311, 65536, 65536},
+                                                    {1311, 65536, 65536}};
+
+/* A drogue that sways, measured with noise; time steps vary, frames are missed. */
+START_TEST(same_states_as_fifteen_in_one)
+{
+    uint64_t rng = 1;
+    int run, frame, i;
+    for (run = 0; run < 10; run++) {
+        drogue_kalman filter;
+        model m;
+        double t = 0, worst = 0;
+        drogue_q16 value[PARAMETERS], std[PARAMETERS], process[PARAMETERS];
+        for (i = 0; i < PARAMETERS; i++) {
+            process[i] = rng_range(&rng, 0, 65536);
+            std[i] = rng_range(&rng, 20, 3000);
+            value[i] = rng_range(&rng, -65536, 65536);
+        }
+        drogue_kalman_init(&filter, value, start_std);
+        model_init(&m, value, start_std);
+        ck_assert(worst_state(&m, &filter) <= 1);
+        for (frame = 0; frame < 1000; frame++) {
+            uint32_t dt_us = (uint32_t)rng_range(&rng, 5000, 50000);
+            t += dt_us * 1e-6;
+            drogue_kalman_predict(&filter, dt_us, process);
+            model_predict(&m, dt_us * 1e-6, process);
+            if (rng_range(&rng, 0, 9) > 0) {
+                for (i = 0; i < PARAMETERS; i++) {
+                    value[i] = q16_of((i == 2 ? 10 - 0.1 * t : 0) + 0.3 * sin(t * (1 + 0.3 * i)) +
+                                      real_of_q16(std[i]) * rng_normal(&rng));
+                }
+                drogue_kalman_correct(&filter, value, std);
+                model_correct(&m, value, std);
+            }
+            worst = fmax(worst, worst_state(&m, &filter));
+            must_be_positive(&filter);
+        }
+        MUST(worst <= 16.0, "run %d: off by %.3f LSB", run, worst);
+    }
+}
+END_TEST
+
+START_TEST(angles_pass_half_a_turn)
+{
+    drogue_kalman filter;
+    drogue_q16 value[PARAMETERS] = {0, 0, 65536, 0, 0}, state[PARAMETERS], process[PARAMETERS] = {0, 0, 0, 655, 655};
+    const drogue_q16 std[PARAMETERS] = {655, 655, 655, 655, 655};
+    double angle = 3.0;
+    int frame, k;
+    value[DROGUE_YAW] = q16_of(angle);
+    value[DROGUE_PITCH] = q16_of(-angle);
+    drogue_kalman_init(&filter, value, start_std);
+    for (frame = 0; frame < 200; frame++) { /* 0.01 rad a frame, across pi and -pi */
+        angle += 0.01;
+        value[DROGUE_YAW] = q16_of(angle_difference(angle, 0, 2 * TEST_PI));
+        value[DROGUE_PITCH] = q16_of(angle_difference(-angle, 0, 2 * TEST_PI));
+        drogue_kalman_predict(&filter, 10000, process);
+        drogue_kalman_correct(&filter, value, std);
+        drogue_kalman_state(state, &filter, 0);
+        for (k = DROGUE_PITCH; k <= DROGUE_YAW; k++) {
+            double off = angle_difference(real_of_q16(state[k]), k == DROGUE_YAW ? angle : -angle, 2 * TEST_PI);
+            MUST(fabs(off) < 0.02, "frame %d: parameter %d off by %g rad", frame, k, off);
+        }
+    }
+    drogue_kalman_state(state, &filter, 1);
+    ck_assert_int_lt(abs(state[DROGUE_YAW] - 65536), 3000); /* 1 rad/s */
+    ck_assert_int_lt(abs(state[DROGUE_PITCH] + 65536), 3000);
+}
+END_TEST
+
+START_TEST(ends_of_the_ranges)
+{
+    drogue_kalman filter;
+    drogue_q16 value[PARAMETERS], std[PARAMETERS], process[PARAMETERS] = {0, 0, 0, 0, 0}, state[PARAMETERS];
+    drogue_q16 wide_std[PARAMETERS][3];
+    int i, k, round;
+    for (round = 0; round < 2; round++) {
+        for (i = 0; i < PARAMETERS; i++) {
+            value[i] = round ? INT32_MAX : INT32_MIN;
+            std[i] = round ? 1 : INT32_MAX;
+            process[i] = round ? INT32_MAX : 0;
+            for (k = 0; k < 3; k++) {
+                wide_std[i][k] = round ? INT32_MAX : 0;
+            }
+        }
+        drogue_kalman_init(&filter, value, (const drogue_q16(*)[3])wide_std);
+        drogue_kalman_state(state, &filter, 0);
+        ck_assert_int_eq(memcmp(state, value, sizeof state), 0);
+        for (k = 0; k < 50; k++) {
+            drogue_kalman_predict(&filter, k & 1 ? INT32_MAX : 1, process);
+            drogue_kalman_correct(&filter, value, std);
+            must_be_positive(&filter);
+        }
+        drogue_kalman_state(state, &filter, 0);
+        for (i = 0; i < 3; i++) {
+            MUST(abs(state[i] / 2 - value[i] / 2) <= 1, "round %d: parameter %d is %d", round, i, (int)state[i]);
+        }
+    }
+}
+END_TEST
+
+START_TEST(states_saturate)
+{
+    drogue_kalman filter;
+    const drogue_q16 value[PARAMETERS] = {65536, -65536, 0, 0, 0}, process[PARAMETERS] = {0, 0, 0, 0, 0};
+    const drogue_q16 std[PARAMETERS] = {655, 655, 655, 655, 655};
+    drogue_q16 moved[PARAMETERS], state[PARAMETERS];
+    int k;
+    drogue_kalman_init(&filter, value, start_std);
+    memcpy(moved, value, sizeof moved);
+    for (k = 1; k <= 20; k++) { /* 10 m/s to either side */
+        moved[0] += 6554;
+        moved[1] -= 6554;
+        drogue_kalman_predict(&filter, 10000, process);
+        drogue_kalman_correct(&filter, moved, std);
+    }
+    drogue_kalman_predict(&filter, INT32_MAX, process);
+    drogue_kalman_predict(&filter, INT32_MAX, process);
+    drogue_kalman_state(state, &filter, 0);
+    ck_assert(state[0] == INT32_MAX || state[0] == INT32_MIN);
+    ck_assert(state[1] == INT32_MAX || state[1] == INT32_MIN);
+    ck_assert_int_eq(state[0] == INT32_MAX, state[1] == INT32_MIN);
+}
+END_TEST
+
+SUITE_MAIN("kalman", same_states_as_fifteen_in_one, angles_pass_half_a_turn, ends_of_the_ranges, states_saturate)

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The outline from edge lists made by hand: found, filtered by polarity and thresholds, and freed of distortion. */
+#include "suite.h"
+
+#include "drogue/outline.h"
+#include "drogue/undistort.h"
+#include "geometry.h"
+#include "workspace.h"
+
+enum { SIDE = 256, MOST = 8192 };
+
+static int raster_order(const void *p, const void *q)
+{
+    const drogue_edge *e = p, *f = q;
+    int32_t d = drogue_edge_y_px(e) - drogue_edge_y_px(f);
+    return d != 0 ? d : drogue_edge_x_px(e) - drogue_edge_x_px(f);
+}
+
+/* Edge points around an ellipse from parameter 'from' over 'span', one arc a direction class. The gradient points
+ * outward, or inward for a bright inside. A camera, where given, distorts the points. */
+static drogue_edge_list put_ellipse(test_workspace *t, const ellipse_real *truth, double from, double span, int bright,
+                                    const drogue_camera *camera)
+{
+    static drogue_edge edge[4][MOST];
+    uint32_t count[4] = {0, 0, 0, 0}, k, total = 0;
+    drogue_edge_list list = {0, 0};
+    int i, n = (int)(7 * truth->a);
+    for (i = 0; i < n; i++) {
+        double angle = from + span * i / n, x, y, nx, ny, length;
+        drogue_edge e;
+        uint32_t c;
+        ellipse_point(&x, &y, truth, angle);
+        nx = cos(angle) / truth->a * cos(truth->angle) - sin(angle) / truth->b * sin(truth->angle);
+        ny = cos(angle) / truth->a * sin(truth->angle) + sin(angle) / truth->b * cos(truth->angle);
+        length = hypot(nx, ny) * (bright ? -1 : 1);
+        if (camera != NULL) {
+            drogue_q16 u = q16_of(x), v = q16_of(y);
+            ck_assert_int_eq(drogue_distort_point(&u, &v, camera), DROGUE_OK);
+            x = real_of_q16(u);
+            y = real_of_q16(v);
+        }
+        e.arc = 0;
+        e.x_q5 = (uint16_t)floor(x * 32 + 0.5);
+        e.y_q5 = (uint16_t)floor(y * 32 + 0.5);
+        e.gx = (int16_t)floor(700 * nx / length + 0.5);
+        e.gy = (int16_t)floor(700 * ny / length + 0.5);
+        c = drogue_direction_class(e.gx, e.gy);
+        edge[c][count[c]++] = e;
+    }
+    for (k = 0; k < 4; k++) {
+        if (count[k] > 0) {
+            qsort(edge[k], count[k], sizeof(drogue_edge), raster_order);
+            memcpy(t->workspace.edges + total, edge[k], count[k] * sizeof(drogue_edge));
+            t->workspace.arcs[list.arc_count].first = total;
+            t->workspace.arcs[list.arc_count].count = count[k];
+            t->workspace.arcs[list.arc_count].direction = k;
+            list.arc_count++;
+            total += count[k];
+        }
+    }
+    list.edge_count = total;
+    return list;
+}
+
+/* Largest difference of centre and semi-axes, px. */
+static double apart(const drogue_ellipse *q, const ellipse_real *truth)
+{
+    ellipse_real e = ellipse_from_q16(q);
+    return fmax(hypot(e.xc - truth->xc, e.yc - truth->yc), fmax(fabs(e.a - truth->a), fabs(e.b - truth->b)));
+}
+
+static drogue_config plain_config(void)
+{
+    drogue_config c;
+    drogue_config_default(&c);
+    c.smooth = 0; /* the points made here were never drawn inward */
+    return c;
+}
+
+/* The front end's own inward shift, half a squared pixel times the curvature at most, is put back even where there was
+ * none. */
+static double tolerance(const ellipse_real *e)
+{
+    return 0.03 + 0.5 * e->a / (e->b * e->b);
+}
+
+START_TEST(whole_ellipses_of_both_polarities)
+{
+    uint64_t rng = 1;
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    drogue_config c = plain_config();
+    int i, k;
+    for (i = 0; i < 300; i++) {
+        ellipse_real e = {127 + rng_real(&rng, -8, 8), 127 + rng_real(&rng, -8, 8), rng_real(&rng, 60, 115), 0, 0};
+        drogue_edge_list list;
+        drogue_outline out;
+        int bright = i & 1;
+        e.b = e.a * rng_real(&rng, 0.6, 1);
+        e.angle = rng_real(&rng, -1.5, 1.5);
+        list = put_ellipse(&t, &e, rng_real(&rng, 0, 6), 2 * TEST_PI, bright, NULL);
+        c.polarity = DROGUE_POLARITY_BOTH;
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "case %d not found", i);
+        MUST((int)out.polarity == bright, "case %d: polarity", i);
+        MUST(apart(&out.ellipse, &e) < tolerance(&e), "case %d: %g px off", i, apart(&out.ellipse, &e));
+        MUST(out.cluster_members >= 1 && out.refit_points > 0 && out.refit_points <= list.edge_count, "case %d: counts", i);
+        MUST(out.cover_q16 == 65536 && out.quality.reliability_q16 > 40000, "case %d: cover %d, reliability %d", i,
+             (int)out.cover_q16, (int)out.quality.reliability_q16);
+        for (k = 0; k < 4; k++) {
+            MUST(out.arcs[k] == DROGUE_NO_ARC ||
+                     (out.arcs[k] < list.arc_count &&
+                      t.workspace.arcs[out.arcs[k]].direction == (uint32_t)(bright ? (k + 2) & 3 : k)),
+                 "case %d: arc of quadrant %d", i, k);
+        }
+        c.polarity = bright ? DROGUE_POLARITY_BRIGHT : DROGUE_POLARITY_DARK;
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "case %d not found by polarity", i);
+        c.polarity = bright ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_E_NO_ELLIPSE, "case %d: wrong polarity", i);
+    }
+    ck_assert(guarded_intact(&t.memory));
+    test_workspace_free(&t);
+}
+END_TEST
+
+START_TEST(thresholds_decide)
+{
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    const ellipse_real e = {127, 128, 100, 70, 0.4};
+    drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+    drogue_config c = plain_config();
+    drogue_outline out;
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    c.min_axis_ratio_q16 = q16_of(0.69);
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    c.min_axis_ratio_q16 = q16_of(0.71);
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_ELLIPSE);
+    c = plain_config();
+    c.max_size_q16 = q16_of(99.0 / SIDE);
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_ELLIPSE);
+    c = plain_config();
+    c.min_size_q16 = q16_of(101.0 / SIDE);
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_ELLIPSE);
+    c = plain_config();
+    c.min_fit_ratio_q16 = 65536; /* exceeded by nothing */
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_ELLIPSE);
+    c = plain_config();
+    c.min_short_px_q16 = q16_of(90); /* no arc is as round */
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_ARCS);
+    c = plain_config();
+    c.refit_rounds = 0;
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    ck_assert_uint_eq(out.refit_points, 0);
+    test_workspace_free(&t);
+}
+END_TEST
+
+START_TEST(cover_is_the_share_of_the_circumference)
+{
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    const ellipse_real e = {127, 128, 100, 90, 0.4};
+    drogue_config c = plain_config();
+    drogue_edge_list list = put_ellipse(&t, &e, 0.3, 3.2, 0, NULL);
+    drogue_outline out;
+    double share;
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    share = list.edge_count / (TEST_PI * (3 * 190.0 - sqrt(390.0 * 370.0)));
+    ck_assert(fabs(real_of_q16(out.cover_q16) - share) < 0.01);
+    c.min_cover_q16 = q16_of(share + 0.02);
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_ELLIPSE);
+    c.min_cover_q16 = q16_of(share - 0.02);
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    test_workspace_free(&t);
+}
+END_TEST
+
+START_TEST(nothing_to_find)
+{
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    const ellipse_real e = {127, 128, 100, 90, 0.4};
+    drogue_config c = plain_config();
+    drogue_edge_list list = {0, 0};
+    drogue_outline out, empty;
+    int k;
+    memset(&empty, 0, sizeof empty);
+    for (k = 0; k < 4; k++) {
+        empty.arcs[k] = DROGUE_NO_ARC;
+    }
+    memset(&out, 0x5A, sizeof out);
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_EDGES);
+    ck_assert_int_eq(memcmp(&out.ellipse, &empty.ellipse, sizeof out.ellipse), 0);
+    ck_assert_int_eq(memcmp(out.arcs, empty.arcs, sizeof out.arcs), 0);
+    ck_assert_uint_eq(out.cluster_members + out.refit_points, 0);
+    list = put_ellipse(&t, &e, 0, 6.28, 0, NULL);
+    list.arc_count = 0;
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_ARCS);
+    ck_assert_int_eq(memcmp(&out.ellipse, &empty.ellipse, sizeof out.ellipse), 0);
+    test_workspace_free(&t);
+}
+END_TEST
+
+START_TEST(distortion_is_removed)
+{
+    uint64_t rng = 2;
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    drogue_config c = plain_config();
+    int i;
+    for (i = 0; i < 100; i++) {
+        drogue_camera shifted = pinhole(400, 390, 80, 100), camera;
+        ellipse_real e = {127, 128, rng_real(&rng, 60, 105), 0, 0.4};
+        int32_t x = 300, y = -40;
+        drogue_edge_list list;
+        drogue_ellipse ideal;
+        drogue_outline out;
+        e.b = e.a * rng_real(&rng, 0.7, 1);
+        shifted.k1_q16 = q16_of(rng_real(&rng, -0.15, 0.15));
+        shifted.p1_q16 = q16_of(rng_real(&rng, -0.003, 0.003));
+        list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, &shifted);
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "case %d not found", i);
+        camera = shifted; /* the same camera in coordinates of the whole image */
+        camera.cx_px_q16 += x * 65536;
+        camera.cy_px_q16 += y * 65536;
+        MUST(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, x, y) == DROGUE_OK, "case %d", i);
+        e.xc += x;
+        e.yc += y;
+        MUST(apart(&ideal, &e) < tolerance(&e), "case %d: %g px off", i, apart(&ideal, &e));
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+START_TEST(undistorted_without_points)
+{
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    const ellipse_real e = {127, 128, 100, 90, 0.4};
+    const drogue_camera camera = pinhole(400, 390, 80, 100);
+    drogue_config c = plain_config();
+    drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+    drogue_ellipse ideal;
+    drogue_outline out;
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    list.edge_count = 0;
+    ck_assert_int_eq(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, 0, 0),
+                     DROGUE_E_TOO_FEW_POINTS);
+    memset(&out.ellipse, 0, sizeof out.ellipse);
+    ck_assert_int_eq(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, 0, 0), DROGUE_E_DEGENERATE);
+    test_workspace_free(&t);
+}
+END_TEST
+
+SUITE_MAIN("outline", whole_ellipses_of_both_polarities, thresholds_decide, cover_is_the_share_of_the_circumference,
+           nothing_to_find, distortion_is_removed, undistorted_without_points)
