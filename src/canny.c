@@ -11,6 +11,7 @@ int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after)
     if (curvature <= 0) {
         return 0;
     }
+    DROGUE_NOTE("canny: offset numerator", num, 17);
     offset = num >= 0 ? num / den : -((den - 1 - num) / den);
     return offset > 15 ? 15 : offset < -15 ? -15 : offset;
 }

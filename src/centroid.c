@@ -59,6 +59,8 @@ uint8_t drogue_otsu(const uint32_t *histogram)
             continue;
         }
         p = below * sum - total * sum_below; /* variance between the classes = p^2 / (q total^2) */
+        DROGUE_NOTE("centroid: root of Otsu's variance", p, 52);
+        DROGUE_NOTE("centroid: weights of Otsu's variance", q, 44);
         if (greater(p, q, best_p, best_q)) {
             best_p = p;
             best_q = q;
@@ -268,6 +270,7 @@ drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *wor
     if (best == 0 || workspace->component_strong[best] < min_area) {
         return DROGUE_E_NO_DARK_PART;
     }
+    DROGUE_NOTE("centroid: coordinate sum", workspace->arc_parent[best], 32);
     out->area_px = workspace->component_strong[best];
     out->x_px_q16 = (drogue_q16)drogue_div_round_s64((int64_t)workspace->arc_parent[best] << 16, out->area_px);
     out->y_px_q16 = (drogue_q16)drogue_div_round_s64((int64_t)workspace->arc_component[best] << 16, out->area_px);

@@ -40,6 +40,7 @@ static uint32_t convex_hull(drogue_point *hull, const drogue_edge *edges, uint32
     for (i = count; i-- > 0;) {
         size = chain_push(hull, size, base, pixel_of(&edges[i]));
     }
+    DROGUE_NOTE("constraints: hull points", size, 10);
     return size > 1 ? size - 1 : size; /* the last point is the first again */
 }
 
@@ -103,6 +104,8 @@ static box smallest_box(const drogue_point *hull, uint32_t size)
         p.across = dot(-p.dy, p.dx, hull[top]) - low;
         p.centre2_along = dot(p.dx, p.dy, hull[right]) + dot(p.dx, p.dy, hull[left]);
         p.centre2_across = dot(-p.dy, p.dx, hull[top]) + low;
+        DROGUE_NOTE("constraints: extent times edge length", p.along > p.across ? p.along : p.across, 23);
+        DROGUE_NOTE("constraints: area times squared length", p.along * p.across, 46);
         if (i == 0 || smaller(&p, &best)) {
             best = p;
         }
@@ -161,6 +164,7 @@ void drogue_judge_arc(drogue_arc_verdict *out, drogue_point *hull, const drogue_
     dx = out->rect.xc_px_q16 - (int64_t)mask->centre2_x * (DROGUE_Q16_ONE / 2);
     dy = out->rect.yc_px_q16 - (int64_t)mask->centre2_y * (DROGUE_Q16_ONE / 2);
     out->distance2_q32 = dx * dx + dy * dy;
+    DROGUE_NOTE("constraints: squared distance, Q32", out->distance2_q32, 62);
     out->polarity = DROGUE_POLARITY_BOTH;
     out->quadrant = -1;
     quadrant = drogue_quadrant(drogue_sat_s32(dx), drogue_sat_s32(dy));

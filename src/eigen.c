@@ -41,6 +41,8 @@ static void jacobi_step(int64_t a[3][3], int64_t v[3][3], int p, int q, int r)
     int64_t r_q60;
     int64_t shift;
     int k;
+    DROGUE_NOTE("eigen: diagonal", a[p][p], 61);
+    DROGUE_NOTE("eigen: off diagonal", a[p][q], 61);
     if (a[p][q] == 0) {
         return;
     }
@@ -55,6 +57,7 @@ static void jacobi_step(int64_t a[3][3], int64_t v[3][3], int p, int q, int r)
     a[q][r] = a[r][q];
     for (k = 0; k < 3; k++) {
         rotate(&v[p][k], &v[q][k], s_q60, r_q60);
+        DROGUE_NOTE("eigen: vector, Q60", v[p][k], 61);
     }
 }
 

@@ -7,7 +7,7 @@
 #include "drogue/eigen.h"
 
 #define PIVOT_BITS 48 /* points whose spread across is 2^-48 of that along are collinear */
-#define FLOOR_BITS 58 /* a pivot of the reduced scatter this small is rounding: the points lie on a conic */
+#define FLOOR_BITS 58 /* the last pivot of the reduced scatter this small is rounding: the points lie on a conic */
 
 void drogue_moments_clear(drogue_moments *m)
 {
@@ -19,6 +19,8 @@ void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
     int64_t xx = (int64_t)x * x;
     int64_t xy = (int64_t)x * y;
     int64_t yy = (int64_t)y * y;
+    DROGUE_NOTE("ellipse: x", x, 15);
+    DROGUE_NOTE("ellipse: y", y, 15);
     m->n++;
     m->m10 += x;
     m->m01 += y;
@@ -149,8 +151,9 @@ static drogue_status eliminate_linear_part(drogue_wide scatter[6][6])
     return DROGUE_OK;
 }
 
-/* Cholesky factor of the reduced scatter matrix, inverted: lower triangle h with h M h' = 1. */
-static drogue_status inverse_cholesky(drogue_wide h[3][3], drogue_wide scatter[6][6])
+/* Cholesky factor of the reduced scatter matrix, inverted: lower triangle h with h M h' = 1. Pivots are judged against
+ * 'spread', the diagonal before the reduction. */
+static drogue_status inverse_cholesky(drogue_wide h[3][3], drogue_wide scatter[6][6], const drogue_wide spread[3])
 {
     const drogue_wide one = drogue_wide_from_s64(1, 0);
     drogue_wide g[3][3];
@@ -164,9 +167,9 @@ static drogue_status inverse_cholesky(drogue_wide h[3][3], drogue_wide scatter[6
                 sum = drogue_wide_sub(sum, drogue_wide_mul(g[i][k], g[j][k]));
             }
             if (i == j) {
-                drogue_wide least = drogue_wide_scale(scatter[3 + i][3 + i], -FLOOR_BITS);
-                if (least.mantissa <= 0) {
-                    return DROGUE_E_DEGENERATE;
+                drogue_wide least = drogue_wide_scale(spread[i], i < 2 ? -PIVOT_BITS : -FLOOR_BITS);
+                if (least.mantissa <= 0 || (i < 2 && drogue_wide_cmp(sum, least) <= 0)) {
+                    return DROGUE_E_DEGENERATE; /* more than one conic through the points, or one that is no ellipse */
                 }
                 g[i][i] = drogue_wide_sqrt(drogue_wide_cmp(sum, least) < 0 ? least : sum);
                 h[i][i] = drogue_wide_div(one, g[i][i]);
@@ -275,6 +278,7 @@ drogue_status drogue_ellipse_fit(drogue_ellipse *out, const drogue_moments *m, i
     drogue_s128 s[5][5];
     drogue_wide scatter[6][6];
     drogue_wide h[3][3];
+    drogue_wide spread[3];
     drogue_wide theta[6];
     conic q;
     drogue_status status;
@@ -290,15 +294,22 @@ drogue_status drogue_ellipse_fit(drogue_ellipse *out, const drogue_moments *m, i
     if (m->n < 6) {
         return DROGUE_E_TOO_FEW_POINTS;
     }
+    DROGUE_NOTE("ellipse: first moment", m->m10, 33);
+    DROGUE_NOTE("ellipse: second moment", m->m20, 48);
+    DROGUE_NOTE("ellipse: third moment", m->m30, 63);
+    DROGUE_NOTE("ellipse: fourth moment / 2^64", m->m40.hi, 14);
     cx = drogue_div_round_s64(m->m10, m->n);
     cy = drogue_div_round_s64(m->m01, m->n);
     spread_moments(s, m);
     centre_moments(s, cx, cy);
     swap = drogue_s128_cmp(s[2][0], s[0][2]) < 0;
     scatter_matrix(scatter, s, swap);
+    for (k = 0; k < 3; k++) {
+        spread[k] = scatter[3 + k][3 + k];
+    }
     status = eliminate_linear_part(scatter);
     if (status == DROGUE_OK) {
-        status = inverse_cholesky(h, scatter);
+        status = inverse_cholesky(h, scatter, spread);
     }
     if (status == DROGUE_OK) {
         status = solve_quadratic_part(theta, h);

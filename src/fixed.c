@@ -63,6 +63,7 @@ drogue_q16 drogue_q16_sqrt(drogue_q16 v)
 
 int32_t drogue_atan2_q29(int64_t y, int64_t x)
 {
+    const int below = y < 0;
     int64_t angle_q32 = 0;
     int shift;
     int i;
@@ -79,13 +80,14 @@ int32_t drogue_atan2_q29(int64_t y, int64_t x)
         y = drogue_shr_round_s64(y, -shift);
     }
     if (x < 0) {
-        angle_q32 = y < 0 ? -PI_Q32 : PI_Q32;
+        angle_q32 = below ? -PI_Q32 : PI_Q32;
         x = -x;
         y = -y;
     }
     for (i = 0; i < CORDIC_STEPS; i++) {
         int64_t dx = drogue_shr_round_s64(x, i);
         int64_t dy = drogue_shr_round_s64(y, i);
+        DROGUE_NOTE("fixed: CORDIC vector", x, 47);
         if (y > 0) {
             x += dy;
             y -= dx;
@@ -135,12 +137,11 @@ void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29
     *cos_q30 = (int32_t)drogue_shr_round_s64(negate ? -x : x, 10);
 }
 
-int32_t drogue_exp_neg_q30(drogue_q16 x_q16)
+int32_t drogue_exp_neg_q30(int64_t x_q30)
 {
     const int64_t one_q30 = INT64_C(1) << 30;
-    int64_t x_q30 = x_q16 < 0 ? 0 : (int64_t)x_q16 << 14;
-    int64_t halvings = x_q30 / LN2_Q30;
-    int64_t rest_q30 = x_q30 - halvings * LN2_Q30;
+    int64_t halvings = x_q30 < 0 ? 0 : x_q30 / LN2_Q30;
+    int64_t rest_q30 = x_q30 < 0 ? 0 : x_q30 % LN2_Q30;
     int64_t sum_q30 = one_q30;
     int k;
     if (halvings > 31) {

@@ -51,7 +51,7 @@ drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, s
     workspace->histogram = (uint32_t *)(void *)at;
     at += 256 * sizeof(uint32_t);
     workspace->merges = (drogue_merge *)(void *)at;
-    at += (width + 1) / 2 * sizeof(drogue_merge);
+    at += width * sizeof(drogue_merge);
     workspace->component_rows = (uint32_t *)(void *)at;
     at += 2 * width * sizeof(uint32_t);
     workspace->arc_rows = (uint32_t *)(void *)at;
@@ -120,6 +120,8 @@ static void append_edge(drogue_frontend *f, const uint16_t *const magnitude[3], 
     drogue_canny_neighbours(&before, &after, sector, magnitude, x, f->width_px);
     offset_q5 = drogue_canny_offset_q5(before, magnitude[1][x], after);
     /* Magnitudes outside are 0, so at a border the offset points inward and the sums stay in [0, 65535]. */
+    DROGUE_NOTE("frontend: edge x, Q5", 32 * x + drogue_canny_step_x(sector) * offset_q5, 16);
+    DROGUE_NOTE("frontend: edge y, Q5", 32 * y + drogue_canny_step_y(sector) * offset_q5, 16);
     e->x_q5 = (uint16_t)(32 * x + drogue_canny_step_x(sector) * offset_q5);
     e->y_q5 = (uint16_t)(32 * y + drogue_canny_step_y(sector) * offset_q5);
     e->gx = gx;
@@ -249,7 +251,9 @@ static uint32_t *resolve_hysteresis(drogue_frontend *f)
     }
     drogue_labels_flatten(&f->arc_labels);
     for (i = 1; i < f->arc_labels.count; i++) {
-        alive[i] = w->component_strong[w->component_parent[w->arc_component[i]]];
+        if (w->arc_parent[i] == i) { /* a label that lost its root in its first row has no component noted */
+            alive[i] = w->component_strong[w->component_parent[w->arc_component[i]]];
+        }
     }
     return alive;
 }

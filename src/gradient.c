@@ -12,6 +12,9 @@ static void gradient_pixel(int16_t *gx, int16_t *gy, uint16_t *magnitude, const 
     gx[x] = drogue_sobel_gx(t[l], c[l], b[l], t[r], c[r], b[r]);
     gy[x] = drogue_sobel_gy(t[l], t[x], t[r], b[l], b[x], b[r]);
     magnitude[x] = drogue_magnitude_l1(gx[x], gy[x]);
+    DROGUE_NOTE("gradient: gx", gx[x], 10);
+    DROGUE_NOTE("gradient: gy", gy[x], 10);
+    DROGUE_NOTE("gradient: L1 magnitude", magnitude[x], 11);
 }
 
 void drogue_gradient_row(int16_t *gx, int16_t *gy, uint16_t *magnitude, const uint8_t *const rows[3], int32_t width_px)

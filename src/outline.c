@@ -158,6 +158,7 @@ static void collect_point(collection *c, drogue_q16 x_px_q16, drogue_q16 y_px_q1
 {
     int64_t x = drogue_shr_round_s64((int64_t)x_px_q16 - c->x_px_q16, 16 - c->frac_bits);
     int64_t y = drogue_shr_round_s64((int64_t)y_px_q16 - c->y_px_q16, 16 - c->frac_bits);
+    DROGUE_NOTE("outline: point in the fit's unit", x, 16);
     if (x >= INT16_MIN && x <= INT16_MAX && y >= INT16_MIN && y <= INT16_MAX) {
         drogue_moments_add_point(&c->moments, (int32_t)x, (int32_t)y);
     }

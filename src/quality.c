@@ -2,6 +2,8 @@
 /* Quality of a fitted ellipse: paper (10)-(15). */
 #include "drogue/quality.h"
 
+#include "drogue/wide.h"
+
 #define PI_Q29 INT64_C(1686629713)
 
 static int32_t over_q30(int32_t v_q30, drogue_q16 length_px_q16)
@@ -45,6 +47,8 @@ void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ell
     int64_t dy = (int64_t)y_px_q16 - frame->yc_px_q16;
     *u_q24 = clamp_q24(dx * frame->cos_over_a_q30 + dy * frame->sin_over_a_q30);
     *v_q24 = clamp_q24(dy * frame->cos_over_b_q30 - dx * frame->sin_over_b_q30);
+    DROGUE_NOTE("quality: u, Q24", *u_q24, 29);
+    DROGUE_NOTE("quality: v, Q24", *v_q24, 29);
 }
 
 /* u^2 + v^2 - 1, Q48 */
@@ -87,6 +91,7 @@ int drogue_ellipse_band_holds(const drogue_ellipse_frame *frame, const drogue_ba
     ny = drogue_shr_round_s64((int64_t)u_q24 * frame->sin_ratio_q14 + (int64_t)v_q24 * frame->cos_q14, 24);
     n2_q28 = nx * nx + ny * ny;
     /* |F| / |grad F| <= t  <=>  (F b)^2 <= 4 t^2 n^2 */
+    DROGUE_NOTE("quality: squared normal, Q28", n2_q28, 30);
     f_b_px_q16 = drogue_shr_round_s64(f_q24 * frame->b_px_q16, 24);
     if (f_b_px_q16 < 0) {
         f_b_px_q16 = -f_b_px_q16;
@@ -104,6 +109,8 @@ int drogue_ellipse_band_holds(const drogue_ellipse_frame *frame, const drogue_ba
         along = -along;
     }
     g2 = (int64_t)gx * gx + (int64_t)gy * gy;
+    DROGUE_NOTE("quality: gradient along normal", along, 26);
+    DROGUE_NOTE("quality: squared gradient times squared normal", g2 * n2_q28, 52);
     cos2_q10 = drogue_shr_round_s64((int64_t)band->cos_q16 * band->cos_q16, 22);
     return along > 0 && along * along * 1024 >= cos2_q10 * (g2 * n2_q28);
 }
@@ -130,18 +137,23 @@ drogue_q16 drogue_ellipse_circumference(const drogue_ellipse *ellipse)
     return drogue_sat_s32(drogue_shr_round_s64((3 * (a + b) - (int64_t)root_q16) * PI_Q29, 29));
 }
 
-/* s(s_r) of (14): 0 at the ratio k2, 0.5 for a circle. */
-static drogue_q16 axis_ratio_score(drogue_q16 ratio_q16, const drogue_quality_config *config)
+/* s(s_r) of (14): 0 at the ratio k2, 0.5 for a circle. The slope in the ratio is up to k1 / (1 - k2): the ratio is kept
+ * wide. */
+static drogue_q16 axis_ratio_score(const drogue_ellipse *e, const drogue_quality_config *config)
 {
-    drogue_q16 t = drogue_q16_div(drogue_q16_sub(ratio_q16, config->k2_q16),
-                                  drogue_q16_sub(DROGUE_Q16_ONE, config->k2_q16));
+    drogue_wide a = drogue_wide_from_q16(e->a_px_q16);
+    drogue_wide k2 = drogue_wide_from_q16(config->k2_q16);
+    drogue_wide t = drogue_wide_sub(drogue_wide_from_q16(e->b_px_q16), drogue_wide_mul(k2, a));
+    int64_t t_q30;
     int64_t decay_q30;
-    if (t <= 0) {
+    if (t.mantissa <= 0) {
         return 0;
     }
-    decay_q30 = drogue_exp_neg_q30(drogue_q16_mul(config->k1_q16, t));
+    t = drogue_wide_div(t, drogue_wide_mul(a, drogue_wide_sub(drogue_wide_from_s64(1, 0), k2)));
+    t_q30 = drogue_wide_to_s64(t, 30);
+    decay_q30 = drogue_exp_neg_q30(drogue_wide_to_s64(drogue_wide_mul(drogue_wide_from_q16(config->k1_q16), t), 30));
     return (drogue_q16)drogue_shr_round_s64(
-        drogue_shr_round_s64((int64_t)(t - DROGUE_Q16_ONE) * decay_q30, 16) + (INT64_C(1) << 30), 15);
+        drogue_shr_round_s64((t_q30 - (INT64_C(1) << 30)) * decay_q30, 30) + (INT64_C(1) << 30), 15);
 }
 
 static drogue_q16 ratio_to_one(int64_t num_q16, int64_t den)
@@ -165,6 +177,6 @@ void drogue_quality_score(drogue_quality *out, const drogue_ellipse *ellipse, ui
     out->length_ratio_q16 = drogue_length_ratio(total, ellipse);
     out->axis_ratio_q16 = drogue_q16_div(ellipse->b_px_q16, ellipse->a_px_q16);
     out->score_q16 = (drogue_q16)drogue_shr_round_s64(out->length_ratio_q16, 1) +
-                     axis_ratio_score(out->axis_ratio_q16, config);
+                     axis_ratio_score(ellipse, config);
     out->reliability_q16 = (drogue_q16)drogue_shr_round_s64((int64_t)out->score_q16 + out->fit_ratio_q16, 1);
 }

@@ -12,6 +12,7 @@ void drogue_smooth_row(uint8_t *out, uint16_t *column, const uint8_t *const rows
     int32_t x;
     for (x = 0; x < width_px; x++) {
         column[x] = (uint16_t)drogue_binomial5(r0[x], r1[x], r2[x], r3[x], r4[x]);
+        DROGUE_NOTE("smooth: column sum", column[x], 12);
     }
     for (x = 2; x < width_px - 2; x++) {
         out[x] = drogue_smooth_normalise(

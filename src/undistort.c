@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Brown-Conrady distortion and its inverse by Newton's method, in normalised coordinates Q28. */
+/* Brown-Conrady distortion and its inverse by damped Newton steps, in normalised coordinates Q36. */
 #include "drogue/undistort.h"
 
 #include "drogue/wide.h"
 
-#define FRAC 28
-#define MAX_STEPS 12
+#define FRAC 36
+#define MAX_STEPS 24
 
-static const int64_t one_q28 = INT64_C(1) << FRAC;
-static const int64_t most_q28 = INT64_C(4) << FRAC; /* off the axis, in focal lengths */
+static const int64_t one_q36 = INT64_C(1) << FRAC;
+static const int64_t most_q36 = INT64_C(4) << FRAC; /* off the axis, in focal lengths */
+static const int64_t still_q36 = INT64_C(1) << 10;  /* a step this short squares to nothing in the next */
 
-static int64_t mul_q28(int64_t a, int64_t b)
+static int64_t mul_q36(int64_t a, int64_t b)
 {
     return drogue_mul_shr_round_s64(a, b, FRAC);
 }
@@ -20,55 +21,92 @@ static int64_t abs_s64(int64_t v)
     return v < 0 ? -v : v;
 }
 
-/* Distorted position and its derivatives. Beyond the model: xx, xy, yy of the Jacobian (it is symmetric). */
+/* Coefficient Q16 -> Q36. */
+static int64_t widen(drogue_q16 k)
+{
+    return (int64_t)k * (INT64_C(1) << (FRAC - 16));
+}
+
+static int small(drogue_q16 k)
+{
+    return k >= -DROGUE_MAX_DISTORTION_Q16 && k <= DROGUE_MAX_DISTORTION_Q16;
+}
+
+/* Distorted position and its derivatives: the Jacobian is symmetric. */
 typedef struct distorted {
     int64_t x, y;
     int64_t dxx, dxy, dyy;
 } distorted;
 
-/* With |x|, |y| <= 4 and coefficients of Q16's range every sum stays below 2^62. */
-static distorted distort_q28(const drogue_camera *c, int64_t x, int64_t y)
+/* With |x|, |y| <= 4 and coefficients up to 256 every sum stays below 2^62. */
+static distorted distort_q36(const drogue_camera *c, int64_t x, int64_t y)
 {
-    int64_t k1 = (int64_t)c->k1_q16 * 4096;
-    int64_t k2 = (int64_t)c->k2_q16 * 4096;
-    int64_t k3 = (int64_t)c->k3_q16 * 4096;
-    int64_t p1 = (int64_t)c->p1_q16 * 4096;
-    int64_t p2 = (int64_t)c->p2_q16 * 4096;
-    int64_t xx = mul_q28(x, x);
-    int64_t xy = mul_q28(x, y);
-    int64_t yy = mul_q28(y, y);
+    int64_t k1 = widen(c->k1_q16);
+    int64_t k2 = widen(c->k2_q16);
+    int64_t k3 = widen(c->k3_q16);
+    int64_t p1 = widen(c->p1_q16);
+    int64_t p2 = widen(c->p2_q16);
+    int64_t xx = mul_q36(x, x);
+    int64_t xy = mul_q36(x, y);
+    int64_t yy = mul_q36(y, y);
     int64_t r2 = xx + yy;
-    int64_t radial = one_q28 + mul_q28(k1 + mul_q28(k2 + mul_q28(k3, r2), r2), r2);
-    int64_t slope = k1 + mul_q28(2 * k2 + mul_q28(3 * k3, r2), r2); /* d radial / d r2 */
+    int64_t radial = one_q36 + mul_q36(k1 + mul_q36(k2 + mul_q36(k3, r2), r2), r2);
+    int64_t slope = k1 + mul_q36(2 * k2 + mul_q36(3 * k3, r2), r2); /* d radial / d r2 */
     distorted d;
-    d.x = mul_q28(x, radial) + 2 * mul_q28(p1, xy) + mul_q28(p2, r2 + 2 * xx);
-    d.y = mul_q28(y, radial) + mul_q28(p1, r2 + 2 * yy) + 2 * mul_q28(p2, xy);
-    d.dxx = radial + 2 * mul_q28(xx, slope) + 2 * mul_q28(p1, y) + 6 * mul_q28(p2, x);
-    d.dxy = 2 * mul_q28(xy, slope) + 2 * mul_q28(p1, x) + 2 * mul_q28(p2, y);
-    d.dyy = radial + 2 * mul_q28(yy, slope) + 6 * mul_q28(p1, y) + 2 * mul_q28(p2, x);
+    d.x = mul_q36(x, radial) + 2 * mul_q36(p1, xy) + mul_q36(p2, r2 + 2 * xx);
+    d.y = mul_q36(y, radial) + mul_q36(p1, r2 + 2 * yy) + 2 * mul_q36(p2, xy);
+    d.dxx = radial + 2 * mul_q36(xx, slope) + 2 * mul_q36(p1, y) + 6 * mul_q36(p2, x);
+    d.dxy = 2 * mul_q36(xy, slope) + 2 * mul_q36(p1, x) + 2 * mul_q36(p2, y);
+    d.dyy = radial + 2 * mul_q36(yy, slope) + 6 * mul_q36(p1, y) + 2 * mul_q36(p2, x);
+    DROGUE_NOTE("undistort: normalised position, Q36", x, 39);
+    DROGUE_NOTE("undistort: distorted position, Q36", d.x, 62);
+    DROGUE_NOTE("undistort: derivative, Q36", d.dxx, 62);
     return d;
 }
 
 /* Pixel -> normalised; 0 when too far off the axis. */
-static int normalise(int64_t *x_q28, drogue_q16 px_q16, drogue_q16 centre_q16, drogue_q16 focal_q16)
+static int normalise(int64_t *x_q36, drogue_q16 px_q16, drogue_q16 centre_q16, drogue_q16 focal_q16)
 {
     if (focal_q16 <= 0) {
         return 0;
     }
-    *x_q28 = drogue_div_round_s64(drogue_shl_s64((int64_t)px_q16 - centre_q16, FRAC), focal_q16);
-    return abs_s64(*x_q28) <= most_q28;
+    *x_q36 = drogue_wide_to_s64(drogue_wide_div(drogue_wide_from_s64((int64_t)px_q16 - centre_q16, 0),
+                                                drogue_wide_from_s64(focal_q16, 0)),
+                                FRAC);
+    return *x_q36 >= -most_q36 && *x_q36 <= most_q36;
+}
+
+/* Both coordinates, and coefficients that the arithmetic holds. */
+static int enter(int64_t *x_q36, int64_t *y_q36, drogue_q16 x_px_q16, drogue_q16 y_px_q16, const drogue_camera *c)
+{
+    return small(c->k1_q16) && small(c->k2_q16) && small(c->p1_q16) && small(c->p2_q16) && small(c->k3_q16) &&
+           normalise(x_q36, x_px_q16, c->cx_px_q16, c->fx_px_q16) &&
+           normalise(y_q36, y_px_q16, c->cy_px_q16, c->fy_px_q16);
 }
 
 /* Normalised -> pixel; 0 when it leaves Q16. */
-static int to_pixel(drogue_q16 *px_q16, int64_t x_q28, drogue_q16 centre_q16, drogue_q16 focal_q16)
+static int to_pixel(drogue_q16 *px_q16, int64_t x_q36, drogue_q16 centre_q16, drogue_q16 focal_q16)
 {
     int64_t px;
-    if (abs_s64(x_q28) > (INT64_C(1) << 46)) {
+    if (abs_s64(x_q36) > (INT64_C(1) << 54)) {
         return 0;
     }
-    px = drogue_mul_shr_round_s64(x_q28, focal_q16, FRAC) + centre_q16;
-    *px_q16 = drogue_sat_s32(px);
+    px = drogue_mul_shr_round_s64(x_q36, focal_q16, FRAC) + centre_q16;
+    *px_q16 = (drogue_q16)px;
     return *px_q16 == px;
+}
+
+static drogue_status leave(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, int64_t x_q36, int64_t y_q36,
+                           const drogue_camera *c)
+{
+    drogue_q16 x;
+    drogue_q16 y;
+    if (!to_pixel(&x, x_q36, c->cx_px_q16, c->fx_px_q16) || !to_pixel(&y, y_q36, c->cy_px_q16, c->fy_px_q16)) {
+        return DROGUE_E_DOMAIN;
+    }
+    *x_px_q16 = x;
+    *y_px_q16 = y;
+    return DROGUE_OK;
 }
 
 drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera)
@@ -76,48 +114,29 @@ drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, c
     int64_t x;
     int64_t y;
     distorted d;
-    drogue_q16 u;
-    drogue_q16 v;
-    if (!normalise(&x, *x_px_q16, camera->cx_px_q16, camera->fx_px_q16) ||
-        !normalise(&y, *y_px_q16, camera->cy_px_q16, camera->fy_px_q16)) {
+    if (!enter(&x, &y, *x_px_q16, *y_px_q16, camera)) {
         return DROGUE_E_DOMAIN;
     }
-    d = distort_q28(camera, x, y);
-    if (!to_pixel(&u, d.x, camera->cx_px_q16, camera->fx_px_q16) ||
-        !to_pixel(&v, d.y, camera->cy_px_q16, camera->fy_px_q16)) {
-        return DROGUE_E_DOMAIN;
-    }
-    *x_px_q16 = u;
-    *y_px_q16 = v;
-    return DROGUE_OK;
+    d = distort_q36(camera, x, y);
+    return leave(x_px_q16, y_px_q16, d.x, d.y, camera);
 }
 
-/* One Newton step towards the point whose distorted image is (u, v); 0 when the map folds or runs away. */
-static int newton_step(int64_t *x, int64_t *y, int64_t *moved, const drogue_camera *camera, int64_t u, int64_t v)
+/* Is the map locally one to one, and tame enough for the arithmetic of a step? */
+static int regular(const distorted *d, int64_t u, int64_t v)
 {
     const int64_t most = INT64_C(16) << FRAC;
-    distorted d = distort_q28(camera, *x, *y);
-    int64_t ex = u - d.x;
-    int64_t ey = v - d.y;
-    int64_t det;
-    int64_t nx;
-    int64_t ny;
-    if (abs_s64(d.dxx) > most || abs_s64(d.dxy) > most || abs_s64(d.dyy) > most || d.dxx <= 0 || d.dyy <= 0 ||
-        abs_s64(ex) > most || abs_s64(ey) > most) {
-        return 0;
-    }
-    det = mul_q28(d.dxx, d.dyy) - mul_q28(d.dxy, d.dxy);
-    nx = mul_q28(d.dyy, ex) - mul_q28(d.dxy, ey);
-    ny = mul_q28(d.dxx, ey) - mul_q28(d.dxy, ex);
-    if (det <= 0 || abs_s64(nx) > 2 * most || abs_s64(ny) > 2 * most) {
-        return 0;
-    }
-    nx = drogue_div_round_s64(nx * one_q28, det);
-    ny = drogue_div_round_s64(ny * one_q28, det);
-    *moved = abs_s64(nx) + abs_s64(ny);
-    *x += nx;
-    *y += ny;
-    return abs_s64(*x) <= most_q28 && abs_s64(*y) <= most_q28;
+    return d->dxx > 0 && d->dyy > 0 && d->dxx < most && d->dyy < most && abs_s64(d->dxy) < most &&
+           abs_s64(u - d->x) < most && abs_s64(v - d->y) < most &&
+           mul_q36(d->dxx, d->dyy) - mul_q36(d->dxy, d->dxy) > (one_q36 >> 16);
+}
+
+/* Quotient of two Q36 numbers, den > 2^-16: the divisor is taken to 20 bits, which costs a step nothing. */
+static int64_t divide(int64_t num_q36, int64_t den_q36)
+{
+    const int64_t most = INT64_C(8) << FRAC;
+    num_q36 = num_q36 > most ? most : num_q36 < -most ? -most : num_q36;
+    DROGUE_NOTE("undistort: step numerator, Q36", num_q36, 40);
+    return drogue_div_round_s64(num_q36 * (INT64_C(1) << 20), den_q36 >> 16);
 }
 
 drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera)
@@ -126,26 +145,32 @@ drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16,
     int64_t v;
     int64_t x;
     int64_t y;
-    int64_t moved = most_q28;
-    drogue_q16 px;
-    drogue_q16 py;
+    int64_t dx = 0;
+    int64_t dy = 0;
     int step;
-    if (!normalise(&u, *x_px_q16, camera->cx_px_q16, camera->fx_px_q16) ||
-        !normalise(&v, *y_px_q16, camera->cy_px_q16, camera->fy_px_q16)) {
+    if (!enter(&u, &v, *x_px_q16, *y_px_q16, camera)) {
         return DROGUE_E_DOMAIN;
     }
-    x = u;
-    y = v;
-    for (step = 0; step < MAX_STEPS && moved > 2; step++) {
-        if (!newton_step(&x, &y, &moved, camera, u, v)) {
-            return DROGUE_E_DOMAIN;
+    x = 0; /* from the axis: what is seen without a fold can be followed from there */
+    y = 0;
+    for (step = 0; step < MAX_STEPS; step++) {
+        distorted d = distort_q36(camera, x + dx, y + dy);
+        int64_t det;
+        if (!regular(&d, u, v)) { /* across a fold: half the step */
+            dx >>= 1;
+            dy >>= 1;
+            continue;
         }
+        x += dx;
+        y += dy;
+        det = mul_q36(d.dxx, d.dyy) - mul_q36(d.dxy, d.dxy);
+        dx = divide(mul_q36(d.dyy, u - d.x) - mul_q36(d.dxy, v - d.y), det);
+        dy = divide(mul_q36(d.dxx, v - d.y) - mul_q36(d.dxy, u - d.x), det);
+        if (abs_s64(dx) + abs_s64(dy) <= still_q36) {
+            return leave(x_px_q16, y_px_q16, x + dx, y + dy, camera);
+        }
+        dx = x + dx > most_q36 ? most_q36 - x : x + dx < -most_q36 ? -most_q36 - x : dx;
+        dy = y + dy > most_q36 ? most_q36 - y : y + dy < -most_q36 ? -most_q36 - y : dy;
     }
-    if (moved > 2 || !to_pixel(&px, x, camera->cx_px_q16, camera->fx_px_q16) ||
-        !to_pixel(&py, y, camera->cy_px_q16, camera->fy_px_q16)) {
-        return DROGUE_E_DOMAIN;
-    }
-    *x_px_q16 = px;
-    *y_px_q16 = py;
-    return DROGUE_OK;
+    return DROGUE_E_DOMAIN;
 }

@@ -50,6 +50,8 @@ static drogue_wide wide_finish(int64_t mantissa, int32_t exponent)
         mantissa /= 2; /* exact: it is +-2^62 */
         exponent++;
     }
+    DROGUE_NOTE("wide: mantissa", mantissa, 62);
+    DROGUE_NOTE("wide: exponent", exponent, 20);
     r.mantissa = mantissa;
     r.exponent = mantissa == 0 ? 0 : exponent;
     return r;
@@ -225,7 +227,7 @@ int32_t drogue_wide_atan2_q29(drogue_wide y, drogue_wide x)
         if (shift > 0) {
             x.mantissa = shift > 63 ? 0 : drogue_shr_round_s64(x.mantissa, shift);
         } else {
-            y.mantissa = shift < -63 ? 0 : drogue_shr_round_s64(y.mantissa, -shift);
+            y.mantissa >>= shift < -63 ? 63 : -shift; /* toward -infinity: a negative y stays negative */
         }
     }
     return drogue_atan2_q29(y.mantissa, x.mantissa);

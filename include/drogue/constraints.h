@@ -21,7 +21,8 @@ typedef struct drogue_min_rect {
 
 /* Smallest-area bounding rectangle by rotating calipers on the convex hull, exact up to the final rounding.
  *
- *  out     rectangle; of equal areas the one on the hull edge met first wins
+ *  out     rectangle; of equal areas the one on the hull edge met first wins: clockwise as seen, from the
+ *          top left point
  *  hull    work area, DROGUE_HULL_MAX points
  *  edges   count points in raster order (as an arc's are); whole-pixel positions count
  *  count   >= 1

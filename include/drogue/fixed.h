@@ -23,6 +23,12 @@ typedef int32_t drogue_q16; /* value * 2^16, range [-32768, 32768) */
 /* Integer n / d as a Q16 constant, rounded to nearest; for initialisers, n and d positive literals. */
 #define DROGUE_Q16(n, d) ((drogue_q16)(((int64_t)(n) * 131072 + (d)) / (2 * (int64_t)(d))))
 
+/* Names a quantity and the number of bits that hold its magnitude. Nothing here; the checked build (tests/checked)
+ * verifies it and records the peak. */
+#ifndef DROGUE_NOTE
+#define DROGUE_NOTE(name, value, bits) ((void)0)
+#endif
+
 /* What the core relies on beyond C99; each line fails to compile where it does not hold. */
 typedef char drogue_assume_arithmetic_shift[((-3) >> 1) == -2 ? 1 : -1];
 typedef char drogue_assume_arithmetic_shift_64[((-(int64_t)3) >> 1) == -2 ? 1 : -1];
@@ -136,11 +142,11 @@ void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29
 
 /* exp(-x).
  *
- *  x_q16   Q16, >= 0; a negative x counts as 0
+ *  x_q30   Q30, >= 0; a negative x counts as 0
  *  return  Q30 in [0, 1]
  *  error   <= 2^-28
  */
-int32_t drogue_exp_neg_q30(drogue_q16 x_q16);
+int32_t drogue_exp_neg_q30(int64_t x_q30);
 
 #ifdef __cplusplus
 }

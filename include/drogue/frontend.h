@@ -44,7 +44,7 @@ typedef struct drogue_point {
 #define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                 \
     ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels) * 16u +   \
      DROGUE_HULL_MAX * sizeof(drogue_point) + 256u * 4u +                                                     \
-     (((size_t)(width_px) + 1u) / 2u) * sizeof(drogue_merge) + (size_t)(width_px) * (16u + 18u + 10u))
+     (size_t)(width_px) * (sizeof(drogue_merge) + 16u + 18u + 10u))
 
 /* The same for a region of the given longest side with the capacity that suits it. */
 #define DROGUE_WORKSPACE_BYTES_FOR(side_px)                                                                   \
@@ -62,7 +62,7 @@ typedef struct drogue_workspace {
     uint32_t *arc_component;    /* labels */
     drogue_point *hull;         /* DROGUE_HULL_MAX */
     uint32_t *histogram;        /* 256 */
-    drogue_merge *merges;       /* (width + 1) / 2 */
+    drogue_merge *merges;       /* width */
     uint32_t *component_rows;   /* 2 x width */
     uint32_t *arc_rows;         /* 2 x width */
     uint16_t *column;           /* width */

@@ -38,7 +38,7 @@ uint32_t drogue_labels_find(drogue_labels *labels, uint32_t label);
  *
  *  current   out, width_px labels, each a root when the call returns; 0 for background
  *  labels    in/out
- *  merges    work area, (width_px + 1) / 2 entries
+ *  merges    work area, width_px entries: at most one merge a pixel
  *  above     labels of the row above as this function left them; zeros for the first row
  *  code      width_px codes; code_above those of the row above, zeros for the first row
  */

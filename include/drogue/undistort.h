@@ -9,6 +9,8 @@
 extern "C" {
 #endif
 
+#define DROGUE_MAX_DISTORTION_Q16 (256 * DROGUE_Q16_ONE) /* largest magnitude of a coefficient */
+
 /* Does the camera distort at all? */
 static inline int drogue_camera_distorts(const drogue_camera *c)
 {
@@ -18,15 +20,16 @@ static inline int drogue_camera_distorts(const drogue_camera *c)
 /* Pixel as an ideal pinhole camera of the same fx, fy, cx, cy would see it -> pixel as seen.
  *
  *  x, y    in/out, px Q16
- *  return  DROGUE_OK; DROGUE_E_DOMAIN when the point lies more than 4 focal lengths off the axis, or the result leaves Q16
+ *  return  DROGUE_OK; DROGUE_E_DOMAIN when the point lies more than 4 focal lengths off the axis, a
+ *          coefficient exceeds DROGUE_MAX_DISTORTION_Q16, or the result leaves Q16
  *  error   <= 2 LSB
  */
 drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);
 
-/* Pixel as seen -> pixel of the ideal pinhole camera, by Newton's method from the seen position.
+/* Pixel as seen -> pixel of the ideal pinhole camera, by damped Newton steps from the axis.
  *
  *  x, y    in/out, px Q16; unchanged on failure
- *  return  DROGUE_OK; DROGUE_E_DOMAIN when the model cannot be inverted there (folded image, no convergence)
+ *  return  DROGUE_OK; DROGUE_E_DOMAIN as above, or when the model cannot be inverted there (beyond a fold)
  *  error   <= 4 LSB
  */
 drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);

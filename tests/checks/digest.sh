@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The same pictures give the same JSON, byte for byte, from gcc -O0, gcc -O3, clang -O2 and a 32-bit build. The
-# host program is built four times with pgm_io.c in place of libpng, which need not be there for 32 bits.
+# The same pictures give the same JSON, byte for byte, from gcc -O0, gcc -O3, clang -O2, a 32-bit processor (Arm)
+# and a big-endian one (s390x), the last two under qemu. The host program is built with pgm_io.c in place of libpng,
+# which need not be there for foreign processors. One more build leaves its workspace as malloc() gives it and runs
+# under valgrind: no decision may rest on memory that nobody wrote, which the address sanitizer does not see.
 # usage: digest.sh ROOT
 set -euo pipefail
 root=$1
@@ -23,32 +25,36 @@ build() {
 build gcc-O0 gcc -O0
 build gcc-O3 gcc -O3
 build clang-O2 clang -O2
-build gcc-m32 gcc -m32 -O2
-readelf -h "$work/gcc-m32" | grep -q ELF32
+build armhf arm-linux-gnueabihf-gcc -O2 -static
+build s390x s390x-linux-gnu-gcc -O2 -static
+build uncleared gcc -O1 -g -Dcalloc=uncleared
+readelf -h "$work/armhf" | grep -q ELF32
+readelf -h "$work/s390x" | grep -q 'big endian'
 # shellcheck disable=SC2046 # flags are words
 gcc -std=c99 "${warnings[@]}" -I "$root/src/cli" $(pkg-config --cflags libpng) "$root"/tests/checks/png_to_pgm.c \
     "$root"/src/cli/png_io.c "$root"/src/cli/cli.c -o "$work/png_to_pgm" $(pkg-config --libs libpng)
 
-# numbers FILE KEY: the numbers in the object of that name in a sidecar, with commas
-numbers() {
+# sidecar_numbers FILE KEY: the numbers in the object of that name, with commas
+sidecar_numbers() {
     sed -nE "s/^ *\"$2\": \{(.*)\},?$/\1/p" "$1" | grep -oE -- '-?[0-9]+(\.[0-9]+)?' | paste -sd,
 }
 
-# settings FILE: options from a sidecar, one a line
-settings() {
-    printf '%s\n' --camera "$(numbers "$1" camera)" --drogue "$(numbers "$1" drogue)" --roi "$(numbers "$1" region)"
+# frame_options FILE: camera, drogue and region from a sidecar, one word a line in this order
+frame_options() {
+    printf '%s\n' --camera "$(sidecar_numbers "$1" camera)" --drogue "$(sidecar_numbers "$1" drogue)" \
+        --roi "$(sidecar_numbers "$1" region)"
 }
 
-# run_all NAME: every frame measured, in its region and as a whole; a track with a frame that shows no drogue
+# run_all COMMAND...: every frame measured, in its region and as a whole; a track with a frame that shows no drogue
 run_all() {
     local frame options
     for frame in "${frames[@]}"; do
-        mapfile -t options < <(settings "$root/vectors/frame/$frame.json")
-        "../$1" measure --json "${options[@]}" "$frame.pgm" || echo "exit $?"
-        "../$1" measure --json "${options[@]:0:4}" "$frame.pgm" || echo "exit $?"
+        mapfile -t options < <(frame_options "$root/vectors/frame/$frame.json")
+        "$@" measure --json "${options[@]}" "$frame.pgm" || echo "exit $?"
+        "$@" measure --json "${options[@]:0:4}" "$frame.pgm" || echo "exit $?"
     done
-    mapfile -t options < <(settings "$root/vectors/frame/demo.json")
-    "../$1" track --json --fps 25 "${options[@]}" demo.pgm demo.pgm black.pgm demo.pgm || echo "exit $?"
+    mapfile -t options < <(frame_options "$root/vectors/frame/demo.json")
+    "$@" track --json --fps 25 "${options[@]}" demo.pgm demo.pgm black.pgm demo.pgm || echo "exit $?"
 }
 
 mkdir "$work/frames"
@@ -62,8 +68,13 @@ done
 { printf 'P5\n640 480\n255\n' && head -c $((640 * 480)) /dev/zero; } >black.pgm
 
 status=0
-for name in gcc-O0 gcc-O3 clang-O2 gcc-m32; do
-    run_all $name >"../$name.json"
+for name in gcc-O0 gcc-O3 clang-O2 armhf s390x uncleared; do
+    case $name in
+    armhf) run_all qemu-arm ../armhf ;;
+    s390x) run_all qemu-s390x ../s390x ;;
+    uncleared) run_all valgrind -q --error-exitcode=99 --leak-check=full ../uncleared ;;
+    *) run_all ../$name ;;
+    esac >"../$name.json"
     if ! cmp "../gcc-O0.json" "../$name.json"; then
         diff "../gcc-O0.json" "../$name.json" | head -n 6
         status=1

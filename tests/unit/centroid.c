@@ -23,7 +23,8 @@ static uint8_t model_otsu(const uint32_t *histogram)
         if (below > 0 && below < total) {
             p = below * sum - total * sum_below;
             variance = p * p / (below * (total - below));
-            if (variance > best * (1 + 1e-28L)) { /* equals differ by rounding alone, unequals by 2^-88 and more */
+            if (variance >
+                best * (1 + (quad)1e-28L)) { /* equals differ by rounding alone, unequals by 2^-88 and more */
                 best = variance;
                 at = level;
             }
@@ -129,8 +130,8 @@ static uint32_t model_largest(double *x, double *y, const uint8_t *dark, int32_t
     return best;
 }
 
-static void check_image(const uint8_t *pixels, int32_t width, int32_t height, const drogue_mask *disc, uint32_t min_area,
-                        int seed)
+static void check_image(const uint8_t *pixels, int32_t width, int32_t height, const drogue_mask *disc,
+                        uint32_t min_area, int seed)
 {
     test_workspace t = test_workspace_of((uint32_t)width, 1, (uint32_t)(width * height) + 2u, 1);
     uint8_t *dark = malloc((size_t)(width * height)), *eroded = malloc((size_t)(width * height));
@@ -240,7 +241,8 @@ START_TEST(arguments_and_edges_left_alone)
     memset(t.workspace.arcs, 0x5A, sizeof arcs);
     memset(edges, 0x5A, sizeof edges);
     memset(arcs, 0x5A, sizeof arcs);
-    ck_assert_int_eq(drogue_dark_part_find(&part, &t.workspace, &image, &disc, 1), DROGUE_OK); /* all one level: all dark */
+    ck_assert_int_eq(drogue_dark_part_find(&part, &t.workspace, &image, &disc, 1),
+                     DROGUE_OK); /* all one level: all dark */
     ck_assert_int_eq(memcmp(t.workspace.edges, edges, sizeof edges), 0);
     ck_assert_int_eq(memcmp(t.workspace.arcs, arcs, sizeof arcs), 0);
     bad.data = NULL;

@@ -35,7 +35,7 @@ START_TEST(each_threshold_is_strict)
     f.ellipse.xc_px_q16--;
     ck_assert(same(e, f));
     f.ellipse.yc_px_q16 += 65536;
-    ck_assert(!same(e, f)); /* 2.5 px minus an LSB across, 1 down */
+    ck_assert(!same(e, f));                                 /* 2.5 px minus an LSB across, 1 down */
     ck_assert(!same(e, candidate(101.5, 92, 40, 20, 0.5))); /* 1.5, 2: just 2.5 */
     ck_assert(same(e, candidate(101.5, 91.9999, 40, 20, 0.5)));
     f = e;

@@ -28,10 +28,7 @@ static inline int64_t rng_s64_any_width(uint64_t *state)
     return (int64_t)v >> shift;
 }
 
-static inline int32_t rng_s32_any_width(uint64_t *state)
-{
-    return (int32_t)(rng_s64_any_width(state) >> 32);
-}
+static inline int32_t rng_s32_any_width(uint64_t *state) { return (int32_t)(rng_s64_any_width(state) >> 32); }
 
 /* Integer in [lo, hi]. */
 static inline int32_t rng_range(uint64_t *state, int32_t lo, int32_t hi)
@@ -64,10 +61,7 @@ static inline int32_t q16_of(double v)
     return r >= 2147483647.0 ? INT32_MAX : r <= -2147483648.0 ? INT32_MIN : (int32_t)r;
 }
 
-static inline double real_of_q16(int32_t v)
-{
-    return (double)v / 65536.0;
-}
+static inline double real_of_q16(int32_t v) { return (double)v / 65536.0; }
 
 /* Difference of two angles modulo 'turn', in [-turn / 2, turn / 2]. */
 static inline double angle_difference(double p, double q, double turn)

@@ -3,6 +3,7 @@
 #include "suite.h"
 
 #include "drogue/constraints.h"
+#include "rectangle.h"
 
 #define MOST_POINTS 4096
 
@@ -13,83 +14,6 @@ static drogue_edge edge_at(int32_t x, int32_t y, uint64_t *rng)
     e.x_q5 = (uint16_t)(32 * x + (rng != NULL && x > 0 ? rng_range(rng, -15, 15) : 0));
     e.y_q5 = (uint16_t)(32 * y + (rng != NULL && y > 0 ? rng_range(rng, -15, 15) : 0));
     return e;
-}
-
-static int raster_order(const void *p, const void *q)
-{
-    const drogue_edge *e = p, *f = q;
-    int32_t d = drogue_edge_y_px(e) - drogue_edge_y_px(f);
-    return d != 0 ? d : drogue_edge_x_px(e) - drogue_edge_x_px(f);
-}
-
-static uint32_t sort_unique(drogue_edge *e, uint32_t count)
-{
-    uint32_t i, left = 0;
-    qsort(e, count, sizeof *e, raster_order);
-    for (i = 0; i < count; i++) {
-        if (left == 0 || raster_order(&e[left - 1], &e[i]) != 0) {
-            e[left++] = e[i];
-        }
-    }
-    return left;
-}
-
-/* Is (dx, dy) from i the direction of a hull edge? Extents of all points along and across it. */
-static int hull_edge(int64_t low[2], int64_t high[2], const drogue_edge *e, uint32_t count, uint32_t i, int64_t dx,
-                     int64_t dy)
-{
-    int64_t own = -dy * drogue_edge_x_px(&e[i]) + dx * drogue_edge_y_px(&e[i]);
-    uint32_t k;
-    low[0] = low[1] = INT64_MAX;
-    high[0] = high[1] = INT64_MIN;
-    for (k = 0; k < count; k++) {
-        int64_t x = drogue_edge_x_px(&e[k]), y = drogue_edge_y_px(&e[k]);
-        int64_t p[2];
-        int d;
-        p[0] = dx * x + dy * y;
-        p[1] = -dy * x + dx * y;
-        if (p[1] < own) {
-            return 0;
-        }
-        for (d = 0; d < 2; d++) {
-            low[d] = p[d] < low[d] ? p[d] : low[d];
-            high[d] = p[d] > high[d] ? p[d] : high[d];
-        }
-    }
-    return 1;
-}
-
-/* Largest difference, LSB, from the nearest of the rectangles that share the least area. */
-static double rect_error(const drogue_min_rect *r, const drogue_edge *e, uint32_t count)
-{
-    long double best = -1;
-    double error = INFINITY;
-    uint32_t i, j;
-    for (i = 0; i < count; i++) {
-        for (j = 0; j < count; j++) {
-            int64_t dx = drogue_edge_x_px(&e[j]) - drogue_edge_x_px(&e[i]);
-            int64_t dy = drogue_edge_y_px(&e[j]) - drogue_edge_y_px(&e[i]), low[2], high[2];
-            double length2 = (double)(dx * dx + dy * dy), length = sqrt(length2), along, across, x, y, d;
-            long double area;
-            if (i == j || !hull_edge(low, high, e, count, i, dx, dy)) {
-                continue;
-            }
-            area = (long double)(high[0] - low[0]) * (long double)(high[1] - low[1]) / (long double)length2;
-            if (best >= 0 && area > best * (1 + 1e-15L)) {
-                continue;
-            }
-            along = (double)(high[0] - low[0]) / length;
-            across = (double)(high[1] - low[1]) / length;
-            x = ((double)dx * (double)(high[0] + low[0]) - (double)dy * (double)(high[1] + low[1])) / 2 / length2;
-            y = ((double)dy * (double)(high[0] + low[0]) + (double)dx * (double)(high[1] + low[1])) / 2 / length2;
-            d = fmax(fmax(fabs(r->xc_px_q16 - x * 65536), fabs(r->yc_px_q16 - y * 65536)),
-                     fmax(fabs(r->short_px_q16 - fmin(along, across) * 65536),
-                          fabs(r->long_px_q16 - fmax(along, across) * 65536)));
-            error = best < 0 || area < best * (1 - 1e-15L) ? d : fmin(error, d);
-            best = best < 0 || area < best ? area : best;
-        }
-    }
-    return error;
 }
 
 static void check_points(const drogue_edge *e, uint32_t count, const char *what)
@@ -127,7 +51,8 @@ START_TEST(rectangle_of_arcs)
     static drogue_edge e[MOST_POINTS];
     int32_t i, k;
     for (i = 0; i < 150; i++) {
-        double radius = rng_real(&rng, 2, i < 145 ? 60 : 800), from = rng_real(&rng, 0, 7), span = rng_real(&rng, 0.2, 6.3);
+        double radius = rng_real(&rng, 2, i < 145 ? 60 : 800), from = rng_real(&rng, 0, 7),
+               span = rng_real(&rng, 0.2, 6.3);
         int32_t count = (int32_t)(radius * span * 1.2) + 2;
         count = count < MOST_POINTS ? count : MOST_POINTS;
         for (k = 0; k < count; k++) {
@@ -210,6 +135,25 @@ START_TEST(hull_of_the_most_corners)
     ck_assert(guarded_intact(&hull));
     ck_assert(rect_error(&r, e, count) <= 1.0);
     guarded_free(&hull);
+}
+END_TEST
+
+/* Right triangles, whose rectangle on the long side has the area of that on the legs. The hull runs from its first
+ * point in raster order clockwise as seen: the long side comes first in one and last in the other. */
+START_TEST(first_of_equal_rectangles_wins)
+{
+    drogue_min_rect r;
+    drogue_point hull[DROGUE_HULL_MAX];
+    drogue_edge e[3];
+    e[0] = edge_at(10, 10, NULL);
+    e[1] = edge_at(35, 10, NULL);
+    e[2] = edge_at(19, 22, NULL);
+    ck_assert_int_eq(drogue_min_area_rect(&r, hull, e, 3), DROGUE_OK);
+    ck_assert(r.short_px_q16 == 12 * 65536 && r.long_px_q16 == 25 * 65536);
+    e[1] = edge_at(22, 19, NULL);
+    e[2] = edge_at(10, 35, NULL);
+    ck_assert_int_eq(drogue_min_area_rect(&r, hull, e, 3), DROGUE_OK);
+    ck_assert(r.short_px_q16 == 15 * 65536 && r.long_px_q16 == 20 * 65536);
 }
 END_TEST
 
@@ -321,5 +265,5 @@ START_TEST(farthest_of_each_quadrant_and_polarity)
 END_TEST
 
 SUITE_MAIN("constraints", rectangle_of_random_points, rectangle_of_arcs, rectangle_of_points_on_a_line,
-           hull_of_the_most_corners, no_points, quadrants, verdict_on_every_direction_in_every_quadrant,
-           farthest_of_each_quadrant_and_polarity)
+           hull_of_the_most_corners, first_of_equal_rectangles_wins, no_points, quadrants,
+           verdict_on_every_direction_in_every_quadrant, farthest_of_each_quadrant_and_polarity)

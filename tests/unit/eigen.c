@@ -37,12 +37,13 @@ static void check_matrix(const drogue_sym3 *m, double *value_error, double *resi
             }
             *residual = fmax(*residual, (double)quad_abs(r / ONE_Q60));
             length2 = i == k ? cross / ONE_Q60 / ONE_Q60 : length2;
-            MUST(i == k || quad_abs(cross / ONE_Q60 / ONE_Q60) < 1e-16, "vectors %d and %d are not orthogonal", i, k);
+            MUST(i == k || quad_abs(cross / ONE_Q60 / ONE_Q60) < (quad)1e-16L, "vectors %d and %d are not orthogonal",
+                 i, k);
             if (drogue_abs_u64(e.vector_q60[k][i]) > drogue_abs_u64(e.vector_q60[k][largest])) {
                 largest = i;
             }
         }
-        MUST(quad_abs(length2 - 1) < 1e-16, "vector %d has length^2 %.18g", k, (double)length2);
+        MUST(quad_abs(length2 - 1) < (quad)1e-16L, "vector %d has length^2 %.18g", k, (double)length2);
         MUST(k == 2 || e.vector_q60[k][largest] > 0, "sign of vector %d", k);
     }
     det = 0;
@@ -82,9 +83,19 @@ END_TEST
 /* Rotated diagonal matrices of a chosen spectrum: double values, a spread of 1 : 5000 and of 1 : 2^50. */
 START_TEST(chosen_spectra)
 {
-    static const double spectrum[][3] = {{1, 1, 1}, {1, 1, -1}, {1, -1, -1}, {1, 1, 1 - 1e-12}, {1, 1 - 1e-9, -1},
-                                         {1, 2e-4, -1}, {2e-4, 1.9999e-4, -1}, {1, 1e-6, -2e-4}, {1, 1e-15, -1e-15},
-                                         {1, 0, 0}, {0, 0, -1}, {1e-3, 1e-3, -1}, {1, 0.5, 0.25}};
+    static const double spectrum[][3] = {{1, 1, 1},
+                                         {1, 1, -1},
+                                         {1, -1, -1},
+                                         {1, 1, 1 - 1e-12},
+                                         {1, 1 - 1e-9, -1},
+                                         {1, 2e-4, -1},
+                                         {2e-4, 1.9999e-4, -1},
+                                         {1, 1e-6, -2e-4},
+                                         {1, 1e-15, -1e-15},
+                                         {1, 0, 0},
+                                         {0, 0, -1},
+                                         {1e-3, 1e-3, -1},
+                                         {1, 0.5, 0.25}};
     uint64_t rng = 2;
     double value_error = 0, residual = 0;
     int i, j, k, round;
@@ -168,10 +179,11 @@ START_TEST(normalise_brings_to_one_scale)
         e = drogue_sym3_normalise(&m, w);
         for (k = 0; k < 6; k++) {
             quad exact = quad_scale((quad)w[k].mantissa, w[k].exponent - e);
-            MUST(quad_abs((quad)m.a[k] - exact) <= 0.5L, "entry %d off", k);
+            MUST(quad_abs((quad)m.a[k] - exact) <= (quad)0.5L, "entry %d off", k);
             largest = drogue_abs_u64(m.a[k]) > largest ? drogue_abs_u64(m.a[k]) : largest;
         }
-        MUST(largest >= (uint64_t)LIMIT / 2 && largest <= (uint64_t)LIMIT, "largest entry %llu", (unsigned long long)largest);
+        MUST(largest >= (uint64_t)LIMIT / 2 && largest <= (uint64_t)LIMIT, "largest entry %llu",
+             (unsigned long long)largest);
     }
     for (k = 0; k < 6; k++) {
         w[k] = drogue_wide_from_s64(0, 0);
@@ -183,4 +195,5 @@ START_TEST(normalise_brings_to_one_scale)
 }
 END_TEST
 
-SUITE_MAIN("eigen", random_matrices, chosen_spectra, edge_values, diagonal_needs_no_sweep, normalise_brings_to_one_scale)
+SUITE_MAIN("eigen", random_matrices, chosen_spectra, edge_values, diagonal_needs_no_sweep,
+           normalise_brings_to_one_scale)

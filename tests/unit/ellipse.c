@@ -7,10 +7,7 @@
 
 __extension__ typedef __int128 wide128;
 
-static wide128 value_of(drogue_s128 v)
-{
-    return (wide128)v.hi * 2 * ((wide128)1 << 63) + v.lo;
-}
+static wide128 value_of(drogue_s128 v) { return (wide128)v.hi * 2 * ((wide128)1 << 63) + v.lo; }
 
 static void check_moments(const drogue_moments *m, const wide128 s[5][5])
 {
@@ -84,8 +81,8 @@ static drogue_moments moments_of(const int32_t (*points)[2], int count, int32_t 
     return m;
 }
 
-static const int32_t circle5[12][2] = {{5, 0},   {4, 3},   {3, 4},   {0, 5},   {-3, 4},  {-4, 3},
-                                       {-5, 0},  {-4, -3}, {-3, -4}, {0, -5},  {3, -4},  {4, -3}};
+static const int32_t circle5[12][2] = {{5, 0},  {4, 3},   {3, 4},   {0, 5},  {-3, 4}, {-4, 3},
+                                       {-5, 0}, {-4, -3}, {-3, -4}, {0, -5}, {3, -4}, {4, -3}};
 
 /* Integer points exactly on circles and ellipses: the scatter is singular, the answer exact. */
 START_TEST(exact_conics)
@@ -227,8 +224,8 @@ static drogue_ellipse fit_points(const ellipse_real *truth, double from, double 
         ellipse_point(&x, &y, truth, from + span * i / count);
         drogue_moments_add_point(&m, (int32_t)floor(x * 32 + 0.5) + dx, (int32_t)floor(y * 32 + 0.5) + dy);
     }
-    MUST(drogue_ellipse_fit(&e, &m, frac_bits) == DROGUE_OK, "a %.2f b %.2f from %.3f span %.3f refused", truth->a, truth->b,
-         from, span);
+    MUST(drogue_ellipse_fit(&e, &m, frac_bits) == DROGUE_OK, "a %.2f b %.2f from %.3f span %.3f refused", truth->a,
+         truth->b, from, span);
     MUST(e.a_px_q16 >= e.b_px_q16 && e.b_px_q16 > 0 && e.angle_rad_q16 <= DROGUE_Q16_HALF_PI &&
              e.angle_rad_q16 > -DROGUE_Q16_HALF_PI,
          "ellipse out of form");
@@ -253,9 +250,21 @@ START_TEST(known_ellipses_are_found)
              "case %d: off by %g %g %g %g px", i, real_of_q16(e.xc_px_q16) - t.xc, real_of_q16(e.yc_px_q16) - t.yc,
              real_of_q16(e.a_px_q16) - t.a, real_of_q16(e.b_px_q16) - t.b);
         if (t.b < 0.95 * t.a) {
-            MUST(fabs(angle_difference(real_of_q16(e.angle_rad_q16), t.angle, TEST_PI)) < 0.1 / (t.a - t.b), "angle of case %d",
-                 i);
+            MUST(fabs(angle_difference(real_of_q16(e.angle_rad_q16), t.angle, TEST_PI)) < 0.1 / (t.a - t.b),
+                 "angle of case %d", i);
         }
+    }
+}
+END_TEST
+
+/* The angle just above -pi/2 rounds to what is below it: it is given as pi/2. */
+START_TEST(angles_next_to_half_a_turn)
+{
+    int i;
+    for (i = -40; i <= 40; i++) {
+        const ellipse_real t = {3, -2, 900, 450, TEST_PI / 2 + i * 5e-7};
+        drogue_ellipse e = fit_points(&t, 0, 2 * TEST_PI, 6000, 0, 0, 5);
+        MUST(abs(e.angle_rad_q16) >= DROGUE_Q16_HALF_PI - 3, "angle %d of case %d", (int)e.angle_rad_q16, i);
     }
 }
 END_TEST
@@ -281,6 +290,6 @@ START_TEST(a_shift_and_a_unit_change_nothing_else)
 }
 END_TEST
 
-SUITE_MAIN("ellipse", moments_are_exact_sums, moments_hold_the_most_points, exact_conics, five_points_determine_an_ellipse,
-           arguments, points_that_determine_no_ellipse, parameters_that_leave_q16, known_ellipses_are_found,
-           a_shift_and_a_unit_change_nothing_else)
+SUITE_MAIN("ellipse", moments_are_exact_sums, moments_hold_the_most_points, exact_conics,
+           five_points_determine_an_ellipse, arguments, points_that_determine_no_ellipse, parameters_that_leave_q16,
+           known_ellipses_are_found, angles_next_to_half_a_turn, a_shift_and_a_unit_change_nothing_else)

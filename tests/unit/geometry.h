@@ -11,10 +11,7 @@ typedef struct ellipse_real {
     double xc, yc, a, b, angle;
 } ellipse_real;
 
-static inline double dot3(const double *p, const double *q)
-{
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-}
+static inline double dot3(const double *p, const double *q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 
 /* Unit axis of yaw and pitch. */
 static inline void axis_of_angles(double axis[3], double yaw, double pitch)

@@ -5,10 +5,7 @@
 #include "drogue/gradient.h"
 #include "images.h"
 
-static int32_t clamp(int32_t i, int32_t n)
-{
-    return i < 0 ? 0 : i >= n ? n - 1 : i;
-}
+static int32_t clamp(int32_t i, int32_t n) { return i < 0 ? 0 : i >= n ? n - 1 : i; }
 
 static void model_pixel(int32_t *gx, int32_t *gy, const uint8_t *p, int32_t stride, int32_t width, int32_t height,
                         int32_t x, int32_t y)
@@ -37,7 +34,8 @@ static void check_size(int32_t width, int32_t height, int kind, uint64_t *rng)
     drogue_image image = {NULL, width, height, stride};
     image_fill(in.data, stride, height, kind, rng);
     image.data = in.data;
-    MUST(drogue_gradient_image(gx.data, gy.data, magnitude.data, &image) == DROGUE_OK, "%d x %d refused", width, height);
+    MUST(drogue_gradient_image(gx.data, gy.data, magnitude.data, &image) == DROGUE_OK, "%d x %d refused", width,
+         height);
     for (y = 0; y < height; y++) {
         for (x = 0; x < width; x++) {
             int32_t ex, ey, at = y * width + x;
@@ -96,7 +94,10 @@ START_TEST(arguments_out_of_range)
     static uint8_t data[4];
     static int16_t gx[4], gy[4];
     static uint16_t magnitude[4];
-    static const drogue_image bad[] = {{data, 0, 1, 1}, {data, 1, 0, 1}, {data, 2, 2, 1}, {NULL, 2, 2, 2},
+    static const drogue_image bad[] = {{data, 0, 1, 1},
+                                       {data, 1, 0, 1},
+                                       {data, 2, 2, 1},
+                                       {NULL, 2, 2, 2},
                                        {data, DROGUE_MAX_SIDE + 1, 1, DROGUE_MAX_SIDE + 1},
                                        {data, 1, DROGUE_MAX_SIDE + 1, 1}};
     size_t i;

@@ -16,10 +16,7 @@ enum image_kind {
     IMAGE_KINDS
 };
 
-static inline uint8_t image_grey(double v)
-{
-    return (uint8_t)(v < 0 ? 0 : v > 255 ? 255 : v + 0.5);
-}
+static inline uint8_t image_grey(double v) { return (uint8_t)(v < 0 ? 0 : v > 255 ? 255 : v + 0.5); }
 
 static inline void image_fill_blobs(uint8_t *out, int32_t width, int32_t height, uint64_t *rng)
 {

@@ -105,10 +105,7 @@ static double worst_state(const model *m, const drogue_kalman *filter)
     return worst;
 }
 
-static double real_of_wide(drogue_wide v)
-{
-    return ldexp((double)v.mantissa, v.exponent);
-}
+static double real_of_wide(drogue_wide v) { return ldexp((double)v.mantissa, v.exponent); }
 
 static void must_be_positive(const drogue_kalman *filter)
 {
@@ -116,15 +113,13 @@ static void must_be_positive(const drogue_kalman *filter)
     for (i = 0; i < PARAMETERS; i++) {
         const drogue_wide *c = filter->parameter[i].covariance;
         double p00 = real_of_wide(c[0]), p01 = real_of_wide(c[1]), p11 = real_of_wide(c[3]), p22 = real_of_wide(c[5]);
-        MUST(p00 >= 0 && p11 >= 0 && p22 >= 0 && p00 * p11 - p01 * p01 >= -1e-12 * p00 * p11, "covariance of parameter %d", i);
+        MUST(p00 >= 0 && p11 >= 0 && p22 >= 0 && p00 * p11 - p01 * p01 >= -1e-12 * p00 * p11,
+             "covariance of parameter %d", i);
     }
 }
 
-static const drogue_q16 start_std[PARAMETERS][3] = {{655, 131072, 131072},
-                                                    {655, 131072, 131072},
-                                                    {1311, 131072, 131072},
-                                                    {1311, 65536, 65536},
-                                                    {1311, 65536, 65536}};
+static const drogue_q16 start_std[PARAMETERS][3] = {
+    {655, 131072, 131072}, {655, 131072, 131072}, {1311, 131072, 131072}, {1311, 65536, 65536}, {1311, 65536, 65536}};
 
 /* A drogue that sways, measured with noise; time steps vary, frames are missed. */
 START_TEST(same_states_as_fifteen_in_one)

@@ -20,7 +20,7 @@ static labelling labelling_of_size(int32_t width, int32_t height, uint32_t capac
     t.labels = guarded_alloc(pixels * sizeof(uint32_t));
     t.model = guarded_alloc(pixels * sizeof(uint32_t));
     t.parent = guarded_alloc(capacity * sizeof(uint32_t));
-    t.merges = guarded_alloc(((size_t)width + 1u) / 2u * sizeof(drogue_merge));
+    t.merges = guarded_alloc((size_t)width * sizeof(drogue_merge));
     t.zeros = guarded_alloc((size_t)width * sizeof(uint32_t));
     memset(t.zeros.data, 0, t.zeros.bytes);
     memset(t.code.data, 0, t.code.bytes);
@@ -46,11 +46,13 @@ static void run_rows(labelling *t, uint8_t mask)
     int32_t x, y;
     uint32_t i;
     for (y = 0; y < t->height; y++) {
-        drogue_label_row(labels + y * t->width, &t->state, t->merges.data, y ? labels + (y - 1) * t->width : t->zeros.data,
-                         code + y * t->width, y ? code + (y - 1) * t->width : t->zeros.data, mask, t->width);
+        drogue_label_row(labels + y * t->width, &t->state, t->merges.data,
+                         y ? labels + (y - 1) * t->width : t->zeros.data, code + y * t->width,
+                         y ? code + (y - 1) * t->width : t->zeros.data, mask, t->width);
         for (x = 0; x < t->width; x++) {
             uint32_t label = labels[y * t->width + x];
-            MUST(label < t->state.count && (label == 0 || parent[label] == label), "row %d, x %d: label is no root", y, x);
+            MUST(label < t->state.count && (label == 0 || parent[label] == label), "row %d, x %d: label is no root", y,
+                 x);
         }
     }
     MUST(guarded_intact(&t->merges), "merge table overrun, width %d", t->width);
@@ -153,7 +155,8 @@ START_TEST(random_maps)
         int32_t density = rng_range(&rng, 1, 100), keys = rng_range(&rng, 1, 4);
         uint8_t *code = calloc((size_t)(width * height), 1);
         for (k = 0; k < width * height; k++) { /* other bits must not matter */
-            code[k] = (uint8_t)(rng_range(&rng, 0, 3) | (rng_range(&rng, 1, 100) <= density ? rng_range(&rng, 1, keys) << 2 : 0));
+            code[k] = (uint8_t)(rng_range(&rng, 0, 3) |
+                                (rng_range(&rng, 1, 100) <= density ? rng_range(&rng, 1, keys) << 2 : 0));
         }
         check_map(code, width, height, 0x1C);
         free(code);

@@ -10,7 +10,8 @@ static void check_point(const drogue_mask *mask, int32_t x, int32_t y)
     long double third = mask->longest_px / 3.0L, half = mask->longest_px / 2.0L;
     long double nearest = fminl(fabsl(d - third), fabsl(d - half));
     if (nearest > 1e-9L) {
-        MUST(!!drogue_mask_in_ring(mask, x, y) == (d > third && d < half), "ring of %d at %d %d", mask->longest_px, x, y);
+        MUST(!!drogue_mask_in_ring(mask, x, y) == (d > third && d < half), "ring of %d at %d %d", mask->longest_px, x,
+             y);
         MUST(!!drogue_mask_in_disc(mask, x, y) == (d < third), "disc of %d at %d %d", mask->longest_px, x, y);
     }
 }

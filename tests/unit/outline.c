@@ -5,16 +5,10 @@
 #include "drogue/outline.h"
 #include "drogue/undistort.h"
 #include "geometry.h"
+#include "rectangle.h"
 #include "workspace.h"
 
 enum { SIDE = 256, MOST = 8192 };
-
-static int raster_order(const void *p, const void *q)
-{
-    const drogue_edge *e = p, *f = q;
-    int32_t d = drogue_edge_y_px(e) - drogue_edge_y_px(f);
-    return d != 0 ? d : drogue_edge_x_px(e) - drogue_edge_x_px(f);
-}
 
 /* Edge points around an ellipse from parameter 'from' over 'span', one arc a direction class. The gradient points
  * outward, or inward for a bright inside. A camera, where given, distorts the points. */
@@ -24,7 +18,7 @@ static drogue_edge_list put_ellipse(test_workspace *t, const ellipse_real *truth
     static drogue_edge edge[4][MOST];
     uint32_t count[4] = {0, 0, 0, 0}, k, total = 0;
     drogue_edge_list list = {0, 0};
-    int i, n = (int)(7 * truth->a);
+    int i, n = (int)(1.12 * span * truth->a);
     for (i = 0; i < n; i++) {
         double angle = from + span * i / n, x, y, nx, ny, length;
         drogue_edge e;
@@ -79,10 +73,7 @@ static drogue_config plain_config(void)
 
 /* The front end's own inward shift, half a squared pixel times the curvature at most, is put back even where there was
  * none. */
-static double tolerance(const ellipse_real *e)
-{
-    return 0.03 + 0.5 * e->a / (e->b * e->b);
-}
+static double tolerance(const ellipse_real *e) { return 0.03 + 0.5 * e->a / (e->b * e->b); }
 
 START_TEST(whole_ellipses_of_both_polarities)
 {
@@ -103,7 +94,8 @@ START_TEST(whole_ellipses_of_both_polarities)
         MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "case %d not found", i);
         MUST((int)out.polarity == bright, "case %d: polarity", i);
         MUST(apart(&out.ellipse, &e) < tolerance(&e), "case %d: %g px off", i, apart(&out.ellipse, &e));
-        MUST(out.cluster_members >= 1 && out.refit_points > 0 && out.refit_points <= list.edge_count, "case %d: counts", i);
+        MUST(out.cluster_members >= 1 && out.refit_points > 0 && out.refit_points <= list.edge_count, "case %d: counts",
+             i);
         MUST(out.cover_q16 == 65536 && out.quality.reliability_q16 > 40000, "case %d: cover %d, reliability %d", i,
              (int)out.cover_q16, (int)out.quality.reliability_q16);
         for (k = 0; k < 4; k++) {
@@ -113,11 +105,42 @@ START_TEST(whole_ellipses_of_both_polarities)
                  "case %d: arc of quadrant %d", i, k);
         }
         c.polarity = bright ? DROGUE_POLARITY_BRIGHT : DROGUE_POLARITY_DARK;
-        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "case %d not found by polarity", i);
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "case %d not found by polarity",
+             i);
         c.polarity = bright ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
-        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_E_NO_ELLIPSE, "case %d: wrong polarity", i);
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_E_NO_ELLIPSE,
+             "case %d: wrong polarity", i);
     }
     ck_assert(guarded_intact(&t.memory));
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* An arc that lies farther out but on another ellipse takes its quadrant, and the winner does without it. */
+START_TEST(foreign_arc_is_left_out)
+{
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    drogue_config c = plain_config();
+    drogue_outline out;
+    uint32_t k, i, foreign;
+    for (foreign = 0; foreign < 4; foreign++) {
+        const ellipse_real e = {127.5, 127.5, 95, 90, 0};
+        drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+        const drogue_arc *a = &t.workspace.arcs[foreign];
+        ck_assert_uint_eq(list.arc_count, 4);
+        for (i = a->first; i < a->first + a->count; i++) {
+            drogue_edge *p = &t.workspace.edges[i];
+            p->x_q5 = (uint16_t)(4080 + (p->x_q5 - 4080) * 5 / 4);
+            p->y_q5 = (uint16_t)(4080 + (p->y_q5 - 4080) * 5 / 4);
+        }
+        ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+        MUST(apart(&out.ellipse, &e) < tolerance(&e), "arc %u: %g px off", (unsigned)foreign, apart(&out.ellipse, &e));
+        for (k = 0; k < 4; k++) {
+            ck_assert_uint_eq(out.arcs[k], k == foreign ? DROGUE_NO_ARC : k);
+        }
+        ck_assert_uint_ge(out.cluster_members, 2);
+    }
     test_workspace_free(&t);
 }
 END_TEST
@@ -223,7 +246,8 @@ START_TEST(distortion_is_removed)
         camera = shifted; /* the same camera in coordinates of the whole image */
         camera.cx_px_q16 += x * 65536;
         camera.cy_px_q16 += y * 65536;
-        MUST(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, x, y) == DROGUE_OK, "case %d", i);
+        MUST(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, x, y) == DROGUE_OK, "case %d",
+             i);
         e.xc += x;
         e.yc += y;
         MUST(apart(&ideal, &e) < tolerance(&e), "case %d: %g px off", i, apart(&ideal, &e));
@@ -247,10 +271,11 @@ START_TEST(undistorted_without_points)
     ck_assert_int_eq(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, 0, 0),
                      DROGUE_E_TOO_FEW_POINTS);
     memset(&out.ellipse, 0, sizeof out.ellipse);
-    ck_assert_int_eq(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, 0, 0), DROGUE_E_DEGENERATE);
+    ck_assert_int_eq(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, 0, 0),
+                     DROGUE_E_DEGENERATE);
     test_workspace_free(&t);
 }
 END_TEST
 
-SUITE_MAIN("outline", whole_ellipses_of_both_polarities, thresholds_decide, cover_is_the_share_of_the_circumference,
-           nothing_to_find, distortion_is_removed, undistorted_without_points)
+SUITE_MAIN("outline", whole_ellipses_of_both_polarities, foreign_arc_is_left_out, thresholds_decide,
+           cover_is_the_share_of_the_circumference, nothing_to_find, distortion_is_removed, undistorted_without_points)

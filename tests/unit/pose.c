@@ -26,7 +26,9 @@ static void must_be_consistent(const drogue_pose *p)
     double position[3], axis[3];
     real_pose(position, axis, p);
     MUST(fabs(dot3(axis, axis) - 1) < 1e-4, "axis of length^2 %g", dot3(axis, axis));
-    MUST(fabs(angle_difference(real_of_q16(p->yaw_rad_q16), atan2(axis[0], axis[2]), 2 * TEST_PI)) * hypot(axis[0], axis[2]) < 4e-5,
+    MUST(fabs(angle_difference(real_of_q16(p->yaw_rad_q16), atan2(axis[0], axis[2]), 2 * TEST_PI)) *
+                 hypot(axis[0], axis[2]) <
+             4e-5,
          "yaw against axis");
     MUST(fabs(real_of_q16(p->pitch_rad_q16) - atan2(axis[1], hypot(axis[0], axis[2]))) < 4e-5, "pitch against axis");
     MUST(dot3(axis, position) > 0, "axis points out of the drogue");
@@ -53,8 +55,8 @@ static void check_circle(double z, double x, double y, double yaw, double pitch,
         return;
     }
     ellipse = ellipse_to_q16(&e);
-    MUST(drogue_pose_from_ellipse(pose, &ellipse, &camera, q16_of(radius)) == DROGUE_OK, "z %g yaw %g pitch %g refused", z,
-         yaw, pitch);
+    MUST(drogue_pose_from_ellipse(pose, &ellipse, &camera, q16_of(radius)) == DROGUE_OK, "z %g yaw %g pitch %g refused",
+         z, yaw, pitch);
     tilt = acos(fmin(1, sight));
     ratio = 4 / 65536.0 / e.b; /* relative rounding of the ellipse, generously */
     for (i = 0; i < 2; i++) {
@@ -66,8 +68,9 @@ static void check_circle(double z, double x, double y, double yaw, double pitch,
             match = 1;
         }
         /* Each pose, the twin too, projects to the same ellipse again. */
-        MUST(ellipse_of_circle(&f, position, found, radius, real_of_q16(camera.fx_px_q16), real_of_q16(camera.fy_px_q16),
-                               real_of_q16(camera.cx_px_q16), real_of_q16(camera.cy_px_q16)),
+        MUST(ellipse_of_circle(&f, position, found, radius, real_of_q16(camera.fx_px_q16),
+                               real_of_q16(camera.fy_px_q16), real_of_q16(camera.cx_px_q16),
+                               real_of_q16(camera.cy_px_q16)),
              "pose %d cannot be seen", i);
         most = 4 / 65536.0 * (focal / z + e.a);
         MUST(hypot(f.xc - e.xc, f.yc - e.yc) < most && fabs(f.a - e.a) < most && fabs(f.b - e.b) < most,
@@ -256,8 +259,9 @@ START_TEST(choice_by_the_inner_centre)
             ck_assert_int_le(abs(choice.distance_px_q16[1 - i] - q16_of(apart)), 1);
             ck_assert_int_eq(choice.ambiguity_q16, 0);
         }
-        ck_assert_int_eq(drogue_choose_pose(&choice, p, x[0] / 4 + (x[1] / 4) * 3, y[0] / 4 + (y[1] / 4) * 3, depth, &camera),
-                         DROGUE_OK);
+        ck_assert_int_eq(
+            drogue_choose_pose(&choice, p, x[0] / 4 + (x[1] / 4) * 3, y[0] / 4 + (y[1] / 4) * 3, depth, &camera),
+            DROGUE_OK);
         ck_assert_uint_eq(choice.index, 1);
         ck_assert_int_le(abs(choice.ambiguity_q16 - 65536 / 3), 8);
     }

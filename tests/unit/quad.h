@@ -12,21 +12,18 @@ typedef long double quad;
 __extension__ typedef __float128 quad;
 #endif
 
-static inline quad quad_abs(quad v)
-{
-    return v < 0 ? -v : v;
-}
+static inline quad quad_abs(quad v) { return v < 0 ? -v : v; }
 
 /* v * 2^n, |n| <= 2000 */
 static inline quad quad_scale(quad v, int n)
 {
     for (; n >= 60; n -= 60) {
-        v *= 1152921504606846976.0L;
+        v *= (quad)1152921504606846976.0L;
     }
     for (; n <= -60; n += 60) {
-        v /= 1152921504606846976.0L;
+        v /= (quad)1152921504606846976.0L;
     }
-    return v * ldexpl(1.0L, n);
+    return v * (quad)ldexpl(1.0L, n);
 }
 
 /* Square root by Newton's method from the long double one. */
@@ -37,13 +34,13 @@ static inline quad quad_sqrt(quad v)
     if (!(v > 0)) {
         return 0;
     }
-    for (; v > 1e300L; v /= 16) {
+    for (; v > (quad)1e300L; v /= 16) {
         n += 2;
     }
-    for (; v < 1e-300L; v *= 16) {
+    for (; v < (quad)1e-300L; v *= 16) {
         n -= 2;
     }
-    r = sqrtl((long double)v);
+    r = (quad)sqrtl((long double)v);
     r = (r + v / r) / 2;
     r = (r + v / r) / 2;
     return quad_scale(r, n);

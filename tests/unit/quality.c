@@ -40,8 +40,8 @@ START_TEST(deviation_within_4_lsb)
             x = e.xc + scale * (x - e.xc);
             y = e.yc + scale * (y - e.yc);
             model_frame(&u, &v, &e, real_of_q16(q16_of(x)), real_of_q16(q16_of(y)));
-            worst = fmax(worst, fabs(drogue_ellipse_deviation(&frame, q16_of(x), q16_of(y)) -
-                                     65536 * fabs(u * u + v * v - 1)));
+            worst = fmax(
+                worst, fabs(drogue_ellipse_deviation(&frame, q16_of(x), q16_of(y)) - 65536 * fabs(u * u + v * v - 1)));
         }
     }
     MUST(worst <= 4.0, "off by %.3f LSB", worst);
@@ -96,7 +96,8 @@ START_TEST(band_away_from_its_borders)
         ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_OK);
         for (k = 0; k < 50; k++) {
             double x, y, u, v, gx, gy, nx, ny, n, f, distance, cosine, t = real_of_q16(band.half_width_px_q16);
-            double offset = rng_real(&rng, -3, 3) * t, turn = rng_real(&rng, -1.5, 1.5), strength = rng_real(&rng, 50, 1000);
+            double offset = rng_real(&rng, -3, 3) * t, turn = rng_real(&rng, -1.5, 1.5),
+                   strength = rng_real(&rng, 50, 1000);
             ellipse_point(&x, &y, &e, rng_real(&rng, 0, 7));
             n = hypot(x - e.xc, y - e.yc);
             x = real_of_q16(q16_of(x + offset * (x - e.xc) / n));
@@ -112,7 +113,8 @@ START_TEST(band_away_from_its_borders)
             cosine = (gx * nx + gy * ny) / n / hypot(gx, gy) * (band.polarity == DROGUE_POLARITY_BRIGHT ? -1 : 1);
             if (fabs(distance / t - 1) > 0.01 && fabs(cosine - real_of_q16(band.cos_q16)) > 0.004) {
                 int expected = distance < t && cosine > real_of_q16(band.cos_q16);
-                MUST(!!drogue_ellipse_band_holds(&frame, &band, q16_of(x), q16_of(y), (int16_t)gx, (int16_t)gy) == expected,
+                MUST(!!drogue_ellipse_band_holds(&frame, &band, q16_of(x), q16_of(y), (int16_t)gx, (int16_t)gy) ==
+                         expected,
                      "ellipse %d, point %d: distance %.4f of %.4f, cosine %.4f of %.4f", i, k, distance, t, cosine,
                      real_of_q16(band.cos_q16));
                 held += expected;
@@ -148,10 +150,7 @@ START_TEST(circumference_within_4_lsb)
 }
 END_TEST
 
-static double clamp01(double v)
-{
-    return v < 0 ? 0 : v > 1 ? 1 : v;
-}
+static double clamp01(double v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
 
 /* Worst error of the five values; k1 in [0, most_k1], k2 in [0, most_k2]. */
 static void check_scores(int32_t most_k1, int32_t most_k2)
@@ -195,16 +194,10 @@ static void check_scores(int32_t most_k1, int32_t most_k2)
     }
 }
 
-START_TEST(score_within_2_lsb_near_the_defaults)
-{
-    check_scores(12 * 65536, 40000);
-}
+START_TEST(score_within_2_lsb_near_the_defaults) { check_scores(12 * 65536, 40000); }
 END_TEST
 
-START_TEST(score_within_2_lsb_over_the_documented_range)
-{
-    check_scores(64 * 65536, 65535);
-}
+START_TEST(score_within_2_lsb_over_the_documented_range) { check_scores(64 * 65536, 65535); }
 END_TEST
 
 START_TEST(score_at_the_ends)
@@ -220,11 +213,11 @@ START_TEST(score_at_the_ends)
     ck_assert_int_eq(q.score_q16, 65536);
     ck_assert_int_eq(q.reliability_q16, 65536);
     drogue_quality_score(&q, &flat, 0, 1, &c);
-    ck_assert_int_le(q.score_q16 - q.length_ratio_q16 / 2, 1); /* at k2 the axis ratio earns nothing */
+    ck_assert_int_le(q.score_q16 - q.length_ratio_q16 / 2, 1);        /* at k2 the axis ratio earns nothing */
     ck_assert_int_eq(drogue_quality_threshold(&circle, 65536), 1311); /* 2 / 100 */
 }
 END_TEST
 
 SUITE_MAIN("quality", deviation_within_4_lsb, frame_saturates_far_away, frame_refuses_what_is_no_ellipse,
-           band_away_from_its_borders, circumference_within_4_lsb,
-           score_within_2_lsb_near_the_defaults, score_within_2_lsb_over_the_documented_range, score_at_the_ends)
+           band_away_from_its_borders, circumference_within_4_lsb, score_within_2_lsb_near_the_defaults,
+           score_within_2_lsb_over_the_documented_range, score_at_the_ends)

@@ -43,7 +43,8 @@ static void check_size(int32_t width, int32_t height, int kind, uint64_t *rng)
                  "%d x %d differs at (%d, %d)", width, height, x, y);
         }
     }
-    MUST(guarded_intact(&in) && guarded_intact(&out) && guarded_intact(&column), "%d x %d wrote outside", width, height);
+    MUST(guarded_intact(&in) && guarded_intact(&out) && guarded_intact(&column), "%d x %d wrote outside", width,
+         height);
     guarded_free(&in);
     guarded_free(&out);
     guarded_free(&column);
@@ -98,8 +99,13 @@ START_TEST(arguments_out_of_range)
 {
     static uint8_t data[4], out[4];
     static uint16_t column[4];
-    static const drogue_image bad[] = {{data, 0, 1, 1}, {data, 1, 0, 1},  {data, -1, 1, 1}, {data, 1, -1, 1},
-                                       {data, 2, 2, 1}, {NULL, 2, 2, 2},  {data, DROGUE_MAX_SIDE + 1, 1, DROGUE_MAX_SIDE + 1},
+    static const drogue_image bad[] = {{data, 0, 1, 1},
+                                       {data, 1, 0, 1},
+                                       {data, -1, 1, 1},
+                                       {data, 1, -1, 1},
+                                       {data, 2, 2, 1},
+                                       {NULL, 2, 2, 2},
+                                       {data, DROGUE_MAX_SIDE + 1, 1, DROGUE_MAX_SIDE + 1},
                                        {data, 1, DROGUE_MAX_SIDE + 1, 1}};
     size_t i;
     for (i = 0; i < sizeof bad / sizeof bad[0]; i++) {

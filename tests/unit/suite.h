@@ -37,11 +37,11 @@ static inline int suite_run(const char *name, const TTest *const *tests, size_t 
 }
 
 /* main() of a suite; the arguments are its tests. */
-#define SUITE_MAIN(name, ...)                                            \
-    int main(void)                                                       \
-    {                                                                    \
-        const TTest *const tests[] = {__VA_ARGS__};                      \
-        return suite_run(name, tests, sizeof tests / sizeof tests[0]);   \
+#define SUITE_MAIN(name, ...)                                          \
+    int main(void)                                                     \
+    {                                                                  \
+        const TTest *const tests[] = {__VA_ARGS__};                    \
+        return suite_run(name, tests, sizeof tests / sizeof tests[0]); \
     }
 
 #endif

@@ -6,7 +6,8 @@
 #include "geometry.h"
 
 /* Distorted position of the normalised (x, y) and the Jacobian xx xy yx yy. */
-static void model_distort(long double out[2], long double jacobian[4], const drogue_camera *c, long double x, long double y)
+static void model_distort(long double out[2], long double jacobian[4], const drogue_camera *c, long double x,
+                          long double y)
 {
     long double k1 = c->k1_q16 / 65536.0L, k2 = c->k2_q16 / 65536.0L, k3 = c->k3_q16 / 65536.0L;
     long double p1 = c->p1_q16 / 65536.0L, p2 = c->p2_q16 / 65536.0L, r2 = x * x + y * y;
@@ -47,7 +48,8 @@ static int model_unfolded(const drogue_camera *c, long double x, long double y)
 /* Ideal normalised position of the seen pixel by Newton's method from there; 0 where the map folds on the way. */
 static int model_undistort(long double out[2], const drogue_camera *c, drogue_q16 u, drogue_q16 v)
 {
-    long double sx = ((long double)u - c->cx_px_q16) / c->fx_px_q16, sy = ((long double)v - c->cy_px_q16) / c->fy_px_q16;
+    long double sx = ((long double)u - c->cx_px_q16) / c->fx_px_q16,
+                sy = ((long double)v - c->cy_px_q16) / c->fy_px_q16;
     long double x = sx, y = sy, d[2], j[4];
     int step;
     for (step = 0; step < 60; step++) {
@@ -103,7 +105,8 @@ static void measure_errors(double *forth, double *back, double least_focal, doub
         }
     }
     ck_assert_int_gt(inverted, 100000);
-    MUST(refused == 0, "%d of %d inversions refused; errors %.3f and %.3f LSB", refused, refused + inverted, *forth, *back);
+    MUST(refused == 0, "%d of %d inversions refused; errors %.3f and %.3f LSB", refused, refused + inverted, *forth,
+         *back);
 }
 
 START_TEST(usual_cameras)

@@ -34,10 +34,7 @@ static inline test_workspace test_workspace_ample(int32_t width_px, int32_t heig
     return test_workspace_of((uint32_t)width_px, pixels, pixels + 2u, pixels);
 }
 
-static inline void test_workspace_free(test_workspace *t)
-{
-    guarded_free(&t->memory);
-}
+static inline void test_workspace_free(test_workspace *t) { guarded_free(&t->memory); }
 
 static inline drogue_status frontend_run(drogue_edge_list *list, drogue_workspace *workspace,
                                          const drogue_frontend_config *config, const uint8_t *pixels, int32_t width_px,

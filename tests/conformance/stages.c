@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Table of the stages, check of their inputs, and the guarded static memory they run in. */
+#include "stage_run.h"
+
+#include <string.h>
+
+/* --- memory: one block, cut into buffers with a guard behind each --- */
+
+#define GUARD_BYTES 16u
+#define GUARD_SLACK (STAGE_MAX_BUFFERS * (GUARD_BYTES + 8u))
+#define ARCS_BYTES                                                                                   \
+    (DROGUE_WORKSPACE_BYTES(DROGUE_MAX_SIDE, CONF_MAX_EDGES, CONF_MAX_LABELS, CONF_MAX_ARCS) + 12u + \
+     CONF_MAX_EDGES * 32u)
+#define GRADIENT_BYTES (CONF_MAX_PIXELS * 6u)
+#define MEMORY_BYTES ((ARCS_BYTES > GRADIENT_BYTES ? ARCS_BYTES : GRADIENT_BYTES) + GUARD_SLACK)
+
+static union {
+    int64_t align;
+    uint8_t bytes[MEMORY_BYTES];
+} memory;
+
+static uint8_t guard_byte(size_t offset) { return (uint8_t)(0xA5u ^ (offset & 0xFFu)); }
+
+void *stage_take(stage_run *r, size_t bytes)
+{
+    uint8_t *at = memory.bytes + r->used;
+    size_t end;
+    size_t k;
+    if (r->guard_count == STAGE_MAX_BUFFERS || bytes > MEMORY_BYTES ||
+        r->used + bytes + GUARD_BYTES + 7u > MEMORY_BYTES) {
+        return NULL;
+    }
+    memset(at, 0x5A, bytes);
+    end = r->used + bytes;
+    r->guard[r->guard_count++] = end;
+    for (k = end; k < end + GUARD_BYTES; k++) {
+        memory.bytes[k] = guard_byte(k);
+    }
+    r->used = (end + GUARD_BYTES + 7u) & ~(size_t)7u;
+    return at;
+}
+
+static int guards_hold(const stage_run *r)
+{
+    int i;
+    size_t k;
+    for (i = 0; i < r->guard_count; i++) {
+        for (k = r->guard[i]; k < r->guard[i] + GUARD_BYTES; k++) {
+            if (memory.bytes[k] != guard_byte(k)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+int stage_workspace(stage_run *r, drogue_workspace *workspace, int32_t width_px)
+{
+    drogue_capacity capacity = {0, CONF_MAX_EDGES, CONF_MAX_LABELS, CONF_MAX_ARCS};
+    size_t bytes;
+    void *block;
+    if (width_px < 1 || width_px > DROGUE_MAX_SIDE) {
+        width_px = DROGUE_MAX_SIDE;
+    }
+    capacity.width_px = (uint32_t)width_px;
+    bytes = drogue_workspace_bytes(&capacity); /* no more than it needs: the guard is right behind */
+    block = stage_take(r, bytes);
+    return block != NULL && drogue_workspace_init(workspace, block, bytes, &capacity) == DROGUE_OK;
+}
+
+/* --- inputs and outputs --- */
+
+static void *new_output(stage_run *r, const conf_array *like)
+{
+    void *data = r->out_count < r->out_capacity ? stage_take(r, like->count * (size_t)(like->bits / 8)) : NULL;
+    if (data != NULL) {
+        conf_array *o = &r->out[r->out_count++];
+        *o = *like;
+        o->data = data;
+    }
+    return data;
+}
+
+void *stage_output(stage_run *r, const char *name, int bits, size_t count)
+{
+    conf_array like = {NULL, 0, 0, NULL, 0, 0};
+    like.name = name;
+    like.bits = bits;
+    like.count = count;
+    return new_output(r, &like);
+}
+
+int32_t *stage_output32(stage_run *r, const char *name, size_t count)
+{
+    int32_t *data = (int32_t *)stage_output(r, name, 32, count);
+    if (data != NULL) {
+        memset(data, 0, count * sizeof *data);
+    }
+    return data;
+}
+
+uint8_t *stage_output_image(stage_run *r, const char *name, int32_t width_px, int32_t height_px)
+{
+    conf_array like = {NULL, 8, 0, NULL, 0, 0};
+    like.name = name;
+    like.count = (size_t)width_px * (size_t)height_px;
+    like.width_px = width_px;
+    like.height_px = height_px;
+    return (uint8_t *)new_output(r, &like);
+}
+
+const int32_t *stage_input32(const stage_run *r, int i) { return (const int32_t *)r->in[i].data; }
+
+drogue_image stage_input_image(const stage_run *r)
+{
+    drogue_image image;
+    image.data = (const uint8_t *)r->in[0].data;
+    image.width_px = r->in[0].width_px;
+    image.height_px = r->in[0].height_px;
+    image.stride = image.width_px;
+    return image;
+}
+
+drogue_ellipse stage_ellipse(const int32_t *words)
+{
+    drogue_ellipse e;
+    e.xc_px_q16 = words[0];
+    e.yc_px_q16 = words[1];
+    e.a_px_q16 = words[2];
+    e.b_px_q16 = words[3];
+    e.angle_rad_q16 = words[4];
+    return e;
+}
+
+int stage_angle_valid(const drogue_ellipse *e)
+{
+    return e->angle_rad_q16 >= -DROGUE_Q16_HALF_PI && e->angle_rad_q16 <= DROGUE_Q16_HALF_PI;
+}
+
+drogue_camera stage_camera(const int32_t *words)
+{
+    drogue_camera c;
+    c.fx_px_q16 = words[0];
+    c.fy_px_q16 = words[1];
+    c.cx_px_q16 = words[2];
+    c.cy_px_q16 = words[3];
+    c.k1_q16 = words[4];
+    c.k2_q16 = words[5];
+    c.p1_q16 = words[6];
+    c.p2_q16 = words[7];
+    c.k3_q16 = words[8];
+    return c;
+}
+
+int32_t *stage_put_ellipse(int32_t *at, const drogue_ellipse *e)
+{
+    at[0] = e->xc_px_q16;
+    at[1] = e->yc_px_q16;
+    at[2] = e->a_px_q16;
+    at[3] = e->b_px_q16;
+    at[4] = e->angle_rad_q16;
+    return at + 5;
+}
+
+int32_t *stage_put_pose(int32_t *at, const drogue_pose *p)
+{
+    int k;
+    for (k = 0; k < 3; k++) {
+        at[k] = p->position_m_q16[k];
+        at[3 + k] = p->axis_q16[k];
+    }
+    at[6] = p->yaw_rad_q16;
+    at[7] = p->pitch_rad_q16;
+    return at + 8;
+}
+
+int stage_mask(drogue_mask *mask, const int32_t *words)
+{
+    const int32_t far_px = 1 << 22;
+    mask->centre2_x = words[0];
+    mask->centre2_y = words[1];
+    mask->longest_px = words[2];
+    return words[0] >= -far_px && words[0] <= far_px && words[1] >= -far_px && words[1] <= far_px && words[2] >= 0 &&
+           words[2] <= 1 << 20;
+}
+
+/* --- table of the stages --- */
+
+/* An input: an image (bits 0), a fixed number of words, or a list of items of 'words' words each. */
+typedef struct input_spec {
+    const char *name;
+    int bits;
+    uint32_t words;
+    int list;
+} input_spec;
+
+typedef struct stage_spec {
+    const char *name;
+    int (*run)(stage_run *r);
+    input_spec inputs[CONF_MAX_INPUTS];
+} stage_spec;
+
+static const stage_spec stages[] = {
+    {"smooth", stage_smooth, {{"image", 0, 0, 0}}},
+    {"gradient", stage_gradient, {{"image", 0, 0, 0}}},
+    {"canny", stage_canny, {{"image", 0, 0, 0}, {"params", 32, 3, 0}}},
+    {"mask", stage_mask_images, {{"params", 32, 5, 0}}},
+    {"arcs", stage_arcs, {{"image", 0, 0, 0}, {"params", 32, 8, 0}}},
+    {"constraints", stage_constraints, {{"points", 16, 2, 1}, {"params", 32, 5, 0}}},
+    {"ellipse", stage_ellipse_fit, {{"points", 16, 2, 1}, {"params", 32, 1, 0}}},
+    {"quality", stage_quality, {{"ellipse", 32, 5, 0}, {"points", 32, 2, 1}, {"params", 32, 3, 0}}},
+    {"cluster", stage_cluster, {{"candidates", 32, 7, 1}, {"config", 32, 5, 0}}},
+    {"centroid", stage_centroid, {{"image", 0, 0, 0}, {"params", 32, 4, 0}}},
+    {"eigen", stage_eigen, {{"matrix", 64, 6, 0}}},
+    {"undistort", stage_undistort, {{"camera", 32, 9, 0}, {"points", 32, 2, 1}}},
+    {"pose", stage_pose, {{"ellipse", 32, 5, 0}, {"camera", 32, 9, 0}, {"params", 32, 4, 0}}},
+    {"kalman", stage_kalman, {{"params", 32, 26, 0}, {"frames", 32, 10, 1}}},
+    {"frame", stage_frame, {{"image", 0, 0, 0}, {"camera", 32, 9, 0}, {"model", 32, 3, 0}, {"region", 32, 4, 0}}},
+};
+
+int conf_stage_count(void) { return (int)(sizeof stages / sizeof stages[0]); }
+
+const char *conf_stage_name(int i) { return i >= 0 && i < conf_stage_count() ? stages[i].name : NULL; }
+
+static int input_meets(const conf_array *a, const input_spec *spec)
+{
+    if (strcmp(a->name, spec->name) != 0) {
+        return 0;
+    }
+    if (spec->bits == 0) {
+        return a->bits == 8 && a->width_px >= 1 && a->width_px <= DROGUE_MAX_SIDE && a->height_px >= 1 &&
+               a->height_px <= DROGUE_MAX_SIDE && a->count == (size_t)a->width_px * (size_t)a->height_px;
+    }
+    if (a->bits != spec->bits || a->width_px != 0 || a->height_px != 0) {
+        return 0;
+    }
+    return spec->list ? a->count % spec->words == 0 : a->count == spec->words;
+}
+
+static int inputs_meet(const conf_array *inputs, int count, const stage_spec *spec)
+{
+    int i;
+    for (i = 0; i < CONF_MAX_INPUTS && spec->inputs[i].name != NULL; i++) {
+        if (i >= count || !input_meets(&inputs[i], &spec->inputs[i])) {
+            return 0;
+        }
+    }
+    return i == count;
+}
+
+int conf_run_stage(const char *stage, const conf_array *inputs, int input_count, conf_array *outputs,
+                   int output_capacity)
+{
+    stage_run r;
+    int failure;
+    int i;
+    for (i = 0; i < conf_stage_count() && strcmp(stages[i].name, stage) != 0; i++) {}
+    if (i == conf_stage_count() || !inputs_meet(inputs, input_count, &stages[i])) {
+        return CONF_E_MALFORMED;
+    }
+    memset(&r, 0, sizeof r);
+    r.in = inputs;
+    r.out = outputs;
+    r.out_capacity = output_capacity;
+    failure = stages[i].run(&r);
+    if (!guards_hold(&r)) {
+        return CONF_E_GUARD;
+    }
+    return failure != 0 ? failure : r.out_count;
+}
+
+const char *conf_failure_text(int failure)
+{
+    switch (failure) {
+    case CONF_E_MALFORMED: return "inputs are not what the stage takes";
+    case CONF_E_MEMORY: return "inputs need more than the runner's memory";
+    case CONF_E_GUARD: return "the library wrote behind a buffer";
+    default: return "unknown failure";
+    }
+}

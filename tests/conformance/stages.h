@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Every stage of the library as a function from arrays of words to arrays of words: what the golden vectors hold.
+ * Static memory only, no operating system: the same file runs on the host and on a bare target. */
+#ifndef DROGUE_TESTS_STAGES_H
+#define DROGUE_TESTS_STAGES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Capacity of the workspace that the stages run in. A frame that needs more is answered with a 'full' status,
+ * which the vectors hold: a port that is checked with them needs the same capacity. */
+#define CONF_MAX_EDGES 16384
+#define CONF_MAX_LABELS 8192
+#define CONF_MAX_ARCS 1024
+#define CONF_MAX_PIXELS 65536 /* image of the stages that write one: smooth, gradient, canny, mask */
+#define CONF_MAX_CANDIDATES 64
+
+/* Array of words: input of a stage, its output, or an expected output. */
+typedef struct conf_array {
+    const char *name;
+    int bits;     /* 8, 16, 32 or 64: 'data' is an array of intN_t, two's complement; an image: of uint8_t */
+    size_t count; /* words */
+    const void *data;
+    int32_t width_px; /* image: both > 0, rows adjacent, count = width * height; else both 0 */
+    int32_t height_px;
+} conf_array;
+
+/* Word i, extended to 64 bits: grey levels without sign, all others with theirs. */
+static inline int64_t conf_word(const conf_array *a, size_t i)
+{
+    switch (a->bits) {
+    case 8: return a->width_px > 0 ? (int64_t)((const uint8_t *)a->data)[i] : (int64_t)((const int8_t *)a->data)[i];
+    case 16: return ((const int16_t *)a->data)[i];
+    case 32: return ((const int32_t *)a->data)[i];
+    default: return ((const int64_t *)a->data)[i];
+    }
+}
+
+/* Failures of the adapter itself, all negative. What the library answers is a word of the output. */
+enum {
+    CONF_E_MALFORMED = -1, /* unknown stage; name, width, number of words or range of an input */
+    CONF_E_MEMORY = -2,    /* inputs need more than the static memory */
+    CONF_E_GUARD = -3      /* the library wrote behind a buffer */
+};
+
+#define CONF_MAX_INPUTS 4
+#define CONF_MAX_OUTPUTS 4
+
+/* Run a stage. All words are 32 bits wide where no width is given; Q16 where no format is given.
+ *
+ *  outputs  out, in the order below; names and widths set; data valid until the next call
+ *  return   number of outputs, or CONF_E_*
+ *
+ * A failed status leaves the other words of its output 0 (centroid: but the threshold), unless said otherwise.
+ *
+ *  stage        inputs -> outputs
+ *  smooth       image -> image
+ *  gradient     image -> gx (16 bits), gy (16 bits): grey levels * 8, y down, raster order
+ *  canny        image; params: low high smooth -> map (image: 255 on edges)
+ *  mask         params: width height centre2_x centre2_y longest -> ring (image: 255 inside), disc (image)
+ *  arcs         image; params: low high smooth use_ring centre2_x centre2_y longest min_arc_px
+ *               -> arcs: status edge_count arc_count, then per edge point x_px y_px class arc (-1: none);
+ *                  edges: per edge point x_q5 y_q5 gx gy; points by arc, each in raster order, then the rest in raster order
+ *  constraints  points (16 bits): x y, px, raster order; params: centre2_x centre2_y longest class min_short
+ *               -> verdict: xc yc short long (Q16), quadrant (-1: rejected), polarity (2: rejected);
+ *                  distance2 (64 bits, px^2 Q32)
+ *  ellipse      points (16 bits): x y, unit 2^-frac_bits px; params: frac_bits -> ellipse: status xc yc a b angle
+ *  quality      ellipse: xc yc a b angle; points: x y; params: fit_error k1 k2
+ *               -> quality: threshold circumference, deviation of each point (0 when the status is not OK), then
+ *                  fit_ratio length_ratio axis_ratio score reliability; status: of drogue_ellipse_frame_of()
+ *  cluster      candidates: xc yc a b angle reliability polarity each; config: centre a b angle round
+ *               -> winner: index members
+ *  centroid     image; params: centre2_x centre2_y longest min_area -> part: status threshold area x y
+ *  eigen        matrix (64 bits): a00 a01 a02 a11 a12 a22
+ *               -> values: 3, matrix's unit * 2^30; vectors: 3 x 3, Q30; full (64 bits): both unrounded, vectors Q60
+ *  undistort    camera: fx fy cx cy k1 k2 p1 p2 k3; points: x y
+ *               -> undistorted: status x y each; distorted: status x y each; on failure x y as given
+ *  pose         ellipse; camera; params: radius depth inner_x inner_y
+ *               -> pose: status, twice (position 3, axis 3, yaw, pitch), choice, distance 2, ambiguity; a failed
+ *                  choice (behind the camera) leaves the poses
+ *  kalman       params: dt_us, process std 5, start std 5 x (value rate acceleration), start value 5;
+ *               frames: value 5, std 5 each (all five std 0: frame missed, predicted only)
+ *               -> states: per frame value 5, rate 5, acceleration 5; parameters in the order x y z pitch yaw
+ *  frame        image; camera; model: rim_radius inner_radius inner_depth; region: x y width height (px);
+ *               default thresholds
+ *               -> frame: status, ellipse 5, ideal 5, polarity, bit set of quadrants with an arc, refit_points,
+ *                  has_inner, inner x y area threshold, pose 8, alternative 8, resolved, ambiguity;
+ *                  detail: region 4, edge_count arc_count, arc of each quadrant (-1: none),
+ *                  fit_ratio length_ratio axis_ratio score reliability, members, cover;
+ *                  whatever is known for every status
+ */
+int conf_run_stage(const char *stage, const conf_array *inputs, int input_count, conf_array *outputs,
+                   int output_capacity);
+
+/* Number of stages; name of stage i in the order above, NULL beyond the last. */
+int conf_stage_count(void);
+const char *conf_stage_name(int i);
+
+/* What a CONF_E_* says, a short phrase. */
+const char *conf_failure_text(int failure);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,208 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Do the golden vectors notice a wrong bit? Builds the core once per entry of list.txt with that one change in it, runs the
+# vectors, and counts the changes that make a case fail.
+set -uo pipefail
+root=$(cd "$(dirname "$0")/../.." && pwd)
+list=$root/tests/mutants/list.txt
+work=${DROGUE_MUTANTS_DIR:-$root/build/mutants}
+jobs=${DROGUE_MUTANTS_JOBS:-$(nproc)}
+least_percent=95
+compile=(gcc -O1 -std=c99 -I "$root/include" -I "$root/tests/conformance")
+
+usage() {
+    cat <<'END'
+usage: tests/mutants/mutants.sh [--check] [NAME...]
+
+Without NAME: every mutant of list.txt; --check: only see that each entry still fits its file.
+Exit status 0 when at least 95 % are caught, every survivor has its reason in the list, and no entry is stale.
+Works in build/mutants (DROGUE_MUTANTS_DIR) with as many jobs as processors (DROGUE_MUTANTS_JOBS).
+END
+}
+
+names=()
+declare -A file old new what survives
+
+# read_list: the entries of list.txt, whose format is described at its head
+read_list() {
+    local line key value name="" number=0
+    while IFS= read -r line; do
+        number=$((number + 1))
+        [[ -z $line || $line == '#'* ]] && continue
+        key=${line%%: *}
+        value=${line#*: }
+        case $key in
+        name)
+            name=$value
+            if [ -n "${file[$name]+set}" ]; then
+                stale "$name: twice in the list"
+            fi
+            names+=("$name")
+            file[$name]="" old[$name]="" new[$name]="" what[$name]="" survives[$name]=""
+            ;;
+        file) file[$name]=$value ;;
+        old) old[$name]=$value ;;
+        new) new[$name]=$value ;;
+        what) what[$name]=$value ;;
+        survives) survives[$name]=$value ;;
+        *) stale "line $number: '$line'" ;;
+        esac
+    done <"$list"
+}
+
+errors=0
+stale() {
+    echo "mutants: list.txt: $*" >&2
+    errors=$((errors + 1))
+}
+
+# check_entry NAME: complete, and its old text in its file exactly once
+check_entry() {
+    local text rest path=$root/${file[$1]}
+    if [ -z "${file[$1]}" ] || [ -z "${old[$1]}" ] || [ -z "${new[$1]}" ] || [ -z "${what[$1]}" ] || [ ! -f "$path" ]; then
+        stale "$1: needs an existing file, old, new and what"
+        return
+    fi
+    text=$(<"$path")
+    rest=${text#*"${old[$1]}"}
+    if [ "$rest" = "$text" ]; then
+        stale "$1: ${file[$1]} does not have '${old[$1]}'"
+    elif [[ $rest == *"${old[$1]}"* ]]; then
+        stale "$1: ${file[$1]} has '${old[$1]}' more than once"
+    fi
+}
+
+# build_base: objects of the unchanged core with their dependencies, the conformance run, the vectors; their digest
+build_base() {
+    local source
+    rm -rf "$work"
+    mkdir -p "$work/core" "$work/rest"
+    "$root/tests/matrix/embed.sh" "$work/cases" || return 1
+    for source in "$root"/src/*.c; do
+        echo "-MMD -c $source -o $work/core/$(basename "$source" .c).o"
+    done >"$work/jobs"
+    for source in "$work"/cases/*.c; do
+        echo "-O0 -c $source -o $work/rest/$(basename "$source" .c).o"
+    done >>"$work/jobs"
+    for source in "$root"/tests/conformance/{stages*,sha256,conformance,embedded_main}.c; do
+        echo "-MMD -c $source -o $work/rest/$(basename "$source" .c).o"
+    done >>"$work/jobs"
+    xargs -P "$jobs" -L 1 "${compile[@]}" <"$work/jobs" || return 1
+    gcc "$work"/core/*.o "$work"/rest/*.o -o "$work/base" || return 1
+    local begin=$SECONDS
+    "$work/base" >"$work/base.log" || return 1
+    most_s=$((10 * (SECONDS - begin) + 20))
+    digest=$(tail -n 1 "$work/base.log")
+    digest=${digest##*digest=}
+}
+
+# users OBJECT_FOLDER FILE: the objects there that depend on a file of the core
+users() {
+    local dependencies
+    for dependencies in "$1"/*.d; do
+        if tr -s ' \\\n' '\n' <"$dependencies" | grep -qxF "$root/$2"; then
+            basename "$dependencies" .d
+        fi
+    done
+}
+
+# do_mutant NAME: leaves 'verdict|cases that fail|stages' in its folder
+do_mutant() {
+    local dir=$work/mutants/$1 path=${file[$1]} text name source status=0 last verdict
+    local overlay=$dir/tree objects=$dir/objects
+    mkdir -p "$objects" "$overlay/$(dirname "$path")"
+    text=$(<"$root/$path")
+    printf '%s\n' "${text%%"${old[$1]}"*}${new[$1]}${text#*"${old[$1]}"}" >"$overlay/$path"
+    cp -rs "$work/core" "$work/rest" "$objects"
+    for name in $(users "$work/core" "$path"); do
+        source=$root/src/$name.c
+        [ "$path" = "src/$name.c" ] && source=$overlay/$path
+        rm "$objects/core/$name.o"
+        "${compile[0]}" -I "$overlay/include" "${compile[@]:1}" -c "$source" -o "$objects/core/$name.o" || status=1
+    done >"$dir/build.log" 2>&1
+    for name in $(users "$work/rest" "$path"); do
+        rm "$objects/rest/$name.o"
+        "${compile[0]}" -I "$overlay/include" "${compile[@]:1}" -c "$root/tests/conformance/$name.c" \
+            -o "$objects/rest/$name.o" || status=1
+    done >>"$dir/build.log" 2>&1
+    if [ $status -ne 0 ] || ! gcc "$objects"/core/*.o "$objects"/rest/*.o -o "$dir/image" 2>>"$dir/build.log"; then
+        echo "does not build|-|-" >"$dir/result"
+        return
+    fi
+    timeout "$most_s" "$dir/image" >"$dir/log" 2>&1 || status=$?
+    last=$(tail -n 1 "$dir/log" | grep -a '^conformance: ')
+    if [ $status -eq 124 ]; then
+        verdict="caught: does not end"
+    elif [ -z "$last" ]; then
+        verdict="caught: stops with $status"
+    elif [ $status -eq 0 ] && [ "${last##*digest=}" = "$digest" ]; then
+        verdict="survives"
+    else
+        verdict="caught"
+    fi
+    echo "$verdict|$(sed -nE 's/.* failed=([0-9]+) .*/\1/p' <<<"$last")|$(grep -a '^FAIL ' "$dir/log" |
+        sed -E 's/^FAIL ([a-z]+).*/\1/' | sort -u | xargs)" >"$dir/result"
+    rm -rf "$objects" "$dir/image"
+}
+
+report() {
+    local name verdict cases stages caught=0 survivors=() bad=$errors
+    printf '\n%-26s %-28s %-20s %5s  %s\n' mutant file verdict cases 'stages that notice'
+    for name in "${chosen[@]}"; do
+        IFS='|' read -r verdict cases stages <"$work/mutants/$name/result"
+        case $verdict in
+        caught*)
+            caught=$((caught + 1))
+            if [ -n "${survives[$name]}" ]; then
+                verdict="$verdict, STALE REASON"
+                bad=$((bad + 1))
+            fi
+            ;;
+        survives)
+            survivors+=("$name")
+            stages="${what[$name]}; ${survives[$name]:-NO REASON}"
+            [ -n "${survives[$name]}" ] || bad=$((bad + 1))
+            ;;
+        *) bad=$((bad + 1)) ;;
+        esac
+        printf '%-26s %-28s %-20s %5s  %s\n' "$name" "${file[$name]}" "$verdict" "$cases" "$stages"
+    done
+    echo "mutants: total=${#chosen[@]} caught=$caught survivors=$(IFS=,; echo "${survivors[*]:-none}") seconds=$SECONDS"
+    [ $bad -eq 0 ] && [ $((100 * caught)) -ge $((least_percent * ${#chosen[@]})) ]
+}
+
+only_check=""
+chosen=()
+for argument in "$@"; do
+    case $argument in
+    --check) only_check=yes ;;
+    -h | --help) usage && exit ;;
+    -*) usage >&2 && exit 2 ;;
+    *) chosen+=("$argument") ;;
+    esac
+done
+read_list
+for name in "${names[@]}"; do
+    check_entry "$name"
+done
+[ $errors -eq 0 ] || exit 1
+if [ -n "$only_check" ]; then
+    echo "mutants: all ${#names[@]} entries fit"
+    exit
+fi
+[ ${#chosen[@]} -gt 0 ] || chosen=("${names[@]}")
+for name in "${chosen[@]}"; do
+    [ -n "${file[$name]+set}" ] || { echo "mutants: no entry '$name'" >&2 && exit 2; }
+done
+if ! build_base; then
+    echo "mutants: the unchanged core does not build or does not pass" >&2
+    exit 1
+fi
+for name in "${chosen[@]}"; do
+    while [ "$(jobs -rp | wc -l)" -ge "$jobs" ]; do
+        wait -n
+    done
+    do_mutant "$name" &
+done
+wait
+report

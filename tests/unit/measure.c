@@ -1,0 +1,346 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A whole frame: drawn drogues are measured, and every documented failure is provoked. */
+#include "suite.h"
+
+#include "drogue/drogue.h"
+#include "geometry.h"
+#include "workspace.h"
+
+enum { WIDTH = 320, HEIGHT = 280, FINE = 4 };
+
+typedef struct scene {
+    double position[3], yaw, pitch;
+    double outside, canopy, inside; /* grey levels */
+} scene;
+
+static const drogue_model model = {22938, 13107, 16384}; /* 0.35 m, 0.2 m, 0.25 m behind the end plane */
+static const drogue_region whole = {0, 0, WIDTH, HEIGHT};
+static uint8_t pixels[WIDTH * HEIGHT];
+static const drogue_image image = {pixels, WIDTH, HEIGHT, WIDTH};
+
+static drogue_camera the_camera(void) { return pinhole(1465.5, 1465.5, 160, 140); }
+
+/* Does the ray meet the disc of a radius about 'centre' across 'axis'? */
+static int hits(const double ray[3], const double centre[3], const double axis[3], double radius)
+{
+    double t = dot3(axis, centre) / dot3(axis, ray), d[3];
+    int k;
+    for (k = 0; k < 3; k++) {
+        d[k] = t * ray[k] - centre[k];
+    }
+    return dot3(d, d) <= radius * radius;
+}
+
+static void draw(const scene *s)
+{
+    double axis[3], inner[3], f = 1465.5;
+    int32_t x, y, k;
+    axis_of_angles(axis, s->yaw, s->pitch);
+    for (k = 0; k < 3; k++) {
+        inner[k] = s->position[k] + 0.25 * axis[k];
+    }
+    for (y = 0; y < HEIGHT; y++) {
+        for (x = 0; x < WIDTH; x++) {
+            double sum = 0;
+            for (k = 0; k < FINE * FINE; k++) {
+                double u = x + (k % FINE + 0.5) / FINE - 0.5, v = y + (k / FINE + 0.5) / FINE - 0.5, ray[3] = {0, 0, 1};
+                ray[0] = (u - 160) / f;
+                ray[1] = (v - 140) / f;
+                sum += !hits(ray, s->position, axis, 0.35) ? s->outside
+                       : hits(ray, inner, axis, 0.2)       ? s->inside
+                                                           : s->canopy;
+            }
+            pixels[y * WIDTH + x] = (uint8_t)(sum / (FINE * FINE) + 0.5);
+        }
+    }
+}
+
+static const scene usual = {{0.01, -0.02, 4.4}, 0.2, -0.1, 200, 110, 10};
+
+static test_workspace usual_workspace(void) { return test_workspace_of(WIDTH, 8192, 4096, 512); }
+
+static drogue_status measure(drogue_result *out, test_workspace *t, const drogue_config *config, const drogue_model *m,
+                             const drogue_region *region)
+{
+    const drogue_camera camera = the_camera();
+    drogue_status status;
+    memset(out, 0x5A, sizeof *out);
+    status = drogue_measure(out, &t->workspace, config, &camera, m, &image, region);
+    MUST(status == out->status, "status returned and status noted differ");
+    MUST(guarded_intact(&t->memory), "wrote outside the workspace");
+    return status;
+}
+
+START_TEST(drawn_drogues)
+{
+    uint64_t rng = 1;
+    int i;
+    for (i = 0; i < 24; i++) {
+        scene s = usual;
+        test_workspace t = usual_workspace();
+        drogue_config config;
+        drogue_result r;
+        drogue_region region;
+        double axis[3], d2 = 0, cosine = 0;
+        int k;
+        s.position[0] = rng_real(&rng, -0.04, 0.04);
+        s.position[2] = rng_real(&rng, 4.2, 7);
+        s.yaw = rng_real(&rng, -0.35, 0.35);
+        s.pitch = rng_real(&rng, -0.35, 0.35);
+        if (i & 1) { /* bright canopy on a dark ground */
+            s.outside = 40;
+            s.canopy = 160;
+        }
+        draw(&s);
+        region.width_px = region.height_px = (int32_t)(2.5 * 1465.5 * 0.35 / s.position[2]);
+        region.x_px = (int32_t)(160 + 1465.5 * s.position[0] / s.position[2]) - region.width_px / 2;
+        region.y_px = (int32_t)(140 + 1465.5 * s.position[1] / s.position[2]) - region.width_px / 2;
+        drogue_config_default(&config);
+        MUST(measure(&r, &t, &config, &model, &region) == DROGUE_OK, "case %d: %s", i, drogue_status_name(r.status));
+        MUST((int)r.polarity == (i & 1), "case %d: polarity", i);
+        MUST(r.has_inner && r.orientation_resolved, "case %d: orientation not resolved", i);
+        axis_of_angles(axis, s.yaw, s.pitch);
+        for (k = 0; k < 3; k++) {
+            double d = real_of_q16(r.pose.position_m_q16[k]) - s.position[k];
+            d2 += d * d;
+            cosine += axis[k] * real_of_q16(r.pose.axis_q16[k]);
+        }
+        MUST(sqrt(d2) < 0.005 * s.position[2], "case %d: position off by %g m", i, sqrt(d2));
+        MUST(acos(fmin(1, cosine)) < 0.04, "case %d: axis off by %g rad", i, acos(fmin(1, cosine)));
+        MUST(memcmp(&r.ideal, &r.ellipse, sizeof r.ideal) == 0, "case %d: no distortion, but another ellipse", i);
+        test_workspace_free(&t);
+    }
+}
+END_TEST
+
+START_TEST(without_inner_part)
+{
+    test_workspace t = usual_workspace();
+    drogue_model no_inner = model;
+    drogue_config config;
+    drogue_result r;
+    no_inner.inner_radius_m_q16 = 0;
+    draw(&usual);
+    drogue_config_default(&config);
+    ck_assert_int_eq(measure(&r, &t, &config, &no_inner, &whole), DROGUE_OK);
+    ck_assert_int_eq(r.has_inner, 0);
+    ck_assert_int_eq(r.orientation_resolved, 0);
+    ck_assert_int_eq(r.ambiguity_q16, 65536);
+    ck_assert_int_ne(memcmp(&r.pose, &r.alternative, sizeof r.pose), 0);
+    ck_assert(r.inner.x_px_q16 == 0 && r.inner.y_px_q16 == 0 && r.inner.area_px == 0);
+    config.min_dark_area_px = 1000000; /* known, but not found */
+    ck_assert_int_eq(measure(&r, &t, &config, &model, &whole), DROGUE_OK);
+    ck_assert_int_eq(r.has_inner, 0);
+    ck_assert_int_eq(r.orientation_resolved, 0);
+    ck_assert(r.inner.x_px_q16 == 0 && r.inner.y_px_q16 == 0 && r.inner.area_px == 0);
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* A region that is a part of the image, and one that reaches past it, see the same drogue. */
+START_TEST(regions_of_one_image)
+{
+    static const drogue_region regions[] = {
+        {12, -6, 300, 280}, {10, -10, 300, 300}, {-5, -25, 330, 330}, {14, -16, 300, 296}};
+    test_workspace t = usual_workspace();
+    drogue_config config;
+    drogue_result r, base;
+    size_t i;
+    draw(&usual);
+    drogue_config_default(&config);
+    ck_assert_int_eq(measure(&base, &t, &config, &model, &whole), DROGUE_OK);
+    for (i = 0; i < sizeof regions / sizeof regions[0]; i++) {
+        ck_assert_int_eq(measure(&r, &t, &config, &model, &regions[i]), DROGUE_OK);
+        ck_assert_int_le(abs(r.ellipse.xc_px_q16 - base.ellipse.xc_px_q16), 1000);
+        ck_assert_int_le(abs(r.ellipse.yc_px_q16 - base.ellipse.yc_px_q16), 1000);
+        ck_assert_int_le(abs(r.ellipse.a_px_q16 - base.ellipse.a_px_q16), 1000);
+        ck_assert_int_ge(r.region.x_px, 0);
+        ck_assert_int_ge(r.region.y_px, 0);
+        ck_assert_int_le(r.region.x_px + r.region.width_px, WIDTH);
+        ck_assert_int_le(r.region.y_px + r.region.height_px, HEIGHT);
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* A drogue half out of the image: the ring stays about the middle of the region asked for. */
+START_TEST(ring_of_a_clipped_region)
+{
+    static const drogue_region asked = {-60, -20, 320, 320};
+    const drogue_mask ring = drogue_mask_of_size(asked.width_px, asked.height_px);
+    test_workspace t = usual_workspace();
+    drogue_config config;
+    drogue_result r;
+    scene s = usual;
+    uint32_t i;
+    s.position[0] = -0.18;
+    draw(&s);
+    drogue_config_default(&config);
+    ck_assert_int_eq(measure(&r, &t, &config, &model, &asked), DROGUE_OK);
+    ck_assert(r.region.x_px == 0 && r.region.y_px == 0 && r.region.width_px == 260 && r.region.height_px == HEIGHT);
+    ck_assert(fabs(real_of_q16(r.pose.position_m_q16[0]) + 0.18) < 0.005);
+    for (i = 0; i < r.list.edge_count; i++) {
+        const drogue_edge *e = &t.workspace.edges[i];
+        MUST(drogue_mask_in_ring(&ring, drogue_edge_x_px(e) + 60, drogue_edge_y_px(e) + 20), "point %u", (unsigned)i);
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+START_TEST(arguments)
+{
+    test_workspace t = usual_workspace();
+    const drogue_camera camera = the_camera();
+    drogue_camera bad_camera = camera;
+    drogue_image bad_image = image;
+    drogue_model bad_model = model;
+    drogue_config config, bad_config;
+    drogue_result r;
+    drogue_config_default(&config);
+    bad_image.data = NULL;
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &config, &camera, &model, &bad_image, &whole), DROGUE_E_ARGUMENT);
+    bad_image = image;
+    bad_image.stride = WIDTH - 1;
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &config, &camera, &model, &bad_image, &whole), DROGUE_E_ARGUMENT);
+    bad_image = image;
+    bad_image.height_px = 0;
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &config, &camera, &model, &bad_image, &whole), DROGUE_E_ARGUMENT);
+    bad_camera.fx_px_q16 = 0;
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &config, &bad_camera, &model, &image, &whole), DROGUE_E_ARGUMENT);
+    bad_model.rim_radius_m_q16 = 0;
+    ck_assert_int_eq(measure(&r, &t, &config, &bad_model, &whole), DROGUE_E_ARGUMENT);
+    bad_model = model;
+    bad_model.inner_radius_m_q16 = -1;
+    ck_assert_int_eq(measure(&r, &t, &config, &bad_model, &whole), DROGUE_E_ARGUMENT);
+    bad_config = config;
+    bad_config.canny_low = bad_config.canny_high + 1;
+    ck_assert_int_eq(measure(&r, &t, &bad_config, &model, &whole), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(r.ambiguity_q16, 65536);
+    ck_assert_uint_eq(r.arcs[3], DROGUE_NO_ARC);
+    ck_assert_int_eq(r.pose.position_m_q16[2], 0);
+    test_workspace_free(&t);
+}
+END_TEST
+
+START_TEST(regions_that_miss)
+{
+    static const drogue_region bad[] = {{0, 0, 0, 10},
+                                        {0, 0, 10, 0},
+                                        {0, 0, -5, 10},
+                                        {WIDTH, 0, 10, 10},
+                                        {0, HEIGHT, 10, 10},
+                                        {-10, 0, 10, 10},
+                                        {0, -10, 10, 10},
+                                        {INT32_MAX, 0, 10, 10},
+                                        {INT32_MIN, INT32_MIN, 10, 10},
+                                        {0, 0, INT32_MAX, 10},
+                                        {0, 0, 10, INT32_MAX},
+                                        {0, 0, DROGUE_MAX_REGION + 1, 10},
+                                        {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX}};
+    test_workspace t = usual_workspace();
+    drogue_config config;
+    drogue_result r;
+    size_t i;
+    drogue_config_default(&config);
+    for (i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        MUST(measure(&r, &t, &config, &model, &bad[i]) == DROGUE_E_REGION, "region %d: %s", (int)i,
+             drogue_status_name(r.status));
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* Grows a table from nothing until the frame passes: before that its status is the table's own. */
+static void check_table(int which, drogue_status full)
+{
+    drogue_config config;
+    drogue_result r;
+    int seen_full = 0;
+    uint32_t size;
+    drogue_config_default(&config);
+    for (size = which == 1 ? 2 : 1; size < 20000; size += 1 + size / 6) {
+        test_workspace t =
+            test_workspace_of(WIDTH, which == 0 ? size : 8192, which == 1 ? size : 4096, which == 2 ? size : 512);
+        drogue_status status = measure(&r, &t, &config, &model, &whole);
+        test_workspace_free(&t);
+        if (status == DROGUE_OK) {
+            break;
+        }
+        MUST(status == full, "table %d of %u: %s", which, (unsigned)size, drogue_status_name(status));
+        seen_full = 1;
+    }
+    MUST(seen_full && size < 20000, "table %d never filled", which);
+}
+
+START_TEST(full_tables)
+{
+    test_workspace narrow = test_workspace_of(WIDTH - 1, 8192, 4096, 512);
+    drogue_config config;
+    drogue_result r;
+    draw(&usual);
+    check_table(0, DROGUE_E_EDGES_FULL);
+    check_table(1, DROGUE_E_LABELS_FULL);
+    check_table(2, DROGUE_E_ARCS_FULL);
+    drogue_config_default(&config);
+    ck_assert_int_eq(measure(&r, &narrow, &config, &model, &whole), DROGUE_E_WORKSPACE);
+    test_workspace_free(&narrow);
+}
+END_TEST
+
+START_TEST(nothing_to_measure)
+{
+    test_workspace t = usual_workspace();
+    drogue_config config;
+    drogue_result r;
+    int32_t i;
+    drogue_config_default(&config);
+    memset(pixels, 128, sizeof pixels);
+    ck_assert_int_eq(measure(&r, &t, &config, &model, &whole), DROGUE_E_NO_EDGES);
+    for (i = 0; i < WIDTH * HEIGHT; i++) { /* one straight edge */
+        pixels[i] = i % WIDTH < 40 ? 20 : 220;
+    }
+    ck_assert_int_eq(measure(&r, &t, &config, &model, &whole), DROGUE_E_NO_ARCS);
+    draw(&usual);
+    config.min_axis_ratio_q16 = 65536;
+    ck_assert_int_eq(measure(&r, &t, &config, &model, &whole), DROGUE_E_NO_ELLIPSE);
+    ck_assert_uint_gt(r.list.edge_count, 0);
+    test_workspace_free(&t);
+}
+END_TEST
+
+START_TEST(geometry_out_of_range)
+{
+    test_workspace t = usual_workspace();
+    drogue_model m = model;
+    drogue_config config;
+    drogue_result r;
+    draw(&usual);
+    drogue_config_default(&config);
+    m.rim_radius_m_q16 = INT32_MAX;
+    ck_assert_int_eq(measure(&r, &t, &config, &m, &whole), DROGUE_E_DOMAIN);
+    m = model;
+    m.inner_depth_m_q16 = -8 * 65536; /* the inner part behind the camera */
+    ck_assert_int_eq(measure(&r, &t, &config, &m, &whole), DROGUE_E_BEHIND_CAMERA);
+    test_workspace_free(&t);
+}
+END_TEST
+
+START_TEST(version_is_the_macros)
+{
+    char text[32];
+    (void)snprintf(text, sizeof text, "%d.%d.%d", DROGUE_VERSION_MAJOR, DROGUE_VERSION_MINOR, DROGUE_VERSION_PATCH);
+    ck_assert_str_eq(drogue_version(), text);
+}
+END_TEST
+
+START_TEST(capacity_by_macro_is_capacity_by_function)
+{
+    const drogue_capacity capacity = DROGUE_CAPACITY_FOR(256);
+    ck_assert_uint_eq(drogue_workspace_bytes(&capacity), DROGUE_WORKSPACE_BYTES_FOR(256));
+    ck_assert_uint_eq(capacity.width_px, 256);
+}
+END_TEST
+
+SUITE_MAIN("measure", drawn_drogues, without_inner_part, regions_of_one_image, ring_of_a_clipped_region, arguments,
+           regions_that_miss, full_tables, nothing_to_measure, geometry_out_of_range, version_is_the_macros,
+           capacity_by_macro_is_capacity_by_function)

@@ -1,0 +1,297 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The track's states, where it looks next, and which of two poses it believes. */
+#include "suite.h"
+
+#include "drogue/track.h"
+#include "geometry.h"
+
+static const drogue_region first_region = {10, 20, 600, 500};
+static const drogue_model model = {22938, 13107, 16384};
+
+static drogue_track new_track(const drogue_camera *camera)
+{
+    drogue_track_config config;
+    drogue_track t;
+    drogue_track_config_default(&config);
+    drogue_track_init(&t, &config, camera, &model, &first_region);
+    return t;
+}
+
+static void set_pose(drogue_pose *p, const double position[3], double yaw, double pitch)
+{
+    double axis[3];
+    int k;
+    axis_of_angles(axis, yaw, pitch);
+    for (k = 0; k < 3; k++) {
+        p->position_m_q16[k] = q16_of(position[k]);
+        p->axis_q16[k] = q16_of(axis[k]);
+    }
+    p->yaw_rad_q16 = q16_of(yaw);
+    p->pitch_rad_q16 = q16_of(pitch);
+}
+
+static drogue_result seen(double x, double y, double z, double yaw, double pitch)
+{
+    drogue_result r;
+    const double position[3] = {x, y, z};
+    memset(&r, 0, sizeof r);
+    r.status = DROGUE_OK;
+    r.orientation_resolved = 1;
+    set_pose(&r.pose, position, yaw, pitch);
+    r.alternative = r.pose;
+    return r;
+}
+
+static drogue_result missed(drogue_status status)
+{
+    drogue_result r;
+    memset(&r, 0, sizeof r);
+    r.status = status;
+    return r;
+}
+
+static drogue_track_state step(drogue_track *t, const drogue_result *r)
+{
+    drogue_region region;
+    drogue_track_begin(&region, t, 20000);
+    return drogue_track_end(t, r);
+}
+
+static void must_be_first_region(drogue_track *t)
+{
+    drogue_region region;
+    drogue_track_begin(&region, t, 20000);
+    ck_assert_int_eq(memcmp(&region, &first_region, sizeof region), 0);
+}
+
+START_TEST(defaults_are_the_documented_ones)
+{
+    drogue_track_config c;
+    int k;
+    memset(&c, 0x5A, sizeof c);
+    drogue_track_config_default(&c);
+    ck_assert_uint_eq(c.max_missed, 10);
+    ck_assert_int_eq(c.region_scale_q16, q16_of(2.5));
+    ck_assert_int_eq(c.min_region_px, 32);
+    ck_assert_int_eq(c.max_region_px, DROGUE_MAX_SIDE);
+    ck_assert_int_eq(c.lateral_std_q16, q16_of(0.0005));
+    ck_assert_int_eq(c.depth_std_q16, q16_of(0.002));
+    ck_assert_int_eq(c.angle_std_rad_q16, q16_of(0.02));
+    for (k = 0; k < DROGUE_PARAMETERS; k++) {
+        ck_assert_int_eq(c.process_std_q16[k], q16_of(0.2));
+    }
+    ck_assert_int_eq(c.start_rate_std_q16, q16_of(2));
+    ck_assert_int_eq(c.start_accel_std_q16, q16_of(2));
+}
+END_TEST
+
+START_TEST(names_of_states)
+{
+    ck_assert_str_eq(drogue_track_state_name(DROGUE_LOST), "lost");
+    ck_assert_str_eq(drogue_track_state_name(DROGUE_TRACKING), "tracking");
+    ck_assert_str_eq(drogue_track_state_name(DROGUE_COASTING), "coasting");
+    ck_assert_ptr_nonnull(drogue_track_state_name((drogue_track_state)99));
+}
+END_TEST
+
+START_TEST(states_in_turn)
+{
+    static const drogue_track_estimate nothing;
+    const drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    drogue_track t = new_track(&camera);
+    drogue_track_estimate e;
+    drogue_result hit = seen(0.5, -0.3, 10, 0.1, -0.05), miss = missed(DROGUE_E_NO_ELLIPSE);
+    int round, k;
+    for (k = 0; k < 30; k++) { /* nothing found: lost stays lost */
+        must_be_first_region(&t);
+        ck_assert_int_eq(drogue_track_end(&t, &miss), DROGUE_LOST);
+    }
+    drogue_track_get(&e, &t);
+    ck_assert_int_eq(memcmp(&e, &nothing, sizeof e), 0);
+    for (round = 0; round < 3; round++) {
+        ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING);
+        drogue_track_get(&e, &t);
+        ck_assert_int_le(abs(e.position_m_q16[0] - q16_of(0.5)), 2);
+        ck_assert_int_le(abs(e.position_m_q16[1] - q16_of(-0.3)), 2);
+        ck_assert_int_le(abs(e.position_m_q16[2] - q16_of(10)), 2);
+        ck_assert_int_le(abs(e.yaw_rad_q16 - q16_of(0.1)), 2);
+        ck_assert_int_le(abs(e.pitch_rad_q16 - q16_of(-0.05)), 2);
+        ck_assert_int_le(abs(e.axis_q16[0] - hit.pose.axis_q16[0]), 4);
+        ck_assert_int_le(abs(e.axis_q16[1] - hit.pose.axis_q16[1]), 4);
+        ck_assert_int_le(abs(e.axis_q16[2] - hit.pose.axis_q16[2]), 4);
+        ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING);
+        for (k = 1; k <= 10; k++) {
+            ck_assert_int_eq(step(&t, &miss), DROGUE_COASTING);
+            ck_assert_uint_eq(t.missed, (unsigned)k);
+        }
+        ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING); /* found in time: the count starts again */
+        ck_assert_uint_eq(t.missed, 0);
+        for (k = 1; k <= 10; k++) {
+            ck_assert_int_eq(step(&t, &miss), DROGUE_COASTING);
+        }
+        ck_assert_int_eq(step(&t, &miss), DROGUE_LOST);
+        drogue_track_get(&e, &t);
+        ck_assert_int_eq(memcmp(&e, &nothing, sizeof e), 0);
+        must_be_first_region(&t);
+        ck_assert_int_eq(drogue_track_end(&t, &miss), DROGUE_LOST);
+    }
+}
+END_TEST
+
+START_TEST(every_failure_is_a_miss)
+{
+    const drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    drogue_track t = new_track(&camera);
+    drogue_result hit = seen(0, 0, 5, 0, 0);
+    int status;
+    for (status = DROGUE_OK + 1; status < DROGUE_STATUS_COUNT; status++) {
+        drogue_result miss = missed((drogue_status)status);
+        ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING);
+        ck_assert_int_eq(step(&t, &miss), DROGUE_COASTING);
+    }
+}
+END_TEST
+
+START_TEST(no_miss_allowed)
+{
+    const drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    drogue_track t = new_track(&camera);
+    drogue_result hit = seen(0, 0, 5, 0, 0), miss = missed(DROGUE_E_NO_EDGES);
+    t.config.max_missed = 0;
+    ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING);
+    ck_assert_int_eq(step(&t, &miss), DROGUE_LOST);
+}
+END_TEST
+
+/* The region asked for next is square, about the predicted outline, within a pixel. */
+static void must_be_about(const drogue_region *r, double x, double y, double side)
+{
+    MUST(r->width_px == r->height_px, "%d x %d is no square", (int)r->width_px, (int)r->height_px);
+    MUST(fabs(r->width_px - side) <= 1, "side %d instead of %.2f", (int)r->width_px, side);
+    MUST(fabs(r->x_px + (r->width_px - 1) / 2.0 - x) <= 1.5 && fabs(r->y_px + (r->height_px - 1) / 2.0 - y) <= 1.5,
+         "middle (%g, %g) instead of (%.2f, %.2f)", r->x_px + (r->width_px - 1) / 2.0,
+         r->y_px + (r->height_px - 1) / 2.0, x, y);
+}
+
+START_TEST(region_follows_a_steady_drogue)
+{
+    uint64_t rng = 1;
+    int i;
+    for (i = 0; i < 2000; i++) {
+        double f = rng_real(&rng, 500, 2500), z = rng_real(&rng, 2, 25), u = rng_real(&rng, 0, 1280),
+               v = rng_real(&rng, 0, 1024);
+        const drogue_camera camera = pinhole(f, f, 640, 512);
+        drogue_track t = new_track(&camera);
+        drogue_result hit = seen((u - 640) * z / f, (v - 512) * z / f, z, 0.1, 0.1);
+        double side = fmin(fmax(2.5 * f * 0.35 / z, 32), DROGUE_MAX_SIDE);
+        drogue_region region;
+        ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING);
+        drogue_track_begin(&region, &t, 20000);
+        must_be_about(&region, u, v, side);
+    }
+}
+END_TEST
+
+START_TEST(region_is_clamped)
+{
+    const drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    drogue_track t = new_track(&camera);
+    drogue_result hit = seen(0, 0, 20, 0, 0);
+    drogue_region region;
+    t.config.min_region_px = 100;
+    t.config.max_region_px = 200;
+    (void)step(&t, &hit);
+    drogue_track_begin(&region, &t, 20000);
+    must_be_about(&region, 640, 512, 100); /* 43.75 */
+    hit = seen(0, 0, 2, 0, 0);
+    t.state = DROGUE_LOST;
+    (void)step(&t, &hit);
+    drogue_track_begin(&region, &t, 20000);
+    must_be_about(&region, 640, 512, 200); /* 437.5 */
+}
+END_TEST
+
+START_TEST(region_leads_a_moving_drogue)
+{
+    const drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    drogue_track t = new_track(&camera);
+    drogue_region region;
+    int k;
+    for (k = 0; k <= 50; k++) { /* 1 m/s to the right, 0.5 m/s nearer, 50 frames a second */
+        drogue_result hit = seen(0.02 * k - 0.5, 0, 10 - 0.01 * k, 0, 0);
+        drogue_track_begin(&region, &t, 20000);
+        if (k > 20) {
+            must_be_about(&region, 640 + 1000 * (0.02 * k - 0.5) / (10 - 0.01 * k), 512, 2.5 * 350 / (10 - 0.01 * k));
+        }
+        ck_assert_int_eq(drogue_track_end(&t, &hit), DROGUE_TRACKING);
+    }
+    for (k = 51; k <= 60; k++) { /* and on while it is not seen */
+        drogue_result miss = missed(DROGUE_E_NO_ARCS);
+        drogue_track_estimate e;
+        drogue_track_begin(&region, &t, 20000);
+        must_be_about(&region, 640 + 1000 * (0.02 * k - 0.5) / (10 - 0.01 * k), 512, 2.5 * 350 / (10 - 0.01 * k));
+        ck_assert_int_eq(drogue_track_end(&t, &miss), DROGUE_COASTING);
+        drogue_track_get(&e, &t);
+        ck_assert(fabs(real_of_q16(e.velocity_mps_q16[0]) - 1) < 0.01 &&
+                  fabs(real_of_q16(e.velocity_mps_q16[2]) + 0.5) < 0.01);
+    }
+}
+END_TEST
+
+START_TEST(region_allows_for_distortion)
+{
+    drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    drogue_track t;
+    drogue_result hit = seen(2, 1, 5, 0, 0);
+    drogue_region region;
+    camera.k1_q16 = q16_of(-0.2);
+    t = new_track(&camera);
+    (void)step(&t, &hit);
+    drogue_track_begin(&region, &t, 20000);
+    must_be_about(&region, 640 + 400 * (1 - 0.2 * 0.2), 512 + 200 * (1 - 0.2 * 0.2), 175);
+}
+END_TEST
+
+START_TEST(lost_when_it_flies_behind_the_camera)
+{
+    const drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    drogue_track t = new_track(&camera);
+    drogue_region region;
+    int k;
+    for (k = 0; k <= 20; k++) { /* 10 m/s towards the camera */
+        drogue_result hit = seen(0, 0, 10 - 0.2 * k, 0, 0);
+        (void)step(&t, &hit);
+    }
+    drogue_track_begin(&region, &t, 2000000);
+    ck_assert_int_eq(memcmp(&region, &first_region, sizeof region), 0);
+    ck_assert_int_eq(t.state, DROGUE_LOST);
+}
+END_TEST
+
+START_TEST(unresolved_poses_go_by_the_predicted_axis)
+{
+    const drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    int resolved;
+    for (resolved = 0; resolved <= 1; resolved++) {
+        drogue_track t = new_track(&camera);
+        drogue_track_estimate e;
+        drogue_result hit = seen(0, 0, 8, 0.3, 0), turned = seen(0, 0, 8, -0.3, 0);
+        int k;
+        for (k = 0; k < 30; k++) {
+            (void)step(&t, &hit);
+        }
+        turned.alternative = hit.pose;
+        turned.orientation_resolved = resolved;
+        for (k = 0; k < 300; k++) {
+            (void)step(&t, &turned);
+        }
+        drogue_track_get(&e, &t);
+        ck_assert(fabs(real_of_q16(e.yaw_rad_q16) - (resolved ? -0.3 : 0.3)) < 0.03);
+    }
+}
+END_TEST
+
+SUITE_MAIN("track", defaults_are_the_documented_ones, names_of_states, states_in_turn, every_failure_is_a_miss,
+           no_miss_allowed, region_follows_a_steady_drogue, region_is_clamped, region_leads_a_moving_drogue,
+           region_allows_for_distortion, lost_when_it_flies_behind_the_camera,
+           unresolved_poses_go_by_the_predicted_axis)
