@@ -110,8 +110,8 @@ static void erode_row(uint8_t *out, const uint8_t *const rows[3], int32_t width_
     for (x = 0; x < width_px; x++) {
         int32_t l = x > 0 ? x - 1 : x;
         int32_t r = x + 1 < width_px ? x + 1 : x;
-        out[x] = rows[0][l] & rows[0][x] & rows[0][r] & rows[1][l] & rows[1][x] & rows[1][r] & rows[2][l] &
-                 rows[2][x] & rows[2][r];
+        out[x] = rows[0][l] & rows[0][x] & rows[0][r] & rows[1][l] & rows[1][x] & rows[1][r] & rows[2][l] & rows[2][x] &
+                 rows[2][r];
     }
 }
 
@@ -121,8 +121,8 @@ static void dilate_row(uint8_t *out, const uint8_t *const rows[3], int32_t width
     for (x = 0; x < width_px; x++) {
         int32_t l = x > 0 ? x - 1 : x;
         int32_t r = x + 1 < width_px ? x + 1 : x;
-        out[x] = rows[0][l] | rows[0][x] | rows[0][r] | rows[1][l] | rows[1][x] | rows[1][r] | rows[2][l] |
-                 rows[2][x] | rows[2][r];
+        out[x] = rows[0][l] | rows[0][x] | rows[0][r] | rows[1][l] | rows[1][x] | rows[1][r] | rows[2][l] | rows[2][x] |
+                 rows[2][r];
     }
 }
 

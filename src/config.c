@@ -32,10 +32,7 @@ void drogue_config_default(drogue_config *config)
     config->inner_gate_q16 = DROGUE_Q16(1, 4);
 }
 
-static int within(int32_t v, int32_t low, int32_t high)
-{
-    return v >= low && v <= high;
-}
+static int within(int32_t v, int32_t low, int32_t high) { return v >= low && v <= high; }
 
 int drogue_config_valid(const drogue_config *c)
 {

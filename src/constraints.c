@@ -44,10 +44,7 @@ static uint32_t convex_hull(drogue_point *hull, const drogue_edge *edges, uint32
     return size > 1 ? size - 1 : size; /* the last point is the first again */
 }
 
-static int64_t dot(int32_t dx, int32_t dy, drogue_point p)
-{
-    return (int64_t)dx * p.x + (int64_t)dy * p.y;
-}
+static int64_t dot(int32_t dx, int32_t dy, drogue_point p) { return (int64_t)dx * p.x + (int64_t)dy * p.y; }
 
 /* Advance a caliper from hull[at] to the farthest vertex along (dx, dy). */
 static uint32_t caliper(const drogue_point *hull, uint32_t size, uint32_t at, int32_t dx, int32_t dy)
@@ -131,14 +128,14 @@ drogue_status drogue_min_area_rect(drogue_min_rect *out, drogue_point *hull, con
     }
     b = smallest_box(hull, size);
     length = drogue_wide_sqrt(drogue_wide_from_s64(b.length2, 0));
-    out->short_px_q16 = drogue_wide_to_q16(
-        drogue_wide_div(drogue_wide_from_s64(b.along < b.across ? b.along : b.across, 0), length));
-    out->long_px_q16 = drogue_wide_to_q16(
-        drogue_wide_div(drogue_wide_from_s64(b.along < b.across ? b.across : b.along, 0), length));
-    out->xc_px_q16 = drogue_sat_s32(drogue_div_round_s64(
-        (b.dx * b.centre2_along - b.dy * b.centre2_across) * (DROGUE_Q16_ONE / 2), b.length2));
-    out->yc_px_q16 = drogue_sat_s32(drogue_div_round_s64(
-        (b.dy * b.centre2_along + b.dx * b.centre2_across) * (DROGUE_Q16_ONE / 2), b.length2));
+    out->short_px_q16 =
+        drogue_wide_to_q16(drogue_wide_div(drogue_wide_from_s64(b.along < b.across ? b.along : b.across, 0), length));
+    out->long_px_q16 =
+        drogue_wide_to_q16(drogue_wide_div(drogue_wide_from_s64(b.along < b.across ? b.across : b.along, 0), length));
+    out->xc_px_q16 = drogue_sat_s32(
+        drogue_div_round_s64((b.dx * b.centre2_along - b.dy * b.centre2_across) * (DROGUE_Q16_ONE / 2), b.length2));
+    out->yc_px_q16 = drogue_sat_s32(
+        drogue_div_round_s64((b.dy * b.centre2_along + b.dx * b.centre2_across) * (DROGUE_Q16_ONE / 2), b.length2));
     return DROGUE_OK;
 }
 

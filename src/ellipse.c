@@ -9,10 +9,7 @@
 #define PIVOT_BITS 48 /* points whose spread across is 2^-48 of that along are collinear */
 #define FLOOR_BITS 58 /* the last pivot of the reduced scatter this small is rounding: the points lie on a conic */
 
-void drogue_moments_clear(drogue_moments *m)
-{
-    memset(m, 0, sizeof *m);
-}
+void drogue_moments_clear(drogue_moments *m) { memset(m, 0, sizeof *m); }
 
 void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
 {
@@ -180,9 +177,8 @@ static drogue_status inverse_cholesky(drogue_wide h[3][3], drogue_wide scatter[6
     }
     h[1][0] = drogue_wide_neg(drogue_wide_mul(g[1][0], drogue_wide_mul(h[0][0], h[1][1])));
     h[2][1] = drogue_wide_neg(drogue_wide_mul(g[2][1], drogue_wide_mul(h[1][1], h[2][2])));
-    h[2][0] = drogue_wide_mul(
-        drogue_wide_sub(drogue_wide_mul(g[1][0], drogue_wide_mul(g[2][1], h[1][1])), g[2][0]),
-        drogue_wide_mul(h[0][0], h[2][2]));
+    h[2][0] = drogue_wide_mul(drogue_wide_sub(drogue_wide_mul(g[1][0], drogue_wide_mul(g[2][1], h[1][1])), g[2][0]),
+                              drogue_wide_mul(h[0][0], h[2][2]));
     return DROGUE_OK;
 }
 
@@ -243,24 +239,24 @@ static drogue_status ellipse_of_conic(drogue_ellipse *out, const conic *q, int64
     if (det.mantissa <= 0 || trace.mantissa <= 0) {
         return DROGUE_E_DEGENERATE;
     }
-    x = drogue_wide_div(
-        drogue_wide_sub(drogue_wide_mul(q->b, q->e), drogue_wide_scale(drogue_wide_mul(q->c, q->d), 1)), det);
-    y = drogue_wide_div(
-        drogue_wide_sub(drogue_wide_mul(q->b, q->d), drogue_wide_scale(drogue_wide_mul(q->a, q->e), 1)), det);
+    x = drogue_wide_div(drogue_wide_sub(drogue_wide_mul(q->b, q->e), drogue_wide_scale(drogue_wide_mul(q->c, q->d), 1)),
+                        det);
+    y = drogue_wide_div(drogue_wide_sub(drogue_wide_mul(q->b, q->d), drogue_wide_scale(drogue_wide_mul(q->a, q->e), 1)),
+                        det);
     /* minus the conic's value at its centre, doubled */
     f = drogue_wide_neg(drogue_wide_add(drogue_wide_scale(q->f, 1),
                                         drogue_wide_add(drogue_wide_mul(q->d, x), drogue_wide_mul(q->e, y))));
     if (f.mantissa <= 0) {
         return DROGUE_E_DEGENERATE;
     }
-    larger = drogue_wide_add(trace, drogue_wide_sqrt(drogue_wide_add(drogue_wide_mul(difference, difference),
-                                                                     drogue_wide_mul(q->b, q->b))));
+    larger = drogue_wide_add(
+        trace, drogue_wide_sqrt(drogue_wide_add(drogue_wide_mul(difference, difference), drogue_wide_mul(q->b, q->b))));
     ok &= fits_q16(&out->xc_px_q16, drogue_wide_scale(drogue_wide_add(x, drogue_wide_from_s64(cx, 0)), -frac_bits));
     ok &= fits_q16(&out->yc_px_q16, drogue_wide_scale(drogue_wide_add(y, drogue_wide_from_s64(cy, 0)), -frac_bits));
     ok &= fits_q16(&out->b_px_q16, drogue_wide_scale(drogue_wide_sqrt(drogue_wide_div(f, larger)), -frac_bits));
     /* the smaller eigenvalue is det / (4 * the larger): no cancellation */
-    ok &= fits_q16(&out->a_px_q16, drogue_wide_scale(
-        drogue_wide_sqrt(drogue_wide_div(drogue_wide_mul(f, larger), det)), -frac_bits));
+    ok &= fits_q16(&out->a_px_q16,
+                   drogue_wide_scale(drogue_wide_sqrt(drogue_wide_div(drogue_wide_mul(f, larger), det)), -frac_bits));
     angle_q29 = drogue_wide_atan2_q29(drogue_wide_neg(q->b), difference);
     out->angle_rad_q16 = (drogue_q16)drogue_shr_round_s64(angle_q29, 14);
     if (out->angle_rad_q16 <= -DROGUE_Q16_HALF_PI) {

@@ -107,7 +107,8 @@ void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DRO
         }
         for (i = 0; i < 3; i++) { /* (1 - K H) P (1 - K H)' + K L K', term by term */
             for (j = i; j < 3; j++) {
-                drogue_wide cross = drogue_wide_add(drogue_wide_mul(gain[i], first[j]), drogue_wide_mul(gain[j], first[i]));
+                drogue_wide cross =
+                    drogue_wide_add(drogue_wide_mul(gain[i], first[j]), drogue_wide_mul(gain[j], first[i]));
                 drogue_wide own = drogue_wide_mul(drogue_wide_mul(gain[i], gain[j]), innovation_variance);
                 drogue_wide *c = &f->covariance[packed(i, j)];
                 *c = drogue_wide_add(drogue_wide_sub(*c, cross), own);

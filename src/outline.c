@@ -10,10 +10,7 @@
 #define MAX_CANDIDATES 30 /* 15 combinations of four arcs, two polarities */
 #define EDGE_FRAC 5       /* edge points are Q5 */
 
-static drogue_q16 edge_q16(uint16_t q5)
-{
-    return (drogue_q16)((int32_t)q5 * (1 << (16 - EDGE_FRAC)));
-}
+static drogue_q16 edge_q16(uint16_t q5) { return (drogue_q16)((int32_t)q5 * (1 << (16 - EDGE_FRAC))); }
 
 /* Moments of an arc about the region's centre, unit 1/32 px. */
 static void arc_moments(drogue_moments *out, const drogue_edge *edges, const drogue_arc *arc)
@@ -42,7 +39,8 @@ static int plausible(const drogue_ellipse *e, const drogue_mask *mask, const dro
 {
     int64_t a = e->a_px_q16;
     return (int64_t)e->b_px_q16 * DROGUE_Q16_ONE >= a * config->min_axis_ratio_q16 &&
-           a >= (int64_t)config->min_size_q16 * mask->longest_px && a <= (int64_t)config->max_size_q16 * mask->longest_px;
+           a >= (int64_t)config->min_size_q16 * mask->longest_px &&
+           a <= (int64_t)config->max_size_q16 * mask->longest_px;
 }
 
 /* The farthest arcs of one polarity, with their moments. */
@@ -194,10 +192,10 @@ static void undo_blur(drogue_ellipse *e, const drogue_config *config)
     drogue_wide half = drogue_wide_add(own, drogue_wide_scale(drogue_wide_mul(blur, blur), -1));
     drogue_wide a = drogue_wide_from_q16(e->a_px_q16);
     drogue_wide b = drogue_wide_from_q16(e->b_px_q16);
-    e->a_px_q16 = drogue_wide_to_q16(
-        drogue_wide_add(a, drogue_wide_div(drogue_wide_mul(half, a), drogue_wide_mul(b, b))));
-    e->b_px_q16 = drogue_wide_to_q16(
-        drogue_wide_add(b, drogue_wide_div(drogue_wide_mul(half, b), drogue_wide_mul(a, a))));
+    e->a_px_q16 =
+        drogue_wide_to_q16(drogue_wide_add(a, drogue_wide_div(drogue_wide_mul(half, a), drogue_wide_mul(b, b))));
+    e->b_px_q16 =
+        drogue_wide_to_q16(drogue_wide_add(b, drogue_wide_div(drogue_wide_mul(half, b), drogue_wide_mul(a, a))));
 }
 
 static drogue_band band_of(const drogue_config *config, drogue_polarity polarity)

@@ -33,8 +33,8 @@ static void cone_of_ellipse(drogue_wide m[6], const drogue_ellipse *ellipse, con
     b = drogue_wide_neg(drogue_wide_mul(half_difference, drogue_wide_from_s64(s_q30, -30)));
     d = drogue_wide_neg(drogue_wide_add(drogue_wide_mul(a, u), drogue_wide_mul(b, v)));
     e = drogue_wide_neg(drogue_wide_add(drogue_wide_mul(b, u), drogue_wide_mul(c, v)));
-    f = drogue_wide_neg(drogue_wide_add(drogue_wide_add(drogue_wide_mul(d, u), drogue_wide_mul(e, v)),
-                                        drogue_wide_mul(a2, b2)));
+    f = drogue_wide_neg(
+        drogue_wide_add(drogue_wide_add(drogue_wide_mul(d, u), drogue_wide_mul(e, v)), drogue_wide_mul(a2, b2)));
     m[0] = drogue_wide_mul(a, drogue_wide_mul(fx, fx));
     m[1] = drogue_wide_mul(b, drogue_wide_mul(fx, fy));
     m[2] = drogue_wide_mul(d, fx);
@@ -77,8 +77,8 @@ static void combine(drogue_wide out[3], drogue_wide p, drogue_wide q, const int6
 
 static drogue_status finish_pose(drogue_pose *out, const drogue_wide position[3], const drogue_wide axis[3])
 {
-    drogue_wide across = drogue_wide_sqrt(
-        drogue_wide_add(drogue_wide_mul(axis[0], axis[0]), drogue_wide_mul(axis[2], axis[2])));
+    drogue_wide across =
+        drogue_wide_sqrt(drogue_wide_add(drogue_wide_mul(axis[0], axis[0]), drogue_wide_mul(axis[2], axis[2])));
     int k;
     for (k = 0; k < 3; k++) {
         int64_t p = drogue_wide_to_s64(position[k], 16);
@@ -138,9 +138,8 @@ drogue_status drogue_project_axis_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q
     drogue_wide point[3];
     int k;
     for (k = 0; k < 3; k++) {
-        point[k] = drogue_wide_from_s64((int64_t)pose->position_m_q16[k] * DROGUE_Q16_ONE +
-                                            (int64_t)depth_m_q16 * pose->axis_q16[k],
-                                        -32);
+        point[k] = drogue_wide_from_s64(
+            (int64_t)pose->position_m_q16[k] * DROGUE_Q16_ONE + (int64_t)depth_m_q16 * pose->axis_q16[k], -32);
     }
     if (point[2].mantissa <= 0) {
         *x_px_q16 = *y_px_q16 = 0;
@@ -159,8 +158,7 @@ static drogue_q16 distance_q16(drogue_q16 x0, drogue_q16 y0, drogue_q16 x1, drog
 {
     drogue_wide dx = drogue_wide_from_s64((int64_t)x1 - x0, -16);
     drogue_wide dy = drogue_wide_from_s64((int64_t)y1 - y0, -16);
-    return drogue_wide_to_q16(
-        drogue_wide_sqrt(drogue_wide_add(drogue_wide_mul(dx, dx), drogue_wide_mul(dy, dy))));
+    return drogue_wide_to_q16(drogue_wide_sqrt(drogue_wide_add(drogue_wide_mul(dx, dx), drogue_wide_mul(dy, dy))));
 }
 
 drogue_status drogue_choose_pose(drogue_choice *out, const drogue_pose poses[2], drogue_q16 x_px_q16,

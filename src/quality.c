@@ -40,8 +40,8 @@ static int32_t clamp_q24(int64_t v_q46)
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
-void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame,
-                                drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
+                                drogue_q16 y_px_q16)
 {
     int64_t dx = (int64_t)x_px_q16 - frame->xc_px_q16;
     int64_t dy = (int64_t)y_px_q16 - frame->yc_px_q16;
@@ -176,7 +176,6 @@ void drogue_quality_score(drogue_quality *out, const drogue_ellipse *ellipse, ui
     out->fit_ratio_q16 = ratio_to_one((int64_t)near_count * DROGUE_Q16_ONE, total);
     out->length_ratio_q16 = drogue_length_ratio(total, ellipse);
     out->axis_ratio_q16 = drogue_q16_div(ellipse->b_px_q16, ellipse->a_px_q16);
-    out->score_q16 = (drogue_q16)drogue_shr_round_s64(out->length_ratio_q16, 1) +
-                     axis_ratio_score(ellipse, config);
+    out->score_q16 = (drogue_q16)drogue_shr_round_s64(out->length_ratio_q16, 1) + axis_ratio_score(ellipse, config);
     out->reliability_q16 = (drogue_q16)drogue_shr_round_s64((int64_t)out->score_q16 + out->fit_ratio_q16, 1);
 }

@@ -19,10 +19,9 @@ void drogue_smooth_row(uint8_t *out, uint16_t *column, const uint8_t *const rows
             drogue_binomial5(column[x - 2], column[x - 1], column[x], column[x + 1], column[x + 2]));
     }
     for (x = 0; x < width_px; x = (x == 1 && width_px > 4) ? width_px - 2 : x + 1) { /* two columns each side */
-        out[x] = drogue_smooth_normalise(
-            drogue_binomial5(column[drogue_reflect_101(x - 2, width_px)], column[drogue_reflect_101(x - 1, width_px)],
-                             column[x], column[drogue_reflect_101(x + 1, width_px)],
-                             column[drogue_reflect_101(x + 2, width_px)]));
+        out[x] = drogue_smooth_normalise(drogue_binomial5(
+            column[drogue_reflect_101(x - 2, width_px)], column[drogue_reflect_101(x - 1, width_px)], column[x],
+            column[drogue_reflect_101(x + 1, width_px)], column[drogue_reflect_101(x + 2, width_px)]));
     }
 }
 

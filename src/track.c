@@ -100,12 +100,11 @@ static int predicted_region(drogue_region *region, const drogue_track *track)
         (drogue_camera_distorts(&track->camera) && drogue_distort_point(&x, &y, &track->camera) != DROGUE_OK)) {
         return 0;
     }
-    side_px = drogue_wide_to_s64(
-        drogue_wide_mul(drogue_wide_mul(drogue_wide_from_q16(track->config.region_scale_q16),
-                                        drogue_wide_from_q16(track->camera.fx_px_q16)),
-                        drogue_wide_div(drogue_wide_from_q16(track->model.rim_radius_m_q16),
-                                        drogue_wide_from_q16(pose.position_m_q16[2]))),
-        0);
+    side_px = drogue_wide_to_s64(drogue_wide_mul(drogue_wide_mul(drogue_wide_from_q16(track->config.region_scale_q16),
+                                                                 drogue_wide_from_q16(track->camera.fx_px_q16)),
+                                                 drogue_wide_div(drogue_wide_from_q16(track->model.rim_radius_m_q16),
+                                                                 drogue_wide_from_q16(pose.position_m_q16[2]))),
+                                 0);
     if (side_px < track->config.min_region_px) {
         side_px = track->config.min_region_px;
     }
@@ -148,10 +147,7 @@ static const drogue_pose *believed_pose(const drogue_track *track, const drogue_
     return second > first ? &result->alternative : &result->pose;
 }
 
-static drogue_q16 at_least_one(drogue_q16 v)
-{
-    return v < 1 ? 1 : v;
-}
+static drogue_q16 at_least_one(drogue_q16 v) { return v < 1 ? 1 : v; }
 
 drogue_track_state drogue_track_end(drogue_track *track, const drogue_result *result)
 {

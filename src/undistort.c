@@ -11,26 +11,14 @@ static const int64_t one_q36 = INT64_C(1) << FRAC;
 static const int64_t most_q36 = INT64_C(4) << FRAC; /* off the axis, in focal lengths */
 static const int64_t still_q36 = INT64_C(1) << 10;  /* a step this short squares to nothing in the next */
 
-static int64_t mul_q36(int64_t a, int64_t b)
-{
-    return drogue_mul_shr_round_s64(a, b, FRAC);
-}
+static int64_t mul_q36(int64_t a, int64_t b) { return drogue_mul_shr_round_s64(a, b, FRAC); }
 
-static int64_t abs_s64(int64_t v)
-{
-    return v < 0 ? -v : v;
-}
+static int64_t abs_s64(int64_t v) { return v < 0 ? -v : v; }
 
 /* Coefficient Q16 -> Q36. */
-static int64_t widen(drogue_q16 k)
-{
-    return (int64_t)k * (INT64_C(1) << (FRAC - 16));
-}
+static int64_t widen(drogue_q16 k) { return (int64_t)k * (INT64_C(1) << (FRAC - 16)); }
 
-static int small(drogue_q16 k)
-{
-    return k >= -DROGUE_MAX_DISTORTION_Q16 && k <= DROGUE_MAX_DISTORTION_Q16;
-}
+static int small(drogue_q16 k) { return k >= -DROGUE_MAX_DISTORTION_Q16 && k <= DROGUE_MAX_DISTORTION_Q16; }
 
 /* Distorted position and its derivatives: the Jacobian is symmetric. */
 typedef struct distorted {
@@ -70,9 +58,9 @@ static int normalise(int64_t *x_q36, drogue_q16 px_q16, drogue_q16 centre_q16, d
     if (focal_q16 <= 0) {
         return 0;
     }
-    *x_q36 = drogue_wide_to_s64(drogue_wide_div(drogue_wide_from_s64((int64_t)px_q16 - centre_q16, 0),
-                                                drogue_wide_from_s64(focal_q16, 0)),
-                                FRAC);
+    *x_q36 = drogue_wide_to_s64(
+        drogue_wide_div(drogue_wide_from_s64((int64_t)px_q16 - centre_q16, 0), drogue_wide_from_s64(focal_q16, 0)),
+        FRAC);
     return *x_q36 >= -most_q36 && *x_q36 <= most_q36;
 }
 

@@ -37,10 +37,7 @@ static int64_t s128_shr_round(drogue_s128 v, int n)
     return kept + (int64_t)below;
 }
 
-int64_t drogue_mul_shr_round_s64(int64_t a, int64_t b, int n)
-{
-    return s128_shr_round(drogue_s128_mul(a, b), n);
-}
+int64_t drogue_mul_shr_round_s64(int64_t a, int64_t b, int n) { return s128_shr_round(drogue_s128_mul(a, b), n); }
 
 /* Finish a mantissa that rounding may have carried to 2^62. */
 static drogue_wide wide_finish(int64_t mantissa, int32_t exponent)
@@ -92,10 +89,7 @@ int64_t drogue_wide_to_s64(drogue_wide v, int frac_bits)
     return shift >= 0 ? drogue_shl_s64(v.mantissa, shift) : drogue_shr_round_s64(v.mantissa, -shift);
 }
 
-drogue_q16 drogue_wide_to_q16(drogue_wide v)
-{
-    return drogue_sat_s32(drogue_wide_to_s64(v, 16));
-}
+drogue_q16 drogue_wide_to_q16(drogue_wide v) { return drogue_sat_s32(drogue_wide_to_s64(v, 16)); }
 
 drogue_wide drogue_wide_add(drogue_wide a, drogue_wide b)
 {
@@ -156,7 +150,7 @@ drogue_wide drogue_wide_div(drogue_wide a, drogue_wide b)
         rest <<= 1;
         exponent--;
     }
-    rest -= divisor; /* the leading 1 of the quotient */
+    rest -= divisor;                      /* the leading 1 of the quotient */
     for (digit = 0; digit < 2; digit++) { /* two digits in base 2^31: 63 bits with the leading one */
         uint64_t trial = rest / high;
         int64_t next;
@@ -197,7 +191,7 @@ drogue_wide drogue_wide_sqrt(drogue_wide v)
         m <<= 1;
         exponent--;
     }
-    upper = m >> 1;               /* m * 2^61 = upper * 2^62 + (m & 1) * 2^61 */
+    upper = m >> 1; /* m * 2^61 = upper * 2^62 + (m & 1) * 2^61 */
     root = drogue_isqrt_u64(upper);
     rest = ((upper - root * root) << 31) + ((m & 1u) << 30);
     digit = rest / (2 * root);

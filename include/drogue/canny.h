@@ -14,10 +14,10 @@ extern "C" {
 
 /* Sector of the gradient: the neighbours that a maximum is compared with. */
 typedef enum drogue_sector {
-    DROGUE_SECTOR_HORIZONTAL = 0,   /* left, right */
-    DROGUE_SECTOR_VERTICAL = 1,     /* above, below */
-    DROGUE_SECTOR_DIAGONAL = 2,     /* above left, below right */
-    DROGUE_SECTOR_ANTIDIAGONAL = 3  /* above right, below left */
+    DROGUE_SECTOR_HORIZONTAL = 0,  /* left, right */
+    DROGUE_SECTOR_VERTICAL = 1,    /* above, below */
+    DROGUE_SECTOR_DIAGONAL = 2,    /* above left, below right */
+    DROGUE_SECTOR_ANTIDIAGONAL = 3 /* above right, below left */
 } drogue_sector;
 
 /* Verdict of suppression and thresholds. */
@@ -43,10 +43,7 @@ static inline int32_t drogue_canny_step_x(drogue_sector sector)
     return sector == DROGUE_SECTOR_VERTICAL ? 0 : sector == DROGUE_SECTOR_ANTIDIAGONAL ? -1 : 1;
 }
 
-static inline int32_t drogue_canny_step_y(drogue_sector sector)
-{
-    return sector == DROGUE_SECTOR_HORIZONTAL ? 0 : 1;
-}
+static inline int32_t drogue_canny_step_y(drogue_sector sector) { return sector == DROGUE_SECTOR_HORIZONTAL ? 0 : 1; }
 
 /* Magnitudes on both sides of the edge at column x; 0 beyond the left and right border. */
 static inline void drogue_canny_neighbours(int32_t *before, int32_t *after, drogue_sector sector,

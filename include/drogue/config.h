@@ -13,14 +13,14 @@ extern "C" {
 
 /* Thresholds; drogue_config_default() fills in the defaults given here. */
 typedef struct drogue_config {
-    int32_t canny_low;           /* 40, L1 Sobel magnitude (grey levels * 8): lower links weaker edges */
-    int32_t canny_high;          /* 100, same unit: an edge needs one pixel above it */
-    int32_t smooth;              /* 1: smooth before the gradient; 0 for images that are smooth already */
-    uint32_t min_arc_px;         /* 10 edge points, Th_length: shorter arcs are not fitted */
-    drogue_q16 min_arc_share_q16; /* 1/8: the same as a share of the region's longest side; a quarter of an outline
+    int32_t canny_low;             /* 40, L1 Sobel magnitude (grey levels * 8): lower links weaker edges */
+    int32_t canny_high;            /* 100, same unit: an edge needs one pixel above it */
+    int32_t smooth;                /* 1: smooth before the gradient; 0 for images that are smooth already */
+    uint32_t min_arc_px;           /* 10 edge points, Th_length: shorter arcs are not fitted */
+    drogue_q16 min_arc_share_q16;  /* 1/8: the same as a share of the region's longest side; a quarter of an outline
                                      in a region of 2.5 semi-axes has about 0.57: stubs lie farther out than whole arcs */
-    drogue_q16 min_short_px_q16; /* 1.5 px, Th_minb: straighter arcs (short side of the rectangle) are not fitted */
-    drogue_polarity polarity;    /* BOTH: or only outlines darker (DARK) or brighter (BRIGHT) inside */
+    drogue_q16 min_short_px_q16;   /* 1.5 px, Th_minb: straighter arcs (short side of the rectangle) are not fitted */
+    drogue_polarity polarity;      /* BOTH: or only outlines darker (DARK) or brighter (BRIGHT) inside */
     drogue_quality_config quality; /* fit_error 1 px, k1 6, k2 0.3 */
     drogue_q16 min_fit_ratio_q16;  /* 0.7, Th_score: least share of fitted points near the ellipse (11) */
     drogue_q16 min_axis_ratio_q16; /* 0.4: flatter ellipses are no drogue */

@@ -4,8 +4,8 @@
 #ifndef DROGUE_CONSTRAINTS_H
 #define DROGUE_CONSTRAINTS_H
 
-#include "drogue/types.h"
 #include "drogue/frontend.h"
+#include "drogue/types.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -39,7 +39,7 @@ int drogue_quadrant(drogue_q16 dx_px_q16, drogue_q16 dy_px_q16);
 typedef struct drogue_arc_verdict {
     drogue_min_rect rect;
     int32_t quadrant;         /* of the rectangle's centre about the mask's centre, -1: rejected */
-    drogue_polarity polarity; /* DROGUE_POLARITY_DARK when the direction class equals the quadrant, _BRIGHT when opposite */
+    drogue_polarity polarity; /* DARK: the direction class equals the quadrant; BRIGHT: is opposite; BOTH: neither */
     int64_t distance2_q32;    /* squared distance of the rectangle's centre from the mask's centre, px^2 Q32 */
 } drogue_arc_verdict;
 

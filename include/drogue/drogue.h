@@ -36,29 +36,31 @@ extern "C" {
 /* "MAJOR.MINOR.PATCH" of the library. */
 const char *drogue_version(void);
 
-#define DROGUE_CAPACITY_FOR(side_px)                                                                       \
-    { (uint32_t)(side_px), (uint32_t)DROGUE_EDGES_FOR(side_px), (uint32_t)DROGUE_LABELS_FOR(side_px),      \
-      (uint32_t)DROGUE_ARCS_FOR(side_px) }
+#define DROGUE_CAPACITY_FOR(side_px)                                                                    \
+    {                                                                                                   \
+        (uint32_t)(side_px), (uint32_t)DROGUE_EDGES_FOR(side_px), (uint32_t)DROGUE_LABELS_FOR(side_px), \
+            (uint32_t)DROGUE_ARCS_FOR(side_px)                                                          \
+    }
 
 #define DROGUE_MAX_REGION 8192 /* px, largest side of a region asked for, before it is clipped to the image */
 
 /* What a frame gives. Coordinates are px of the whole image. */
 typedef struct drogue_result {
-    drogue_status status;     /* what drogue_measure() returned */
-    drogue_region region;     /* the region used: the one asked for, clipped to the image */
-    drogue_edge_list list;    /* edges and arcs in the workspace, in coordinates of the region */
-    uint32_t arcs[4];         /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
-    drogue_ellipse ellipse;   /* outline of the end plane, as seen (distorted) */
-    drogue_ellipse ideal;     /* the same without distortion: what the pose is computed from */
-    drogue_quality quality;   /* of the fit of the arcs */
-    drogue_polarity polarity; /* DARK or BRIGHT: the outline's inside against its outside */
-    uint32_t cluster_members; /* candidates that agree with the winner, itself included */
-    uint32_t refit_points;    /* points in the final fit */
-    drogue_q16 cover_q16;     /* edge points that belong to the outline over its circumference, at most 1 */
-    int32_t has_inner;        /* 1: an inner dark part was found */
-    drogue_dark_part inner;   /* its centroid, as seen; meaningful when has_inner */
-    drogue_pose pose;         /* the pose chosen, or the first of the two */
-    drogue_pose alternative;  /* the other */
+    drogue_status status;         /* what drogue_measure() returned */
+    drogue_region region;         /* the region used: the one asked for, clipped to the image */
+    drogue_edge_list list;        /* edges and arcs in the workspace, in coordinates of the region */
+    uint32_t arcs[4];             /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
+    drogue_ellipse ellipse;       /* outline of the end plane, as seen (distorted) */
+    drogue_ellipse ideal;         /* the same without distortion: what the pose is computed from */
+    drogue_quality quality;       /* of the fit of the arcs */
+    drogue_polarity polarity;     /* DARK or BRIGHT: the outline's inside against its outside */
+    uint32_t cluster_members;     /* candidates that agree with the winner, itself included */
+    uint32_t refit_points;        /* points in the final fit */
+    drogue_q16 cover_q16;         /* edge points that belong to the outline over its circumference, at most 1 */
+    int32_t has_inner;            /* 1: an inner dark part was found */
+    drogue_dark_part inner;       /* its centroid, as seen; meaningful when has_inner */
+    drogue_pose pose;             /* the pose chosen, or the first of the two */
+    drogue_pose alternative;      /* the other */
     int32_t orientation_resolved; /* 1: the inner centre decided between the two */
     drogue_q16 ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 without one */
 } drogue_result;

@@ -21,7 +21,7 @@ typedef int32_t drogue_q16; /* value * 2^16, range [-32768, 32768) */
 #define DROGUE_Q16_HALF_PI 102944 /* pi / 2, rad Q16 */
 
 /* Integer n / d as a Q16 constant, rounded to nearest; for initialisers, n and d positive literals. */
-#define DROGUE_Q16(n, d) ((drogue_q16)(((int64_t)(n) * 131072 + (d)) / (2 * (int64_t)(d))))
+#define DROGUE_Q16(n, d) ((drogue_q16)(((int64_t)(n)*131072 + (d)) / (2 * (int64_t)(d))))
 
 /* Names a quantity and the number of bits that hold its magnitude. Nothing here; the checked build (tests/checked)
  * verifies it and records the peak. */
@@ -43,22 +43,13 @@ static inline int32_t drogue_sat_s32(int64_t v)
 }
 
 /* v * 2^n for 0 <= n <= 63; bits shifted out are lost, the caller guarantees there are none. */
-static inline int64_t drogue_shl_s64(int64_t v, int n)
-{
-    return (int64_t)((uint64_t)v << n);
-}
+static inline int64_t drogue_shl_s64(int64_t v, int n) { return (int64_t)((uint64_t)v << n); }
 
 /* v / 2^n rounded to nearest, ties toward +infinity, for 0 <= n <= 63; cannot overflow. */
-static inline int64_t drogue_shr_round_s64(int64_t v, int n)
-{
-    return n == 0 ? v : (v >> n) + ((v >> (n - 1)) & 1);
-}
+static inline int64_t drogue_shr_round_s64(int64_t v, int n) { return n == 0 ? v : (v >> n) + ((v >> (n - 1)) & 1); }
 
 /* |v|, defined for INT64_MIN too. */
-static inline uint64_t drogue_abs_u64(int64_t v)
-{
-    return v < 0 ? (uint64_t)0 - (uint64_t)v : (uint64_t)v;
-}
+static inline uint64_t drogue_abs_u64(int64_t v) { return v < 0 ? (uint64_t)0 - (uint64_t)v : (uint64_t)v; }
 
 /* Leading zero bits of v, 64 for 0. */
 static inline int drogue_clz_u64(uint64_t v)
@@ -67,29 +58,37 @@ static inline int drogue_clz_u64(uint64_t v)
     if (v == 0) {
         return 64;
     }
-    if ((v >> 32) == 0) { n += 32; v <<= 32; }
-    if ((v >> 48) == 0) { n += 16; v <<= 16; }
-    if ((v >> 56) == 0) { n += 8; v <<= 8; }
-    if ((v >> 60) == 0) { n += 4; v <<= 4; }
-    if ((v >> 62) == 0) { n += 2; v <<= 2; }
-    if ((v >> 63) == 0) { n += 1; }
+    if ((v >> 32) == 0) {
+        n += 32;
+        v <<= 32;
+    }
+    if ((v >> 48) == 0) {
+        n += 16;
+        v <<= 16;
+    }
+    if ((v >> 56) == 0) {
+        n += 8;
+        v <<= 8;
+    }
+    if ((v >> 60) == 0) {
+        n += 4;
+        v <<= 4;
+    }
+    if ((v >> 62) == 0) {
+        n += 2;
+        v <<= 2;
+    }
+    if ((v >> 63) == 0) {
+        n += 1;
+    }
     return n;
 }
 
-static inline drogue_q16 drogue_q16_from_int(int32_t v)
-{
-    return drogue_sat_s32((int64_t)v * DROGUE_Q16_ONE);
-}
+static inline drogue_q16 drogue_q16_from_int(int32_t v) { return drogue_sat_s32((int64_t)v * DROGUE_Q16_ONE); }
 
-static inline drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b)
-{
-    return drogue_sat_s32((int64_t)a + b);
-}
+static inline drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b) { return drogue_sat_s32((int64_t)a + b); }
 
-static inline drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b)
-{
-    return drogue_sat_s32((int64_t)a - b);
-}
+static inline drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b) { return drogue_sat_s32((int64_t)a - b); }
 
 static inline drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b)
 {

@@ -41,13 +41,13 @@ typedef struct drogue_point {
 } drogue_point;
 
 /* Bytes of memory for a workspace: usable in a static array's size. */
-#define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                 \
-    ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels) * 16u +   \
-     DROGUE_HULL_MAX * sizeof(drogue_point) + 256u * 4u +                                                     \
+#define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                             \
+    ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels)*16u + \
+     DROGUE_HULL_MAX * sizeof(drogue_point) + 256u * 4u +                                                 \
      (size_t)(width_px) * (sizeof(drogue_merge) + 16u + 18u + 10u))
 
 /* The same for a region of the given longest side with the capacity that suits it. */
-#define DROGUE_WORKSPACE_BYTES_FOR(side_px)                                                                   \
+#define DROGUE_WORKSPACE_BYTES_FOR(side_px) \
     DROGUE_WORKSPACE_BYTES(side_px, DROGUE_EDGES_FOR(side_px), DROGUE_LABELS_FOR(side_px), DROGUE_ARCS_FOR(side_px))
 
 /* Line buffers, tables and lists in the caller's memory; set by drogue_workspace_init(). After a frame
@@ -88,12 +88,12 @@ drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, s
 
 /* What the front end is asked for. */
 typedef struct drogue_frontend_config {
-    int32_t canny_low;      /* L1 magnitude, 0 <= low <= high: a candidate's exceeds it */
-    int32_t canny_high;     /* L1 magnitude: an edge has at least one pixel that exceeds it */
-    int32_t smooth;         /* 0: no smoothing before the gradient */
-    int32_t use_ring;       /* 0: list the edge points of the whole region */
-    drogue_mask ring;       /* in region coordinates; used when use_ring is set */
-    uint32_t min_arc_px;    /* edge points an arc needs to enter the arc table, Th_length */
+    int32_t canny_low;   /* L1 magnitude, 0 <= low <= high: a candidate's exceeds it */
+    int32_t canny_high;  /* L1 magnitude: an edge has at least one pixel that exceeds it */
+    int32_t smooth;      /* 0: no smoothing before the gradient */
+    int32_t use_ring;    /* 0: list the edge points of the whole region */
+    drogue_mask ring;    /* in region coordinates; used when use_ring is set */
+    uint32_t min_arc_px; /* edge points an arc needs to enter the arc table, Th_length */
 } drogue_frontend_config;
 
 /* A frame in progress; the members are the front end's own. */

@@ -5,8 +5,8 @@
 #ifndef DROGUE_KALMAN_H
 #define DROGUE_KALMAN_H
 
-#include "drogue/wide.h"
 #include "drogue/types.h"
+#include "drogue/wide.h"
 
 #ifdef __cplusplus
 extern "C" {

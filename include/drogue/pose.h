@@ -42,9 +42,9 @@ drogue_status drogue_project_axis_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q
 
 /* Choice between two poses by the inner centre. */
 typedef struct drogue_choice {
-    uint32_t index;           /* 0 or 1: the pose whose projected inner centre is nearer */
+    uint32_t index;                /* 0 or 1: the pose whose projected inner centre is nearer */
     drogue_q16 distance_px_q16[2]; /* of the two projections from the measured centre, saturated */
-    drogue_q16 ambiguity_q16; /* nearer distance / farther distance, [0, 1]; 1 when both are 0 */
+    drogue_q16 ambiguity_q16;      /* nearer distance / farther distance, [0, 1]; 1 when both are 0 */
 } drogue_choice;
 
 /* Choose by projecting the inner centre for both poses (replaces (31), which looks at u alone).

@@ -37,8 +37,8 @@ typedef struct drogue_ellipse_frame {
 drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_ellipse *ellipse);
 
 /* Coordinates of a point in units of the semi-axes: on the ellipse u^2 + v^2 = 1. Q24, saturated at +-16. */
-void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame,
-                                drogue_q16 x_px_q16, drogue_q16 y_px_q16);
+void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
+                                drogue_q16 y_px_q16);
 
 /* |X + Y - 1| of (10) at a point, Q16, saturated. */
 drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q16 x_px_q16, drogue_q16 y_px_q16);

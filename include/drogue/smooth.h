@@ -17,10 +17,7 @@ static inline uint32_t drogue_binomial5(uint32_t p0, uint32_t p1, uint32_t p2, u
 }
 
 /* Normalise a 5x5 sum (weights 256) to a grey level. */
-static inline uint8_t drogue_smooth_normalise(uint32_t sum)
-{
-    return (uint8_t)((sum + 128u) >> 8);
-}
+static inline uint8_t drogue_smooth_normalise(uint32_t sum) { return (uint8_t)((sum + 128u) >> 8); }
 
 /* Index of the mirror pixel for border reflect-101; -2 <= i < n + 2, n >= 1. */
 static inline int32_t drogue_reflect_101(int32_t i, int32_t n)

@@ -11,7 +11,7 @@ extern "C" {
 #endif
 
 typedef enum drogue_track_state {
-    DROGUE_LOST = 0,    /* no estimate: the first region is searched */
+    DROGUE_LOST = 0,     /* no estimate: the first region is searched */
     DROGUE_TRACKING = 1, /* this frame was measured */
     DROGUE_COASTING = 2  /* this frame was missed: the estimate is the prediction */
 } drogue_track_state;
@@ -20,16 +20,16 @@ typedef enum drogue_track_state {
 const char *drogue_track_state_name(drogue_track_state state);
 
 typedef struct drogue_track_config {
-    uint32_t max_missed;            /* 10 frames: after more in a row the track is lost */
-    drogue_q16 region_scale_q16;    /* 2.5: side of the next region in predicted major semi-axes */
-    int32_t min_region_px;          /* 32 px */
-    int32_t max_region_px;          /* DROGUE_MAX_SIDE; what the workspace holds */
-    drogue_q16 lateral_std_q16;     /* 0.0005: standard deviation of x and y, share of the distance */
-    drogue_q16 depth_std_q16;       /* 0.002: standard deviation of z, share of the distance */
-    drogue_q16 angle_std_rad_q16;   /* 0.02 rad: of pitch and yaw */
+    uint32_t max_missed;                           /* 10 frames: after more in a row the track is lost */
+    drogue_q16 region_scale_q16;                   /* 2.5: side of the next region in predicted major semi-axes */
+    int32_t min_region_px;                         /* 32 px */
+    int32_t max_region_px;                         /* DROGUE_MAX_SIDE; what the workspace holds */
+    drogue_q16 lateral_std_q16;                    /* 0.0005: standard deviation of x and y, share of the distance */
+    drogue_q16 depth_std_q16;                      /* 0.002: standard deviation of z, share of the distance */
+    drogue_q16 angle_std_rad_q16;                  /* 0.02 rad: of pitch and yaw */
     drogue_q16 process_std_q16[DROGUE_PARAMETERS]; /* 0.2 m/s^2, 0.2 rad/s^2: change of acceleration per step */
-    drogue_q16 start_rate_std_q16;  /* 2 m/s and rad/s: of the unknown rate at the start */
-    drogue_q16 start_accel_std_q16; /* 2 m/s^2 and rad/s^2 */
+    drogue_q16 start_rate_std_q16;                 /* 2 m/s and rad/s: of the unknown rate at the start */
+    drogue_q16 start_accel_std_q16;                /* 2 m/s^2 and rad/s^2 */
 } drogue_track_config;
 
 void drogue_track_config_default(drogue_track_config *config);

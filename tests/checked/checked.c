@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The checked primitives and their records. */
-#define CHECKED_PRIMITIVES
 #include "checked.h"
 
 #include <inttypes.h>
@@ -121,10 +120,19 @@ drogue_q16 checked_q16_div(drogue_q16 a, drogue_q16 b, const char *file, int lin
     return drogue_q16_div(a, b);
 }
 
-static int bit_length(uint64_t v)
+/* The report follows whatever the program did; an excess is a failure. */
+static void at_end(void)
 {
-    return 64 - drogue_clz_u64(v);
+    fflush(stdout);
+    if (checked_report() != 0) {
+        fflush(stdout);
+        _Exit(3);
+    }
 }
+
+__attribute__((constructor)) static void at_start(void) { atexit(at_end); }
+
+static int bit_length(uint64_t v) { return 64 - drogue_clz_u64(v); }
 
 static int by_place(const void *left, const void *right)
 {
@@ -154,8 +162,8 @@ int checked_report(void)
     for (i = 0; i < count; i++) {
         const checked_site *s = place[i];
         if (s->bits > 0) {
-            printf("| %s | %d | %" PRIu64 " | %d | %s:%d |\n", s->name, s->bits, s->peak,
-                   s->bits - bit_length(s->peak), base_name(s->file), s->line);
+            printf("| %s | %d | %" PRIu64 " | %d | %s:%d |\n", s->name, s->bits, s->peak, s->bits - bit_length(s->peak),
+                   base_name(s->file), s->line);
         }
     }
     printf("\n| saturating operation | calls | saturated | place |\n| --- | --- | --- | --- |\n");

@@ -24,10 +24,10 @@ void checked_note(checked_site *site, int64_t value);
 void checked_saturation(checked_site *site, int saturated);
 void checked_fail(const char *what, const char *file, int line);
 
-#define DROGUE_NOTE(name, value, bits)                                                    \
-    do {                                                                                  \
-        static checked_site checked_here = {name, __FILE__, __LINE__, bits, 0, 0, 0};     \
-        checked_note(&checked_here, (int64_t)(value));                                    \
+#define DROGUE_NOTE(name, value, bits)                                                \
+    do {                                                                              \
+        static checked_site checked_here = {name, __FILE__, __LINE__, bits, 0, 0, 0}; \
+        checked_note(&checked_here, (int64_t)(value));                                \
     } while (0)
 
 #include "drogue/fixed.h"
@@ -36,37 +36,36 @@ void checked_fail(const char *what, const char *file, int line);
 #ifndef CHECKED_PRIMITIVES /* the sources that define the primitives only take DROGUE_NOTE */
 
 /* A statement expression gives each place its own record. */
-#define CHECKED_SATURATION(name, saturated)                                               \
-    do {                                                                                  \
-        static checked_site checked_here = {name, __FILE__, __LINE__, 0, 0, 0, 0};        \
-        checked_saturation(&checked_here, saturated);                                     \
+#define CHECKED_SATURATION(name, saturated)                                        \
+    do {                                                                           \
+        static checked_site checked_here = {name, __FILE__, __LINE__, 0, 0, 0, 0}; \
+        checked_saturation(&checked_here, saturated);                              \
     } while (0)
 
-#define drogue_sat_s32(v)                                                                 \
-    __extension__({                                                                       \
-        int64_t checked_v = (v);                                                          \
+#define drogue_sat_s32(v)                                                                     \
+    __extension__({                                                                           \
+        int64_t checked_v = (v);                                                              \
         CHECKED_SATURATION("drogue_sat_s32", checked_v > INT32_MAX || checked_v < INT32_MIN); \
-        (drogue_sat_s32)(checked_v);                                                      \
+        (drogue_sat_s32)(checked_v);                                                          \
     })
-#define drogue_wide_to_q16(v)                                                             \
-    __extension__({                                                                       \
-        drogue_wide checked_v = (v);                                                      \
-        int64_t checked_q = (drogue_wide_to_s64)(checked_v, 16);                          \
+#define drogue_wide_to_q16(v)                                                                     \
+    __extension__({                                                                               \
+        drogue_wide checked_v = (v);                                                              \
+        int64_t checked_q = (drogue_wide_to_s64)(checked_v, 16);                                  \
         CHECKED_SATURATION("drogue_wide_to_q16", checked_q > INT32_MAX || checked_q < INT32_MIN); \
-        (drogue_wide_to_q16)(checked_v);                                                  \
+        (drogue_wide_to_q16)(checked_v);                                                          \
     })
-#define drogue_wide_to_s64(v, frac)                                                       \
-    __extension__({                                                                       \
-        drogue_wide checked_v = (v);                                                      \
-        int checked_frac = (frac);                                                        \
-        CHECKED_SATURATION("drogue_wide_to_s64",                                          \
-                           checked_v.mantissa != 0 && checked_v.exponent + checked_frac > 1); \
-        (drogue_wide_to_s64)(checked_v, checked_frac);                                    \
+#define drogue_wide_to_s64(v, frac)                                                                                 \
+    __extension__({                                                                                                 \
+        drogue_wide checked_v = (v);                                                                                \
+        int checked_frac = (frac);                                                                                  \
+        CHECKED_SATURATION("drogue_wide_to_s64", checked_v.mantissa != 0 && checked_v.exponent + checked_frac > 1); \
+        (drogue_wide_to_s64)(checked_v, checked_frac);                                                              \
     })
 #define drogue_q16_add(a, b) drogue_sat_s32((int64_t)(a) + (b))
 #define drogue_q16_sub(a, b) drogue_sat_s32((int64_t)(a) - (b))
 #define drogue_q16_mul(a, b) drogue_sat_s32(drogue_shr_round_s64((int64_t)(a) * (b), 16))
-#define drogue_q16_from_int(v) drogue_sat_s32((int64_t)(v) * DROGUE_Q16_ONE)
+#define drogue_q16_from_int(v) drogue_sat_s32((int64_t)(v)*DROGUE_Q16_ONE)
 
 #define drogue_shl_s64(v, n) checked_shl_s64(v, n, __FILE__, __LINE__)
 #define drogue_shr_round_s64(v, n) checked_shr_round_s64(v, n, __FILE__, __LINE__)

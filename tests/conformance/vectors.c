@@ -98,7 +98,7 @@ static int number_of(const reader *r, int32_t *out, const cJSON *object, const c
     return 1;
 }
 
-/* --- files --- */
+/* --- names of files --- */
 
 static int ends_with(const char *text, const char *end)
 {
@@ -111,30 +111,6 @@ static int plain_path(const char *file)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./";
     return file[0] != '/' && strstr(file, "..") == NULL && file[strspn(file, plain)] == '\0';
-}
-
-static int read_data(const reader *r, conf_array *a, const char *file, const char *digest)
-{
-    char path[1024];
-    char reason[VECTORS_TEXT];
-    char found[SHA256_HEX];
-    char *data;
-    size_t bytes;
-    sha256 s;
-    int ok;
-    snprintf(path, sizeof path, "%s/%s", r->directory, file);
-    data = vectors_file(&bytes, reason, path);
-    if (data == NULL) {
-        return fail(r, "file %s: %s", file, reason);
-    }
-    sha256_init(&s);
-    sha256_add(&s, data, bytes);
-    sha256_end(found, &s);
-    if (strcmp(found, digest) != 0) {
-        return fail(r, "file %s: SHA-256 is %s, field 'sha256' says %s", file, found, digest);
-    }
-    ok = a->width_px > 0 ? vectors_png(a, reason, data, bytes) : vectors_hex(a, reason, data, bytes);
-    return ok ? 1 : fail(r, "file %s: %s", file, reason);
 }
 
 /* Size of an image or number of words, fields that go with the kind of file. */
@@ -179,6 +155,8 @@ static int read_shape(const reader *r, conf_array *a, const cJSON *json, const c
 static int read_array(reader *r, conf_array *a, const char **file, const cJSON *json, const char *more)
 {
     char optional[64];
+    char path[1024];
+    char reason[VECTORS_TEXT];
     const char *digest;
     snprintf(optional, sizeof optional, "count width height q %s", more);
     r->array = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(json, "name"));
@@ -194,8 +172,12 @@ static int read_array(reader *r, conf_array *a, const char **file, const cJSON *
     if (!plain_path(*file)) {
         return fail(r, "field 'file': %s leaves the folder or has unusual characters", *file);
     }
-    if (!read_shape(r, a, json, *file) || !read_data(r, a, *file, digest)) {
+    if (!read_shape(r, a, json, *file)) {
         return 0;
+    }
+    snprintf(path, sizeof path, "%s/%s", r->directory, *file);
+    if (!vectors_data(a, reason, path, digest)) {
+        return fail(r, "file %s: %s", *file, reason);
     }
     r->array = NULL;
     return 1;
@@ -243,15 +225,15 @@ static int read_expected(reader *r, conf_expected *e, const char **file, const c
     return bound != NULL ? read_bound(r, e, bound) : fail(r, "field 'bound' is missing");
 }
 
-/* The items of a tier, at most 'most'; -1 on failure. */
-static int tier_size(reader *r, const cJSON *json, const char *tier, int least, int most)
+/* The items of a tier, one at least and at most 'most'; -1 on failure. */
+static int tier_size(reader *r, const cJSON *json, const char *tier, int most)
 {
     const cJSON *list = cJSON_GetObjectItemCaseSensitive(json, tier);
     int size = cJSON_IsArray(list) ? cJSON_GetArraySize(list) : -1;
     r->tier = tier;
     r->array = NULL;
-    if (size < least || size > most) {
-        fail(r, "a list of %d to %d arrays is expected", least, most);
+    if (size < 1 || size > most) {
+        fail(r, "a list of 1 to %d arrays is expected", most);
         return -1;
     }
     return size;
@@ -264,7 +246,7 @@ static int read_inputs(reader *r, conf_case *c, const cJSON *json)
     const char *file;
     int i = 0;
     c->inputs = inputs;
-    c->input_count = tier_size(r, json, "inputs", 1, CONF_MAX_INPUTS);
+    c->input_count = tier_size(r, json, "inputs", CONF_MAX_INPUTS);
     if (c->input_count < 0) {
         return 0;
     }
@@ -278,14 +260,14 @@ static int read_inputs(reader *r, conf_case *c, const cJSON *json)
 }
 
 static int read_tier(reader *r, const conf_expected **out, int *count, const char **file, const cJSON *json,
-                     const char *tier, int least)
+                     const char *tier)
 {
     const cJSON *item = NULL;
     conf_expected *expected = vectors_alloc(CONF_MAX_OUTPUTS * sizeof *expected);
     int i = 0;
     int k;
     *out = expected;
-    *count = tier_size(r, json, tier, least, CONF_MAX_OUTPUTS);
+    *count = tier_size(r, json, tier, CONF_MAX_OUTPUTS);
     if (*count < 0) {
         return 0;
     }
@@ -311,6 +293,7 @@ static int check_labels(const reader *r, const cJSON *json)
     const cJSON *flags = cJSON_GetObjectItemCaseSensitive(json, "flags");
     const cJSON *origin = cJSON_GetObjectItemCaseSensitive(json, "origin");
     const cJSON *item = NULL;
+    const cJSON *seed;
     if (!cJSON_IsArray(flags)) {
         return fail(r, "field 'flags' is no list");
     }
@@ -323,8 +306,11 @@ static int check_labels(const reader *r, const cJSON *json)
     if (!check_fields(r, origin, "seed generator", "")) {
         return 0;
     }
-    if (!whole(cJSON_GetObjectItemCaseSensitive(origin, "seed"), 0, 9007199254740992.0)) {
-        return fail(r, "field 'seed' is no whole number");
+    seed = cJSON_GetObjectItemCaseSensitive(origin, "seed");
+    /* 64 bits: more than a double tells apart; it is whole from 2^53 on. */
+    if (!whole(seed, 0, 9007199254740992.0) && !(cJSON_IsNumber(seed) && seed->valuedouble > 9007199254740992.0 &&
+                                                 seed->valuedouble <= 18446744073709551616.0)) {
+        return fail(r, "field 'seed' is no whole number of 64 bits");
     }
     return text_of(r, origin, "generator") != NULL;
 }
@@ -365,8 +351,8 @@ static int read_case(reader *r, vectors_case *out, const cJSON *json)
         return fail(r, "field 'tier': '%s' is unknown", c->tier);
     }
     return check_labels(r, json) && read_inputs(r, c, json) &&
-           read_tier(r, &c->reference, &c->reference_count, reference_file, json, "reference", 0) &&
-           read_tier(r, &c->exact, &c->exact_count, out->exact_file, json, "exact", 1);
+           read_tier(r, &c->reference, &c->reference_count, reference_file, json, "reference") &&
+           read_tier(r, &c->exact, &c->exact_count, out->exact_file, json, "exact");
 }
 
 static int check_version(const reader *r, const char *version)

@@ -35,6 +35,9 @@ int vectors_hex(conf_array *array, char reason[VECTORS_TEXT], const char *text, 
 /* Grey levels of a PNG of array->width_px x height_px; 0 and a reason when it is not that. */
 int vectors_png(conf_array *array, char reason[VECTORS_TEXT], const void *file, size_t bytes);
 
+/* The words or grey levels of a file whose SHA-256 must be the given one; 0 and a reason. */
+int vectors_data(conf_array *array, char reason[VECTORS_TEXT], const char *path, const char *digest);
+
 /* Memory that vectors_free() gives back; ends the program when there is none. */
 void *vectors_alloc(size_t bytes);
 

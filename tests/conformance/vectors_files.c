@@ -171,3 +171,24 @@ int vectors_png(conf_array *array, char reason[VECTORS_TEXT], const void *file, 
     png_image_free(&png);
     return ok;
 }
+
+/* --- both, with their digest --- */
+
+int vectors_data(conf_array *array, char reason[VECTORS_TEXT], const char *path, const char *digest)
+{
+    char found[SHA256_HEX];
+    size_t bytes;
+    sha256 s;
+    char *data = vectors_file(&bytes, reason, path);
+    if (data == NULL) {
+        return 0;
+    }
+    sha256_init(&s);
+    sha256_add(&s, data, bytes);
+    sha256_end(found, &s);
+    if (strcmp(found, digest) != 0) {
+        snprintf(reason, VECTORS_TEXT, "SHA-256 is %s, field 'sha256' says %.80s", found, digest);
+        return 0;
+    }
+    return array->width_px > 0 ? vectors_png(array, reason, data, bytes) : vectors_hex(array, reason, data, bytes);
+}

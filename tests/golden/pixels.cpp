@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Smoothing, gradient, Canny and masks: equal to OpenCV in every pixel. */
-#include <opencv2/imgproc.hpp>
-
 #include "golden.hpp"
+#include "reference.hpp"
 #include "workspace.h"
 
 #include "drogue/gradient.h"
@@ -16,20 +15,19 @@ drogue_image view_of(const cv::Mat &m) { return {m.data, m.cols, m.rows, (std::i
 
 double smooth_difference(const cv::Mat &image)
 {
-    cv::Mat expected, got(image.size(), CV_8U);
+    cv::Mat got(image.size(), CV_8U);
     std::vector<std::uint16_t> column((std::size_t)image.cols);
     const drogue_image view = view_of(image);
-    cv::GaussianBlur(image, expected, cv::Size(5, 5), 0, 0, cv::BORDER_REFLECT_101);
-    return drogue_smooth_image(got.data, column.data(), &view) == DROGUE_OK ? largest_difference(got, expected)
-                                                                            : INFINITY;
+    return drogue_smooth_image(got.data, column.data(), &view) == DROGUE_OK
+               ? largest_difference(got, reference::smooth(image))
+               : INFINITY;
 }
 
 double gradient_difference(const cv::Mat &image)
 {
     cv::Mat ex, ey, gx(image.size(), CV_16S), gy(image.size(), CV_16S), magnitude(image.size(), CV_16U);
     const drogue_image view = view_of(image);
-    cv::Sobel(image, ex, CV_16S, 1, 0, 3, 1, 0, cv::BORDER_REPLICATE);
-    cv::Sobel(image, ey, CV_16S, 0, 1, 3, 1, 0, cv::BORDER_REPLICATE);
+    reference::gradient(image, ex, ey);
     if (drogue_gradient_image(gx.ptr<std::int16_t>(), gy.ptr<std::int16_t>(), magnitude.ptr<std::uint16_t>(), &view) !=
         DROGUE_OK) {
         return INFINITY;
@@ -63,26 +61,22 @@ cv::Mat edge_map(const cv::Mat &image, int low, int high, bool smooth)
 /* Pixels that differ from cv::Canny. */
 double canny_difference(const cv::Mat &image, int low, int high, bool smooth)
 {
-    cv::Mat blurred = image, expected, got = edge_map(image, low, high, smooth);
-    if (smooth) {
-        cv::GaussianBlur(image, blurred, cv::Size(5, 5), 0, 0, cv::BORDER_REFLECT_101);
-    }
-    cv::Canny(blurred, expected, low, high, 3, false);
-    return got.empty() ? INFINITY : cv::countNonZero(got != expected);
+    const cv::Mat got = edge_map(image, low, high, smooth);
+    return got.empty() ? INFINITY : cv::countNonZero(got != reference::canny(image, low, high, smooth));
 }
 
-/* Ring and disc of a region against the same inequality on exact squared distances in double. */
+/* Pixels of the ring and the disc of a region that differ. */
 double mask_difference(cv::Size size)
 {
     const drogue_mask mask = drogue_mask_of_size(size.width, size.height);
-    const double side2 = std::pow(std::max(size.width, size.height), 2);
+    const int longest = std::max(size.width, size.height);
+    const cv::Mat ring = reference::ring(size.width, size.height, size.width - 1, size.height - 1, longest);
+    const cv::Mat disc = reference::disc(size.width, size.height, size.width - 1, size.height - 1, longest);
     double different = 0;
     for (int y = 0; y < size.height; y++) {
         for (int x = 0; x < size.width; x++) {
-            const double dx = x - (size.width - 1) / 2.0, dy = y - (size.height - 1) / 2.0,
-                         d2 = 4 * (dx * dx + dy * dy);
-            different += (drogue_mask_in_ring(&mask, x, y) != 0) != (9 * d2 >= 4 * side2 && d2 <= side2);
-            different += (drogue_mask_in_disc(&mask, x, y) != 0) != (9 * d2 <= 4 * side2);
+            different += (drogue_mask_in_ring(&mask, x, y) != 0) != (ring.at<std::uint8_t>(y, x) != 0);
+            different += (drogue_mask_in_disc(&mask, x, y) != 0) != (disc.at<std::uint8_t>(y, x) != 0);
         }
     }
     return different;

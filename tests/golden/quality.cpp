@@ -2,6 +2,7 @@
 /* Quality (10)-(15) of fits to arcs, and the winner among their combinations (16), against double. */
 #include "geometry.h"
 #include "golden.hpp"
+#include "reference.hpp"
 
 #include "drogue/cluster.h"
 #include "drogue/ellipse.h"
@@ -43,15 +44,14 @@ std::vector<Points> random_arcs(int seed)
 struct Scored {
     drogue_candidate candidate;
     drogue_quality got;
-    double model[5];            /* fit ratio, length ratio, axis ratio, score, reliability */
-    double near_low, near_high; /* fit ratio without and with the points within 4 LSB of the threshold */
+    reference::Quality model;
+    long double near_low, near_high; /* fit ratio without and with the points within 4 LSB of the threshold */
 };
 
-double deviation(const ellipse_real &e, double x, double y)
+reference::Ellipse reference_ellipse(const drogue_ellipse &q)
 {
-    const double dx = x - e.xc, dy = y - e.yc, c = std::cos(e.angle), s = std::sin(e.angle);
-    const double u = (dx * c + dy * s) / e.a, v = (dy * c - dx * s) / e.b;
-    return std::fabs(u * u + v * v - 1);
+    return {real_of_q16(q.xc_px_q16), real_of_q16(q.yc_px_q16), real_of_q16(q.a_px_q16), real_of_q16(q.b_px_q16),
+            real_of_q16(q.angle_rad_q16)};
 }
 
 /* False when the library fits no ellipse. */
@@ -61,8 +61,8 @@ bool score(Scored *out, const std::vector<Points> &arcs, unsigned combination, R
     drogue_moments moments;
     drogue_ellipse_frame frame;
     drogue_ellipse *q = &out->candidate.ellipse;
-    double low = 0, high = 0, total = 0, worst = 0;
-    std::uint32_t near_count = 0;
+    long double low = 0, high = 0;
+    std::uint32_t near_count = 0, total = 0;
     drogue_moments_clear(&moments);
     for (unsigned k = 0; k < 4; k++) {
         for (const auto &p : (combination >> k) & 1u ? arcs[k] : Points()) {
@@ -72,14 +72,14 @@ bool score(Scored *out, const std::vector<Points> &arcs, unsigned combination, R
     if (drogue_ellipse_fit(q, &moments, 5) != DROGUE_OK || drogue_ellipse_frame_of(&frame, q) != DROGUE_OK) {
         return false;
     }
-    const ellipse_real e = ellipse_from_q16(q);
+    const reference::Ellipse e = reference_ellipse(*q);
     const drogue_q16 threshold = drogue_quality_threshold(q, quality_config.fit_error_px_q16);
-    const double t = 2.0 / e.a;
-    worst = std::fabs(threshold - 65536 * t);
+    const double t = (double)reference::deviation_threshold(e, real_of_q16(quality_config.fit_error_px_q16));
+    double worst = std::fabs(threshold - 65536 * t);
     for (unsigned k = 0; k < 4; k++) {
         for (const auto &p : (combination >> k) & 1u ? arcs[k] : Points()) {
             const drogue_q16 got = drogue_ellipse_deviation(&frame, p.first * 2048, p.second * 2048);
-            const double d = deviation(e, p.first / 32.0, p.second / 32.0);
+            const double d = (double)reference::deviation(e, {p.first / 32.0L, p.second / 32.0L});
             if (d < 3) {
                 worst = std::max(worst, std::fabs(got - 65536 * d));
             }
@@ -90,42 +90,32 @@ bool score(Scored *out, const std::vector<Points> &arcs, unsigned combination, R
         }
     }
     deviations->add(worst, name);
-    drogue_quality_score(&out->got, q, near_count, (std::uint32_t)total, &quality_config);
-    const double ratio = e.b / e.a, k1 = 6, k2 = real_of_q16(quality_config.k2_q16), s = (ratio - k2) / (1 - k2);
+    drogue_quality_score(&out->got, q, near_count, total, &quality_config);
+    out->model = reference::quality(e, (int)near_count, (int)total, real_of_q16(quality_config.k1_q16),
+                                    real_of_q16(quality_config.k2_q16));
     out->near_low = low / total;
     out->near_high = high / total;
-    out->model[0] = near_count / total;
-    out->model[1] = std::min(1.0, total / (TEST_PI * (3 * (e.a + e.b) - std::sqrt((3 * e.a + e.b) * (e.a + 3 * e.b)))));
-    out->model[2] = ratio;
-    out->model[3] = out->model[1] / 2 + (s > 0 ? ((s - 1) * std::exp(-k1 * s) + 1) / 2 : 0);
-    out->model[4] = (out->model[3] + out->model[0]) / 2;
     out->candidate.reliability_q16 = out->got.reliability_q16;
     out->candidate.polarity = 0;
     out->candidate.arcs = combination;
     return true;
 }
 
-bool same(const ellipse_real &p, const ellipse_real &q)
-{
-    const bool round = p.b > 58982 / 65536.0 * p.a && q.b > 58982 / 65536.0 * q.a;
-    return std::hypot(p.xc - q.xc, p.yc - q.yc) < 3 && std::fabs(p.a - q.a) < 3 && std::fabs(p.b - q.b) < 3 &&
-           (round || std::fabs(angle_difference(p.angle, q.angle, TEST_PI)) < 13107 / 65536.0);
-}
-
 /* Winner and its cluster by real reliabilities; -2 when two are too near to tell apart. */
-int model_winner(unsigned *members, const std::vector<Scored> &all)
+int model_winner(int *members, const std::vector<Scored> &all)
 {
-    int best = -1;
-    for (int i = 0; i < (int)all.size(); i++) {
-        best = best < 0 || all[(std::size_t)i].model[4] > all[(std::size_t)best].model[4] ? i : best;
+    const reference::ClusterConfig config = {3, 3, 3, real_of_q16(cluster_config.angle_rad_q16),
+                                             real_of_q16(cluster_config.round_q16)};
+    std::vector<reference::Candidate> candidates;
+    for (const Scored &s : all) {
+        candidates.push_back({reference_ellipse(s.candidate.ellipse), s.model.reliability, 0});
     }
-    *members = 0;
+    const int best = reference::cluster_best(candidates, config, *members);
     for (int i = 0; i < (int)all.size(); i++) {
-        if (i != best && all[(std::size_t)best].model[4] - all[(std::size_t)i].model[4] < 8 / 65536.0) {
+        if (i != best &&
+            all[(std::size_t)best].model.reliability - all[(std::size_t)i].model.reliability < 8 / 65536.0L) {
             return -2;
         }
-        *members += i == best || same(ellipse_from_q16(&all[(std::size_t)best].candidate.ellipse),
-                                      ellipse_from_q16(&all[(std::size_t)i].candidate.ellipse));
     }
     return best;
 }
@@ -144,23 +134,23 @@ int main()
             const std::string name = name_of("seed", seed) + " arcs " + std::to_string(combination);
             Scored s = {};
             if (score(&s, arcs, combination, &deviations, name)) {
-                fit.add(lsb_from(s.got.fit_ratio_q16, s.model[0]), name);
-                length.add(lsb_from(s.got.length_ratio_q16, s.model[1]), name);
-                axes.add(lsb_from(s.got.axis_ratio_q16, s.model[2]), name);
-                scores.add(lsb_from(s.got.score_q16, s.model[3]), name);
-                reliability.add(lsb_from(s.got.reliability_q16, s.model[4]), name);
-                near_counts.add(s.model[0] >= s.near_low && s.model[0] <= s.near_high ? 0 : 1, name);
+                fit.add(lsb_from(s.got.fit_ratio_q16, s.model.fit_ratio), name);
+                length.add(lsb_from(s.got.length_ratio_q16, s.model.length_ratio), name);
+                axes.add(lsb_from(s.got.axis_ratio_q16, s.model.axis_ratio), name);
+                scores.add(lsb_from(s.got.score_q16, s.model.score), name);
+                reliability.add(lsb_from(s.got.reliability_q16, s.model.reliability), name);
+                near_counts.add(s.model.fit_ratio >= s.near_low && s.model.fit_ratio <= s.near_high ? 0 : 1, name);
                 all.push_back(s);
                 candidates.push_back(s.candidate);
             }
         }
-        unsigned expected_members;
+        int expected_members;
         std::uint32_t members;
         const int expected = model_winner(&expected_members, all);
         const int got =
             drogue_cluster_best(&members, candidates.data(), (std::uint32_t)candidates.size(), &cluster_config);
         if (expected != -2) {
-            winners.add(got == expected && members == expected_members ? 0 : 1, name_of("seed", seed));
+            winners.add(got == expected && (int)members == expected_members ? 0 : 1, name_of("seed", seed));
         }
     }
     const bool ok[] = {deviations.finish(5000),  fit.finish(5000),    length.finish(5000),

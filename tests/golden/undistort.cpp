@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Lens distortion against cv::projectPoints, its inverse against cv::undistortPoints iterated to convergence. */
+/* Lens distortion and its inverse against long double, cv::projectPoints, and cv::undistortPoints to convergence. */
 #include <opencv2/calib3d.hpp>
 
 #include "geometry.h"
 #include "golden.hpp"
+#include "reference.hpp"
 
 #include "drogue/undistort.h"
 
@@ -11,6 +12,7 @@ namespace {
 
 struct Camera {
     drogue_camera q16;
+    reference::Camera real;
     cv::Matx33d matrix;
     cv::Vec<double, 5> distortion;
 };
@@ -38,10 +40,12 @@ Camera random_camera(int seed)
                 1};
     c.distortion = {real_of_q16(c.q16.k1_q16), real_of_q16(c.q16.k2_q16), real_of_q16(c.q16.p1_q16),
                     real_of_q16(c.q16.p2_q16), real_of_q16(c.q16.k3_q16)};
+    c.real = {c.matrix(0, 0),  c.matrix(1, 1),  c.matrix(0, 2),  c.matrix(1, 2), c.distortion[0],
+              c.distortion[1], c.distortion[2], c.distortion[3], c.distortion[4]};
     return c;
 }
 
-cv::Point2d distort(const Camera &c, cv::Point2d ideal)
+cv::Point2d opencv_distort(const Camera &c, cv::Point2d ideal)
 {
     const std::vector<cv::Point3d> point = {
         {(ideal.x - c.matrix(0, 2)) / c.matrix(0, 0), (ideal.y - c.matrix(1, 2)) / c.matrix(1, 1), 1}};
@@ -50,11 +54,27 @@ cv::Point2d distort(const Camera &c, cv::Point2d ideal)
     return out[0];
 }
 
+/* The point that OpenCV's fixed-point iteration finds; false when it finds none. */
+bool opencv_undistort(const Camera &c, cv::Point2d seen, cv::Point2d &ideal)
+{
+    std::vector<cv::Point2d> out;
+    cv::undistortPoints(std::vector<cv::Point2d>{seen}, out, c.matrix, c.distortion, cv::noArray(), c.matrix,
+                        cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 2000, 1e-12));
+    ideal = out[0];
+    return cv::norm(opencv_distort(c, ideal) - seen) <= 1e-8;
+}
+
+template <class P> double difference(drogue_q16 x, drogue_q16 y, const P &p)
+{
+    return std::max(lsb_from(x, p.x), lsb_from(y, p.y));
+}
+
 } // namespace
 
 int main()
 {
     Report forth("distort", 2), back("undistort", 4), accepted("undistort_accepted", 0);
+    Report opencv_forth("distort_opencv", 2), opencv_back("undistort_opencv", 4);
     long diverged = 0;
     for (int seed = 1; seed <= 200; seed++) {
         const Camera c = random_camera(seed);
@@ -63,27 +83,29 @@ int main()
             drogue_q16 x = q16_of(c.matrix(0, 2) + rng_real(&rng, -0.6, 0.6) * c.matrix(0, 0));
             drogue_q16 y = q16_of(c.matrix(1, 2) + rng_real(&rng, -0.6, 0.6) * c.matrix(1, 1));
             const std::string name = name_of("camera", seed) + " point " + std::to_string(k);
-            const std::vector<cv::Point2d> seen = {{real_of_q16(x), real_of_q16(y)}};
-            std::vector<cv::Point2d> ideal;
+            const cv::Point2d seen(real_of_q16(x), real_of_q16(y));
+            reference::Point distorted = {seen.x, seen.y}, undistorted = distorted;
+            cv::Point2d ideal;
             drogue_q16 u = x, v = y;
-            const cv::Point2d d = distort(c, seen[0]);
-            forth.add(drogue_distort_point(&u, &v, &c.q16) == DROGUE_OK ? std::max(lsb_from(u, d.x), lsb_from(v, d.y))
-                                                                        : INFINITY,
-                      name);
-            cv::undistortPoints(seen, ideal, c.matrix, c.distortion, cv::noArray(), c.matrix,
-                                cv::TermCriteria(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 2000, 1e-12));
-            if (cv::norm(distort(c, ideal[0]) - seen[0]) > 1e-8) {
-                diverged++; /* OpenCV's fixed-point iteration found nothing to compare with */
-                continue;
+            const bool distorts = drogue_distort_point(&u, &v, &c.q16) == DROGUE_OK;
+            const bool expected = reference::distort(c.real, distorted);
+            forth.add(distorts && expected ? difference(u, v, distorted) : INFINITY, name);
+            opencv_forth.add(distorts ? difference(u, v, opencv_distort(c, seen)) : INFINITY, name);
+            const bool inverts = drogue_undistort_point(&x, &y, &c.q16) == DROGUE_OK;
+            const bool invertible = reference::undistort(c.real, undistorted);
+            const bool found = opencv_undistort(c, seen, ideal);
+            accepted.add(inverts == invertible && (inverts || !found) ? 0 : 1, name);
+            if (inverts && invertible) {
+                back.add(difference(x, y, undistorted), name);
             }
-            const bool ok = drogue_undistort_point(&x, &y, &c.q16) == DROGUE_OK;
-            accepted.add(ok ? 0 : 1, name);
-            if (ok) {
-                back.add(std::max(lsb_from(x, ideal[0].x), lsb_from(y, ideal[0].y)), name);
+            if (inverts && found) {
+                opencv_back.add(difference(x, y, ideal), name);
             }
+            diverged += found ? 0 : 1;
         }
     }
     std::printf("undistort: %ld points not converged in OpenCV\n", diverged);
-    const bool ok[] = {forth.finish(20000), back.finish(18000), accepted.finish(18000)};
-    return ok[0] && ok[1] && ok[2] ? EXIT_SUCCESS : EXIT_FAILURE;
+    const bool ok[] = {forth.finish(20000), back.finish(18000), accepted.finish(20000), opencv_forth.finish(20000),
+                       opencv_back.finish(18000)};
+    return std::all_of(std::begin(ok), std::end(ok), [](bool v) { return v; }) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -4,8 +4,8 @@
 # processor), runs it, and compares the digests of all outputs. A row counts only when its program shows that it is what
 # the row says: compiler, optimisation, pointer size, byte order and core are read back from it.
 set -uo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
-work=${DROGUE_MATRIX_DIR:-$root/build/matrix}
+cd "$(dirname "$0")/../.." || exit
+work=${DROGUE_MATRIX_DIR:-build/matrix}
 jobs=${DROGUE_MATRIX_JOBS:-$(nproc)}
 most_s=900 # of one row's run
 host=$(uname -m)
@@ -61,13 +61,13 @@ lookup() {
     qemu-*) link=(-static) run=("$where") ;;
     mps2-*)
         dialect=(--specs=rdimon.specs)
-        link=(-nostartfiles -T "$root/tests/matrix/mps2.ld" "$root/tests/matrix/start_mps2.c")
+        link=(-nostartfiles -T tests/matrix/mps2.ld tests/matrix/start_mps2.c)
         run=(qemu-system-arm -M "$where" "${semihosting[@]}")
         ;;
     virt)
         dialect=(--specs=picolibc.specs)
-        link=(--oslib=semihost --crt0=semihost -Wl,--defsym=__flash=0x80000000,--defsym=__flash_size=16M
-            -Wl,--defsym=__ram=0x81000000,--defsym=__ram_size=16M,--defsym=__stack_size=64K)
+        link=(--oslib=semihost --crt0=semihost "-Wl,--defsym=__flash=0x80000000,--defsym=__flash_size=16M"
+            "-Wl,--defsym=__ram=0x81000000,--defsym=__ram_size=16M,--defsym=__stack_size=64K")
         run=(qemu-system-riscv32 -M virt -m 64M -bios none "${semihosting[@]}")
         ;;
     *)
@@ -108,19 +108,19 @@ build_data() {
     local file
     mkdir -p "$data_dir"
     for file in "$work"/cases/*.c; do
-        "${data_cc[@]}" -I "$root/tests/conformance" -c "$file" -o "$data_dir/$(basename "$file" .c).o" || return 1
+        "${data_cc[@]}" -I tests/conformance -c "$file" -o "$data_dir/$(basename "$file" .c).o" || return 1
     done 2>"$data_dir/build.log"
 }
 
-conformance=("$root"/tests/conformance/{stages*,sha256,conformance}.c)
+conformance=(tests/conformance/{stages*,sha256,conformance}.c)
 warnings=(-pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Wvla -Wdouble-promotion -Wshadow -Werror)
 
 # build_row DIR: compile and link the row looked up
 build_row() {
     local compile=("$compiler" "${dialect[@]}" "${flags[@]}" -std=c99 "${warnings[@]}" -frecord-gcc-switches
-        -I "$root/include" -I "$root/tests/conformance")
-    "${compile[@]}" -Dmain=conformance_main -c "$root/tests/conformance/embedded_main.c" -o "$1/embedded_main.o" &&
-        "${compile[@]}" "$root"/src/*.c "${conformance[@]}" "$root/tests/matrix/row_main.c" "$1/embedded_main.o" \
+        -I include -I tests/conformance)
+    "${compile[@]}" -Dmain=conformance_main -c tests/conformance/embedded_main.c -o "$1/embedded_main.o" &&
+        "${compile[@]}" src/*.c "${conformance[@]}" tests/matrix/row_main.c "$1/embedded_main.o" \
             "$data_dir"/*.o "${link[@]}" -o "$1/image"
 } >"$1/build.log" 2>&1
 
@@ -148,7 +148,7 @@ took_effect() {
 
 # do_row ROW: build and run it; leaves 'verdict|compiler and flags|ran on|cases|failed|digest|seconds' in its folder
 do_row() {
-    local dir=$work/rows/$1 begin=$SECONDS verdict="" line="" last="" status=0 lacking
+    local dir=$work/rows/$1 begin=$SECONDS verdict="" line="" last="" status=0 built="" ran=- lacking
     lookup "$1" && data_compiler || return
     mkdir -p "$dir"
     rm -f "$dir"/*
@@ -160,12 +160,14 @@ do_row() {
     if [ ! -e "$data_dir/done" ]; then
         verdict="FAILED: vectors do not compile"
         cp "$data_dir/build.log" "$dir/log"
-    elif ! build_row "$dir"; then
+    elif ! build_row "$dir" || [ ! -x "$dir/image" ]; then
         verdict="FAILED: does not build"
         cp "$dir/build.log" "$dir/log"
     else
         timeout "$most_s" "${run[@]}" "$dir/image" </dev/null >"$dir/log" 2>&1 || status=$?
         line=$(grep -a '^row: ' "$dir/log" | head -n 1)
+        built=$(value compiler "$line")
+        ran="$where: $(value target "$line") $(value bits "$line") bit $(value order "$line") $(value core "$line")"
         last=$(tail -n 1 "$dir/log" | grep -aE '^conformance: cases=[0-9]+ exact=[0-9]+ failed=[0-9]+ digest=[0-9a-f]{64}$')
         if [ -z "$last" ]; then
             verdict="FAILED: no result, exit status $status"
@@ -177,9 +179,8 @@ do_row() {
             verdict="FAILED: exit status $status"
         fi
     fi
-    printf '%s|%s|%s|%s|%s|%s|%d\n' "$verdict" "$(value compiler "$line") ${flags[*]}" \
-        "$where: $(value target "$line") $(value bits "$line") bit $(value order "$line") $(value core "$line")" \
-        "$(value cases "$last")" "$(value failed "$last")" "$(value digest "$last")" $((SECONDS - begin)) >"$dir/result"
+    printf '%s|%s|%s|%s|%s|%s|%d\n' "$verdict" "${built:-$compiler} ${flags[*]}" "${ran%% -}" "$(value cases "$last")" \
+        "$(value failed "$last")" "$(value digest "$last")" $((SECONDS - begin)) >"$dir/result"
 }
 
 # in_parallel COMMAND NAME...: one background job per name
@@ -270,7 +271,7 @@ for row in "${chosen[@]}"; do
         data_dirs+=("$data_dir")
     fi
 done
-if ! "$root/tests/matrix/embed.sh" "$work/cases"; then
+if ! tests/matrix/embed.sh "$work/cases"; then
     echo "matrix: cannot turn vectors/ into C" >&2
     exit 1
 fi

@@ -3,12 +3,11 @@
 # Do the golden vectors notice a wrong bit? Builds the core once per entry of list.txt with that one change in it, runs the
 # vectors, and counts the changes that make a case fail.
 set -uo pipefail
-root=$(cd "$(dirname "$0")/../.." && pwd)
-list=$root/tests/mutants/list.txt
-work=${DROGUE_MUTANTS_DIR:-$root/build/mutants}
+cd "$(dirname "$0")/../.." || exit
+list=tests/mutants/list.txt
+work=${DROGUE_MUTANTS_DIR:-build/mutants}
 jobs=${DROGUE_MUTANTS_JOBS:-$(nproc)}
 least_percent=95
-compile=(gcc -O1 -std=c99 -I "$root/include" -I "$root/tests/conformance")
 
 usage() {
     cat <<'END'
@@ -58,7 +57,7 @@ stale() {
 
 # check_entry NAME: complete, and its old text in its file exactly once
 check_entry() {
-    local text rest path=$root/${file[$1]}
+    local text rest path=${file[$1]}
     if [ -z "${file[$1]}" ] || [ -z "${old[$1]}" ] || [ -z "${new[$1]}" ] || [ -z "${what[$1]}" ] || [ ! -f "$path" ]; then
         stale "$1: needs an existing file, old, new and what"
         return
@@ -72,60 +71,72 @@ check_entry() {
     fi
 }
 
-# build_base: objects of the unchanged core with their dependencies, the conformance run, the vectors; their digest
+# slot: wait until another job may start
+slot() {
+    while [ "$(jobs -rp | wc -l)" -ge "$jobs" ]; do
+        wait -n
+    done
+}
+
+# compile INCLUDE SOURCE OBJECT [FLAG...]: with INCLUDE before the tree's own headers
+compile() {
+    gcc -O1 -std=c99 -I "$1" -I include -I tests/conformance -MMD -c "$2" -o "$3" "${@:4}"
+}
+
+# build_base: objects of the unchanged core with their dependencies, the conformance run, the vectors; its digest
 build_base() {
-    local source
+    local source begin
     rm -rf "$work"
     mkdir -p "$work/core" "$work/rest"
-    "$root/tests/matrix/embed.sh" "$work/cases" || return 1
-    for source in "$root"/src/*.c; do
-        echo "-MMD -c $source -o $work/core/$(basename "$source" .c).o"
-    done >"$work/jobs"
+    tests/matrix/embed.sh "$work/cases" || return 1
     for source in "$work"/cases/*.c; do
-        echo "-O0 -c $source -o $work/rest/$(basename "$source" .c).o"
-    done >>"$work/jobs"
-    for source in "$root"/tests/conformance/{stages*,sha256,conformance,embedded_main}.c; do
-        echo "-MMD -c $source -o $work/rest/$(basename "$source" .c).o"
-    done >>"$work/jobs"
-    xargs -P "$jobs" -L 1 "${compile[@]}" <"$work/jobs" || return 1
+        slot
+        compile include "$source" "$work/rest/$(basename "$source" .c).o" -O0 &
+    done
+    for source in src/*.c; do
+        slot
+        compile include "$source" "$work/core/$(basename "$source" .c).o" &
+    done
+    for source in tests/conformance/{stages*,sha256,conformance,embedded_main}.c; do
+        slot
+        compile include "$source" "$work/rest/$(basename "$source" .c).o" &
+    done
+    wait
     gcc "$work"/core/*.o "$work"/rest/*.o -o "$work/base" || return 1
-    local begin=$SECONDS
+    begin=$SECONDS
     "$work/base" >"$work/base.log" || return 1
     most_s=$((10 * (SECONDS - begin) + 20))
     digest=$(tail -n 1 "$work/base.log")
     digest=${digest##*digest=}
 }
 
-# users OBJECT_FOLDER FILE: the objects there that depend on a file of the core
+# users FILE: 'source object' of those whose object depends on a file of the core
 users() {
-    local dependencies
-    for dependencies in "$1"/*.d; do
-        if tr -s ' \\\n' '\n' <"$dependencies" | grep -qxF "$root/$2"; then
-            basename "$dependencies" .d
+    local dependencies source
+    for dependencies in "$work"/{core,rest}/*.d; do
+        if tr -s ' \\\n' '\n' <"$dependencies" | grep -qxF "$1"; then
+            source=$(tr -s ' \\\n' '\n' <"$dependencies" | sed -n 2p)
+            dependencies=${dependencies#"$work/"}
+            echo "$source ${dependencies%.d}.o"
         fi
     done
 }
 
-# do_mutant NAME: leaves 'verdict|cases that fail|stages' in its folder
+# do_mutant NAME: leaves 'verdict|cases that fail|stages that notice' in its folder
 do_mutant() {
-    local dir=$work/mutants/$1 path=${file[$1]} text name source status=0 last verdict
-    local overlay=$dir/tree objects=$dir/objects
-    mkdir -p "$objects" "$overlay/$(dirname "$path")"
-    text=$(<"$root/$path")
-    printf '%s\n' "${text%%"${old[$1]}"*}${new[$1]}${text#*"${old[$1]}"}" >"$overlay/$path"
-    cp -rs "$work/core" "$work/rest" "$objects"
-    for name in $(users "$work/core" "$path"); do
-        source=$root/src/$name.c
-        [ "$path" = "src/$name.c" ] && source=$overlay/$path
-        rm "$objects/core/$name.o"
-        "${compile[0]}" -I "$overlay/include" "${compile[@]:1}" -c "$source" -o "$objects/core/$name.o" || status=1
-    done >"$dir/build.log" 2>&1
-    for name in $(users "$work/rest" "$path"); do
-        rm "$objects/rest/$name.o"
-        "${compile[0]}" -I "$overlay/include" "${compile[@]:1}" -c "$root/tests/conformance/$name.c" \
-            -o "$objects/rest/$name.o" || status=1
-    done >>"$dir/build.log" 2>&1
-    if [ $status -ne 0 ] || ! gcc "$objects"/core/*.o "$objects"/rest/*.o -o "$dir/image" 2>>"$dir/build.log"; then
+    local dir=$work/mutants/$1 path=${file[$1]} text source object objects=() status=0 last verdict
+    mkdir -p "$dir/core" "$dir/rest" "$dir/$(dirname "$path")"
+    text=$(<"$path")
+    printf '%s\n' "${text%%"${old[$1]}"*}${new[$1]}${text#*"${old[$1]}"}" >"$dir/$path"
+    while read -r source object; do
+        [ "$source" != "$path" ] || source=$dir/$path
+        compile "$dir/include" "$source" "$dir/$object" || status=1
+    done < <(users "$path") >"$dir/build.log" 2>&1
+    for object in "$work"/{core,rest}/*.o; do
+        object=${object#"$work/"}
+        [ -e "$dir/$object" ] && objects+=("$dir/$object") || objects+=("$work/$object")
+    done
+    if [ $status -ne 0 ] || ! gcc "${objects[@]}" -o "$dir/image" 2>>"$dir/build.log"; then
         echo "does not build|-|-" >"$dir/result"
         return
     fi
@@ -142,7 +153,7 @@ do_mutant() {
     fi
     echo "$verdict|$(sed -nE 's/.* failed=([0-9]+) .*/\1/p' <<<"$last")|$(grep -a '^FAIL ' "$dir/log" |
         sed -E 's/^FAIL ([a-z]+).*/\1/' | sort -u | xargs)" >"$dir/result"
-    rm -rf "$objects" "$dir/image"
+    rm -rf "$dir/core" "$dir/rest" "$dir/image"
 }
 
 report() {
@@ -199,9 +210,7 @@ if ! build_base; then
     exit 1
 fi
 for name in "${chosen[@]}"; do
-    while [ "$(jobs -rp | wc -l)" -ge "$jobs" ]; do
-        wait -n
-    done
+    slot
     do_mutant "$name" &
 done
 wait

@@ -55,10 +55,11 @@ bool sector_patch(cv::Mat &patch, accuracy::Random &random, int gx, int gy)
     return axis != diagonal;
 }
 
-/* Gradients next to the border of the sectors, tan 22.5 degrees: the nearest fractions of the range on both sides. */
+/* Gradients next to the border of the sectors, tan 22.5 degrees: the nearest fractions on both sides among those that a
+ * gradient can have, whose components are both odd or both even. */
 cv::Mat sector_borders(accuracy::Random &random)
 {
-    static const int fractions[][2] = {{985, 408}, {408, 169}, {577, 239}, {169, 70}, {239, 99}, {816, 338}};
+    static const int fractions[][2] = {{577, 239}, {816, 338}, {239, 99}, {338, 140}, {99, 41}, {478, 198}};
     const int pitch = 7;
     cv::Mat image = constant(12 * pitch, 8 * pitch, 0);
     int tile = 0;
@@ -79,26 +80,34 @@ cv::Mat sector_borders(accuracy::Random &random)
     return image;
 }
 
+/* Least threshold that at most 'count' pixels of the smoothed image exceed. */
+int threshold_for(const cv::Mat &image, int count)
+{
+    int high = 0;
+    while (cv::countNonZero(reference::canny(image, high, high, true)) > count) {
+        high++;
+    }
+    return high;
+}
+
 /* A weak ring with a single strong pixel: hysteresis must carry it around all of the circle. */
 void add_weak_ring(Set &set)
 {
-    cv::Mat image = soft_disc(160, 160, 159, 159, 300, 12, 100, 116);
-    fill(image, 158, 79, 1, 1, 131);
-    fill(image, 159, 79, 1, 1, 131);
     const int low = 12;
-    for (int high = 200; high > low; high--) {
-        if (cv::countNonZero(reference::canny(image, high, high, true)) == 1) {
-            const int linked = cv::countNonZero(reference::canny(image, low, high, true));
-            if (linked < 400) {
-                break;
-            }
-            add_map(set, "weak-ring-one-strong", Tier::stress, {"long-weak-chain", "two-thresholds"}, image, low, high, 1);
-            add_map(set, "weak-ring-none-strong", Tier::stress, {"long-weak-chain", "two-thresholds"}, image, low,
-                    high + 1, 1);
+    for (int grey = 120; grey < 150; grey++) {
+        cv::Mat image = soft_disc(160, 160, 159, 159, 300, 12, 100, 116);
+        fill(image, 156, 78, 2, 1, grey);
+        fill(image, 157, 79, 1, 1, grey - 5);
+        const int high = threshold_for(image, 1);
+        const bool single = cv::countNonZero(reference::canny(image, high, high, true)) == 1;
+        if (single && cv::countNonZero(reference::canny(image, low, high, true)) >= 440) {
+            const Flags flags = {"long-weak-chain", "two-thresholds"};
+            add_map(set, "weak-ring-one-strong", Tier::stress, flags, image, low, high, 1);
+            add_map(set, "weak-ring-none-strong", Tier::stress, flags, image, low, threshold_for(image, 0), 1);
             return;
         }
     }
-    throw std::runtime_error("the weak ring does not hang on a single strong pixel");
+    throw std::runtime_error("no weak ring hangs on a single strong pixel");
 }
 
 /* Chains of weak edges with a strong spot at one end. */

@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The judge of other people's results, and the command line of the runner.
+# usage: judge.sh CONFORMANCE TINY_VECTORS
+set -euo pipefail
+conformance=$1
+tiny=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$tiny" "$work/vectors"
+status=0
+
+# expect STATUS ARGUMENT... : TEXT...
+expect() {
+    local expected=$1 got=0 arguments=() text
+    shift
+    while [ "$1" != : ]; do
+        arguments+=("$1")
+        shift
+    done
+    shift
+    "$conformance" --vectors "$work/vectors" "${arguments[@]}" >"$work/out" 2>&1 || got=$?
+    if [ "$got" != "$expected" ]; then
+        echo "judge: ${arguments[*]}: exit status $got, expected $expected"
+        status=1
+    fi
+    for text; do
+        if ! grep -qF -- "$text" "$work/out"; then
+            echo "judge: ${arguments[*]}: '$text' is missing in:"
+            cat "$work/out"
+            status=1
+        fi
+    done
+}
+
+same=$work/same
+cp -R "$work/vectors" "$same"
+expect 0 judge arcs "$same" : 'judge: files=2 equal=2 different=0 missing=0'
+expect 0 judge arcs/tiny "$same" : 'judge: files=2 equal=2 different=0 missing=0'
+expect 0 judge smooth "$same" : 'judge: files=1 equal=1'
+
+flat=$work/flat
+mkdir "$flat"
+cp "$same"/arcs/*.out.hex "$same"/mask/*.out.png "$flat"
+expect 0 judge arcs "$flat" : 'judge: files=2 equal=2'
+expect 0 judge mask "$flat" : 'judge: files=2 equal=2'
+
+# A word off, the file one word short, a file missing.
+sed -i '5s/.*/0000beef/;7s/.*/0000beef/' "$flat/tiny.arcs.out.hex"
+expect 1 judge arcs "$flat" : 'DIFFERENT' 'tiny.arcs.out.hex: line 5: expected ' 'found 0000beef (48879); 2 of ' \
+    'judge: files=2 equal=1 different=1 missing=0'
+sed -i '$d' "$flat/tiny.edges.out.hex"
+expect 1 judge arcs "$flat" : 'tiny.edges.out.hex: ' 'words expected' 'judge: files=2 equal=0 different=2 missing=0'
+rm "$flat/tiny.edges.out.hex"
+expect 1 judge arcs "$flat" : 'MISSING arcs/tiny.edges.out.hex' 'judge: files=2 equal=0 different=1 missing=1'
+expect 1 judge arcs "$work" : 'judge: files=2 equal=0 different=0 missing=2'
+echo xxxxxxxx >"$flat/tiny.ellipse.out.hex"
+expect 1 judge ellipse "$flat" : 'tiny.ellipse.out.hex: line 1 is not 8 lower-case hexadecimal digits'
+
+# Images as words: the masks are 33 x 21, 0 or 255; the picture of the centre is inside the disc.
+rm "$flat"/*.png
+for name in ring disc; do
+    seq 693 | sed s,.*,00, >"$flat/tiny.$name.out.hex"
+done
+expect 1 judge mask "$flat" : 'tiny.disc.out.hex: line 13 (pixel 12, 0): expected ff (255), found 00 (0); 375 of 693' 'different=2'
+sed -i '$d' "$flat/tiny.ring.out.hex"
+expect 1 judge mask "$flat" : 'tiny.ring.out.hex: 693 words expected, 692 found'
+
+# Command line.
+expect 2 judge nothing "$same" : "no stage and no case is named 'nothing'"
+expect 2 judge arcs : 'usage:'
+expect 2 nonsense : 'usage:'
+expect 2 --stage nothing : 'there is no stage nothing'
+expect 2 --nonsense : 'usage:'
+expect 0 --help : 'usage:'
+expect 0 --list : 'frame/tiny ordinary'
+expect 0 --stage ellipse --list : 'ellipse/tiny ordinary'
+expect 0 --stage ellipse : 'conformance: cases=1 exact=0 failed=0 digest='
+exit $status

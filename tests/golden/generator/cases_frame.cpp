@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Cases of the whole measurement: rendered scenes, drawn rings, and frames in which there is nothing to measure. */
+#include <cmath>
+#include <stdexcept>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "images.hpp"
+#include "plain.hpp"
+
+namespace vectors {
+
+namespace {
+
+using Words = std::vector<int64_t>;
+
+int64_t q16(double v) { return static_cast<int64_t>(std::floor(v * 65536 + 0.5)); }
+
+struct Frame {
+    cv::Mat image;
+    accuracy::Camera camera = {1465.5, 1465.5, 0, 0};
+    double radius = 0.35, inner_radius = 0.12, depth = 0.25;
+    cv::Rect region;
+};
+
+void add_frame(Set &set, const std::string &name, Tier tier, const Flags &flags, const Frame &f)
+{
+    const accuracy::Camera &c = f.camera;
+    set.add(name, tier, flags,
+            {image_array("image", f.image),
+             word_array("camera", 32, 16,
+                        {q16(c.fx_px), q16(c.fy_px), q16(c.cx_px), q16(c.cy_px), q16(c.k1), q16(c.k2), q16(c.p1),
+                         q16(c.p2), q16(c.k3)}),
+             word_array("model", 32, 16, {q16(f.radius), q16(f.inner_radius), q16(f.depth)}),
+             word_array("region", 32, 0, {f.region.x, f.region.y, f.region.width, f.region.height})});
+}
+
+/* A scene's picture about its region, 'margin' pixels wider on every side. */
+Frame photograph(const accuracy::Scene &scene, const cv::Rect &region, int margin)
+{
+    const cv::Rect part(region.x - margin, region.y - margin, region.width + 2 * margin, region.height + 2 * margin);
+    Frame f;
+    f.image = accuracy::render(scene, part);
+    f.camera = scene.camera.cropped(part.tl());
+    f.region = {margin, margin, region.width, region.height};
+    return f;
+}
+
+/* Region of 2.5 semi-axes about the rim as seen. */
+cv::Rect region_of(const accuracy::Scene &scene)
+{
+    const accuracy::Ellipse e = scene.rim();
+    const cv::Point2d centre = scene.camera.distort({e.xc_px, e.yc_px});
+    const int side = cvRound(2.5 * e.a_px);
+    return {cvRound(centre.x - (side - 1) / 2.0), cvRound(centre.y - (side - 1) / 2.0), side, side};
+}
+
+accuracy::Scene scene_at(uint64_t seed, double x, double y, double z, double yaw_deg, double pitch_deg)
+{
+    accuracy::Scene s;
+    s.seed = seed;
+    s.pose = {{x, y, z}, accuracy::axis_of(yaw_deg * CV_PI / 180, pitch_deg * CV_PI / 180)};
+    return s;
+}
+
+void add_demo_scenes(Set &set, const std::string &folder)
+{
+    struct Demo {
+        const char *name;
+        double cx, cy;
+        cv::Rect region;
+    };
+    /* as in the .json beside each picture */
+    static const Demo demos[] = {{"demo", 403.5, 143.5, {152, 134, 214, 214}},
+                                 {"bright_ground", 63.5, 113.5, {81, 73, 256, 256}},
+                                 {"cloud", 283.5, 223.5, {44, 28, 129, 129}},
+                                 {"far", -76.5, -36.5, {35, 28, 58, 58}}};
+    for (const Demo &d : demos) {
+        const cv::Mat whole = cv::imread(folder + "/" + d.name + ".png", cv::IMREAD_UNCHANGED);
+        if (whole.type() != CV_8UC1) {
+            throw std::runtime_error("cannot read the grey picture " + folder + "/" + d.name + ".png");
+        }
+        Frame f;
+        f.image = whole(d.region).clone();
+        f.camera = {1465.5, 1465.5, d.cx - d.region.x, d.cy - d.region.y};
+        f.region = {0, 0, d.region.width, d.region.height};
+        add_frame(set, std::string(d.name) + "-region", Tier::ordinary, {"picture"}, f);
+    }
+}
+
+void add_plain_scenes(Set &set)
+{
+    static const double distances[] = {8, 12, 16, 20, 25};
+    for (const double z : distances) {
+        for (int index = 0; index < 3; index++) {
+            const accuracy::PlainScene s = accuracy::plain_scene(2024, z, index);
+            add_frame(set, "scene-" + std::to_string(static_cast<int>(z)) + "m-" + std::to_string(index), Tier::ordinary,
+                      {index == 0 ? "dark" : index == 1 ? "bright" : "cloud"}, photograph(s.scene, s.region, index));
+        }
+    }
+}
+
+void add_disturbed_scenes(Set &set)
+{
+    accuracy::Scene s = scene_at(31, 0.9, -0.7, 12, 12, -8);
+    s.sensor.noise = 9;
+    add_frame(set, "strong-noise", Tier::stress, {"noise"}, photograph(s, region_of(s), 0));
+    s = scene_at(32, -0.6, 0.5, 12, -14, 6);
+    s.sensor.motion_length_px = 6;
+    s.sensor.motion_angle_rad = 0.6;
+    add_frame(set, "motion-blur", Tier::stress, {"blur"}, photograph(s, region_of(s), 0));
+    s = scene_at(33, 0.2, 0.3, 14, 3, 14);
+    s.background = accuracy::Background::ground();
+    s.look = accuracy::Look::bright();
+    const accuracy::Ellipse rim = s.rim();
+    s.probe = {{rim.xc_px + 8, rim.yc_px + 5}, {rim.xc_px + 90, rim.yc_px + 60}, 5, 60};
+    add_frame(set, "probe-before-it", Tier::stress, {"occlusion"}, photograph(s, region_of(s), 0));
+    s = scene_at(34, 0.1, -0.2, 14, 0, 0);
+    add_frame(set, "head-on", Tier::boundary, {"head-on", "near-circle"}, photograph(s, region_of(s), 0));
+    s = scene_at(35, 0.5, 0.1, 13, 25, 14);
+    add_frame(set, "steep-view", Tier::stress, {"twin-pose"}, photograph(s, region_of(s), 0));
+    s.look.inner_grey = 110;
+    s.look.coupling_grey = 60;
+    add_frame(set, "inner-not-dark", Tier::stress, {"inner-missing"}, photograph(s, region_of(s), 0));
+
+    const accuracy::Camera barrel = {1200, 1195, 1023.5, 1023.5, -0.32, 0.12, 0.0008, -0.0005, -0.02};
+    s = scene_at(36, 3.5, 2.6, 9, 10, -6);
+    s.camera = barrel;
+    add_frame(set, "barrel-lens", Tier::ordinary, {"barrel"}, photograph(s, region_of(s), 2));
+    s = scene_at(37, -3.0, 3.4, 11, -9, 12);
+    s.camera = barrel;
+    s.background = accuracy::Background::ground();
+    s.look = accuracy::Look::bright();
+    add_frame(set, "barrel-lens-bright", Tier::ordinary, {"barrel"}, photograph(s, region_of(s), 0));
+    s = scene_at(38, 1.0, -2.0, 12, 8, 9);
+    s.camera = {1400, 1410, 1023.5, 1023.5, 0.15, 0.05, 0, 0, 0};
+    add_frame(set, "pincushion-lens", Tier::ordinary, {"pincushion"}, photograph(s, region_of(s), 0));
+    /* the picture's own camera without distortion, measured with one whose image folds before the drogue */
+    Frame folded = photograph(scene_at(39, 4, 3, 12, 5, 5), region_of(scene_at(39, 4, 3, 12, 5, 5)), 0);
+    folded.camera.k1 = -3;
+    add_frame(set, "folded-lens", Tier::must_reject, {"folded-lens"}, folded);
+}
+
+void add_regions(Set &set)
+{
+    const accuracy::Scene s = scene_at(41, 0.4, 0.3, 13, -10, 11);
+    const cv::Rect region = region_of(s);
+    const Frame all = photograph(s, region, 6);
+    Frame f = all;
+    const auto crop = [&](int left, int top, int right, int bottom) {
+        f = all;
+        f.image = all.image(cv::Rect(left, top, all.image.cols - left - right, all.image.rows - top - bottom)).clone();
+        f.camera.cx_px -= left;
+        f.camera.cy_px -= top;
+        f.region.x -= left;
+        f.region.y -= top;
+    };
+    add_frame(set, "region-inside", Tier::ordinary, {}, all);
+    crop(20, 14, 0, 0);
+    add_frame(set, "region-past-top-left", Tier::boundary, {"border", "rounding-negative"}, f);
+    crop(0, 0, 22, 17);
+    add_frame(set, "region-past-bottom-right", Tier::boundary, {"border"}, f);
+    f = all;
+    f.region.width += 5;
+    f.region.height -= 4;
+    add_frame(set, "region-not-square", Tier::ordinary, {"odd-size"}, f);
+    f = all;
+    f.region.x += 7;
+    f.region.y -= 5;
+    add_frame(set, "region-off-centre", Tier::stress, {}, f);
+    f = all;
+    f.region = {all.image.cols, 0, 40, 40};
+    add_frame(set, "region-beside-image", Tier::must_reject, {"border"}, f);
+    f.region = {-40, 0, 40, 40};
+    add_frame(set, "region-left-of-image", Tier::must_reject, {"border"}, f);
+    f.region = {0, 0, 0, 40};
+    add_frame(set, "region-empty", Tier::must_reject, {"degenerate"}, f);
+    f.region = {0, 0, 8193, 8193};
+    add_frame(set, "region-too-large", Tier::must_reject, {"saturation"}, f);
+    f.region = {-1048577, 0, 64, 64};
+    add_frame(set, "region-too-far", Tier::must_reject, {"saturation"}, f);
+    f = all;
+    f.camera.fx_px = 0;
+    add_frame(set, "no-focal-length", Tier::must_reject, {"argument"}, f);
+    f = all;
+    f.radius = 0;
+    add_frame(set, "no-radius", Tier::must_reject, {"argument"}, f);
+    f = all;
+    f.inner_radius = 0;
+    add_frame(set, "inner-unknown", Tier::ordinary, {"inner-missing"}, f);
+    f = all;
+    f.depth = -14;
+    add_frame(set, "inner-behind-camera", Tier::must_reject, {"behind-camera"}, f);
+}
+
+/* Ring with an inner dark disc, drawn. */
+Frame drawn(int side, int radius4, int rim, int paper, int inner)
+{
+    Frame f;
+    f.image = soft_disc(side, side, side - 1, side - 1, radius4, 8, rim, paper);
+    const cv::Mat dark = soft_disc(side, side, side - 3, side + 1, radius4 / 3, 6, 0, 255);
+    for (int y = 0; y < side; y++) {
+        for (int x = 0; x < side; x++) {
+            const int share = dark.at<uint8_t>(y, x);
+            uint8_t &p = f.image.at<uint8_t>(y, x);
+            p = static_cast<uint8_t>((p * share + inner * (255 - share)) / 255);
+        }
+    }
+    f.camera.cx_px = (side - 1) / 2.0 + 40;
+    f.camera.cy_px = (side - 1) / 2.0 - 30;
+    f.region = {0, 0, side, side};
+    return f;
+}
+
+void add_drawings(Set &set)
+{
+    add_frame(set, "drawn-dark", Tier::ordinary, {"near-circle"}, drawn(80, 128, 70, 200, 10));
+    add_frame(set, "drawn-bright", Tier::ordinary, {"near-circle"}, drawn(81, 131, 220, 90, 15));
+    Frame f = drawn(80, 128, 70, 200, 10);
+    fill(f.image, 0, 0, 40, 80, 135); /* the left half is gone */
+    add_frame(set, "half-an-outline", Tier::stress, {"arc"}, f);
+    f = drawn(80, 128, 70, 200, 10);
+    fill(f.image, 0, 0, 80, 40, 70);
+    add_frame(set, "lower-half", Tier::stress, {"arc"}, f);
+    f = drawn(80, 128, 70, 200, 10);
+    fill(f.image, 36, 0, 8, 80, 70);
+    fill(f.image, 0, 36, 80, 8, 70);
+    add_frame(set, "four-gaps", Tier::ordinary, {"arc"}, f);
+    f = drawn(90, 132, 70, 200, 10);
+    for (int y = 0; y < 90; y++) { /* a second, fainter ring further out */
+        for (int x = 0; x < 90; x++) {
+            const int d = (2 * x - 89) * (2 * x - 89) + (2 * y - 89) * (2 * y - 89);
+            f.image.at<uint8_t>(y, x) = static_cast<uint8_t>(d > 80 * 80 ? 150 : f.image.at<uint8_t>(y, x));
+        }
+    }
+    add_frame(set, "two-rings", Tier::stress, {"farthest-arc"}, f);
+    f = drawn(80, 128, 70, 200, 10);
+    for (int i = 0; i < 80; i++) { /* gaps on the diagonals: two arcs a quadrant, mirror images of each other */
+        fill(f.image, i - 4, i - 4, 9, 9, 135);
+        fill(f.image, i - 4, 79 - i - 4, 9, 9, 135);
+    }
+    add_frame(set, "arcs-of-equal-distance", Tier::boundary, {"tie", "farthest-arc"}, f);
+    accuracy::Random random = set.random("drawings");
+    f.image = constant(64, 64, 0);
+    f.region = {0, 0, 64, 64};
+    add_frame(set, "all-black", Tier::must_reject, {"degenerate"}, f);
+    f.image = noise(64, 64, random);
+    add_frame(set, "noise", Tier::must_reject, {"noise"}, f);
+    f.image = noise(72, 72, random, 100, 112);
+    f.region = {0, 0, 72, 72};
+    add_frame(set, "faint-noise", Tier::must_reject, {"noise"}, f);
+    accuracy::Scene sky = scene_at(51, 3, 3, 12, 0, 0);
+    f.image = accuracy::render(sky, {100, 100, 70, 70});
+    f.region = {0, 0, 70, 70};
+    add_frame(set, "no-drogue", Tier::must_reject, {"degenerate"}, f);
+    cv::Mat square = constant(72, 72, 60);
+    fill(square, 10, 10, 52, 52, 190);
+    f.image = square;
+    f.region = {0, 0, 72, 72};
+    add_frame(set, "square", Tier::must_reject, {"straight"}, f);
+    f.image = drawn(64, 160, 60, 200, 60).image;
+    f.region = {0, 0, 64, 64};
+    add_frame(set, "outline-outside-ring", Tier::must_reject, {"border"}, f);
+    f.image = image_from(1, 40, [](int, int y) { return y * 6; });
+    f.region = {0, 0, 1, 40};
+    add_frame(set, "one-column", Tier::must_reject, {"1xN"}, f);
+}
+
+} // namespace
+
+void add_frame(Set &set, const std::string &scenes_folder)
+{
+    set.begin("frame");
+    add_demo_scenes(set, scenes_folder);
+    add_plain_scenes(set);
+    add_disturbed_scenes(set);
+    add_regions(set);
+    add_drawings(set);
+}
+
+} // namespace vectors

@@ -1,0 +1,393 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The reference tier: every stage in floating point or by OpenCV, each value rounded once, with what it may differ. */
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "case.hpp"
+#include "mirror.hpp"
+#include "reference.hpp"
+#include "stages.h"
+
+#include "drogue/drogue.h"
+
+namespace vectors {
+
+namespace {
+
+using reference::q16;
+using reference::Real;
+using Words = std::vector<int64_t>;
+using Arrays = std::vector<Array>;
+using Tiers = std::vector<Expected>;
+
+constexpr uint32_t ANY_ANGLE = 205887; /* pi: the angle of a circle says nothing */
+
+Real real(int64_t word) { return static_cast<Real>(word) / 65536; }
+
+Array like(const Array &exact, Words words)
+{
+    Array a = exact;
+    a.words = std::move(words);
+    return a;
+}
+
+Array image_like(const Array &exact, const cv::Mat &image)
+{
+    Array a = image_array(exact.name, image);
+    a.q = exact.q;
+    return a;
+}
+
+Tiers smooth_tier(const Arrays &in, const Arrays &exact)
+{
+    return {{image_like(exact[0], reference::smooth(image_of(in[0]))), {}}};
+}
+
+Tiers gradient_tier(const Arrays &in, const Arrays &exact)
+{
+    cv::Mat g[2];
+    Tiers tiers;
+    reference::gradient(image_of(in[0]), g[0], g[1]);
+    for (size_t k = 0; k < 2; k++) {
+        Words words;
+        for (int y = 0; y < g[k].rows; y++) {
+            for (int x = 0; x < g[k].cols; x++) {
+                words.push_back(g[k].at<int16_t>(y, x));
+            }
+        }
+        tiers.push_back({like(exact[k], words), {}});
+    }
+    return tiers;
+}
+
+cv::Mat canny(const Array &image, const Array &params)
+{
+    return reference::canny(image_of(image), static_cast<int>(params.words[0]), static_cast<int>(params.words[1]),
+                            params.words[2] != 0);
+}
+
+Tiers canny_tier(const Arrays &in, const Arrays &exact) { return {{image_like(exact[0], canny(in[0], in[1])), {}}}; }
+
+int as_int(int64_t word) { return static_cast<int>(word); }
+
+Tiers mask_tier(const Arrays &in, const Arrays &exact)
+{
+    const Words &p = in[0].words;
+    const auto mask = [&](auto shape) {
+        return shape(as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]), as_int(p[4]));
+    };
+    return {{image_like(exact[0], mask(reference::ring)), {}}, {image_like(exact[1], mask(reference::disc)), {}}};
+}
+
+Tiers arcs_tier(const Arrays &in, const Arrays &exact)
+{
+    const Words &p = in[1].words;
+    const cv::Mat image = image_of(in[0]);
+    if (p[0] < 0 || p[1] < p[0]) {
+        return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0}), {}}};
+    }
+    if (exact[0].words[0] == DROGUE_E_LABELS_FULL) {
+        return {}; /* how many provisional labels a labeller needs is its own affair */
+    }
+    cv::Mat candidates = reference::canny(image, as_int(p[0]), as_int(p[0]), p[2] != 0);
+    cv::Mat edges = canny(in[0], in[1]);
+    cv::Mat gx, gy;
+    reference::gradient(p[2] != 0 ? reference::smooth(image) : image, gx, gy);
+    if (p[3] != 0) {
+        const cv::Mat ring = reference::ring(image.cols, image.rows, as_int(p[4]), as_int(p[5]), as_int(p[6]));
+        candidates &= ring;
+        edges &= ring;
+    }
+    const std::vector<reference::Arc> arcs = reference::arcs(edges, gx, gy);
+    std::map<std::pair<int, int>, int> rest_class;
+    Words points;
+    int64_t count = 0;
+    for (const reference::Arc &a : arcs) {
+        const bool long_enough = static_cast<int64_t>(a.pixels.size()) >= p[7];
+        for (const cv::Point &q : a.pixels) {
+            if (long_enough) {
+                points.insert(points.end(), {q.x, q.y, a.direction, count});
+            } else {
+                rest_class[{q.y, q.x}] = a.direction;
+            }
+        }
+        count += long_enough ? 1 : 0;
+    }
+    for (const auto &q : rest_class) {
+        points.insert(points.end(), {q.first.second, q.first.first, q.second, -1});
+    }
+    Words words = {DROGUE_OK, static_cast<int64_t>(points.size() / 4), count};
+    words.insert(words.end(), points.begin(), points.end());
+    if (cv::countNonZero(candidates) > CONF_MAX_EDGES) {
+        words = {DROGUE_E_EDGES_FULL, 0, 0};
+    } else if (count > CONF_MAX_ARCS) {
+        words = {DROGUE_E_ARCS_FULL, 0, 0};
+    }
+    return {{like(exact[0], words), {}}};
+}
+
+Tiers constraints_tier(const Arrays &in, const Arrays &exact)
+{
+    const Words &p = in[1].words;
+    std::vector<cv::Point> points;
+    for (size_t i = 0; i < in[0].words.size(); i += 2) {
+        points.emplace_back(as_int(in[0].words[i]), as_int(in[0].words[i + 1]));
+    }
+    const reference::Rect r = reference::min_area_rect(points);
+    const int64_t dx = q16(r.xc) - p[0] * 32768;
+    const int64_t dy = q16(r.yc) - p[1] * 32768;
+    int64_t quadrant = -1;
+    int64_t polarity = DROGUE_POLARITY_BOTH;
+    if (dx != 0 && dy != 0 && q16(r.shorter) >= p[4]) {
+        const int64_t position = dy < 0 ? (dx > 0 ? 0 : 1) : (dx < 0 ? 2 : 3);
+        if ((position - p[3]) % 2 == 0) {
+            quadrant = position;
+            polarity = position == p[3] ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
+        }
+    }
+    return {{like(exact[0], {q16(r.xc), q16(r.yc), q16(r.shorter), q16(r.longer), quadrant, polarity}), {4, 4, 4, 4, 0, 0}}};
+}
+
+/* LSB by which the angle may differ when each semi-axis may by 'px' LSB: it says less the rounder the ellipse. */
+uint32_t angle_bound(Real a, Real b, uint32_t px)
+{
+    const Real bound = px + std::ceil(px / std::max<Real>(a - b, 1e-9L));
+    return bound < ANY_ANGLE ? static_cast<uint32_t>(bound) : ANY_ANGLE;
+}
+
+Tiers ellipse_tier(const Arrays &in, const Arrays &exact)
+{
+    const int64_t frac = in[1].words[0];
+    const size_t count = in[0].words.size() / 2;
+    std::vector<cv::Point2d> points;
+    if (frac < 0 || frac > 15) {
+        return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0, 0, 0, 0}), {}}};
+    }
+    if (count < 6) {
+        return {{like(exact[0], {DROGUE_E_TOO_FEW_POINTS, 0, 0, 0, 0, 0}), {}}};
+    }
+    for (size_t i = 0; i < count; i++) {
+        points.emplace_back(std::ldexp(static_cast<double>(in[0].words[2 * i]), -as_int(frac)),
+                            std::ldexp(static_cast<double>(in[0].words[2 * i + 1]), -as_int(frac)));
+    }
+    const reference::Ellipse e = reference::fit(points);
+    if (!e.ok) {
+        return {{like(exact[0], {DROGUE_E_DEGENERATE, 0, 0, 0, 0, 0}), {}}};
+    }
+    return {{like(exact[0], {DROGUE_OK, q16(e.xc), q16(e.yc), q16(e.a), q16(e.b), q16(e.angle)}),
+             {0, 4, 4, 4, 4, angle_bound(e.a, e.b, 4)}}};
+}
+
+reference::Ellipse ellipse_of(const Words &w)
+{
+    return {real(w[0]), real(w[1]), real(w[2]), real(w[3]), real(w[4]), true};
+}
+
+Tiers quality_tier(const Arrays &in, const Arrays &exact)
+{
+    const reference::Ellipse e = ellipse_of(in[0].words);
+    const Words &points = in[1].words;
+    const Words &p = in[2].words;
+    const int total = static_cast<int>(points.size() / 2);
+    const bool ok = e.b >= 1 && e.a >= e.b;
+    const int64_t threshold = q16(reference::deviation_threshold(e, real(p[0])));
+    int near_count = 0;
+    Words words = {threshold, q16(reference::circumference(e))};
+    if (!(e.a > 0) || e.a + e.b >= 8192) { /* beyond the domain of these two */
+        words = {exact[0].words[0], exact[0].words[1]};
+    }
+    for (int i = 0; i < total; i++) {
+        const size_t k = 2 * static_cast<size_t>(i);
+        words.push_back(ok ? q16(reference::deviation(e, {real(points[k]), real(points[k + 1])})) : 0);
+        near_count += ok && words.back() < threshold;
+    }
+    if (!ok || e.a + e.b >= 8192) {
+        return {{like(exact[1], {ok ? DROGUE_OK : DROGUE_E_DOMAIN}), {}}};
+    }
+    const reference::Quality q = reference::quality(e, near_count, total, real(p[1]), real(p[2]));
+    for (const Real v : {q.fit_ratio, q.length_ratio, q.axis_ratio, q.score, q.reliability}) {
+        words.push_back(q16(v));
+    }
+    return {{like(exact[0], words), {4}}, {like(exact[1], {DROGUE_OK}), {}}};
+}
+
+Tiers cluster_tier(const Arrays &in, const Arrays &exact)
+{
+    const Words &w = in[0].words;
+    const Words &p = in[1].words;
+    std::vector<reference::Candidate> candidates;
+    int members = 0;
+    for (size_t i = 0; i < w.size(); i += 7) {
+        candidates.push_back({ellipse_of(Words(w.begin() + static_cast<long>(i), w.begin() + static_cast<long>(i) + 5)),
+                              real(w[i + 5]), as_int(w[i + 6])});
+    }
+    const int best = reference::cluster_best(candidates, {real(p[0]), real(p[1]), real(p[2]), real(p[3]), real(p[4])}, members);
+    return {{like(exact[0], {best, members}), {}}};
+}
+
+Tiers centroid_tier(const Arrays &in, const Arrays &exact)
+{
+    const Words &p = in[1].words;
+    if (p[2] < 1) {
+        return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0, 0, 0}), {}}};
+    }
+    const reference::DarkPart part =
+        reference::dark_part(image_of(in[0]), as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]));
+    Words words = {DROGUE_E_NO_DARK_PART, part.threshold, 0, 0, 0};
+    if (part.found) {
+        words = {DROGUE_OK, part.threshold, part.area, q16(part.x), q16(part.y)};
+    }
+    return {{like(exact[0], words), {0, 0, 0, 1, 1}}};
+}
+
+int64_t q30(Real v) { return static_cast<int64_t>(std::floor(v * 0x1p30L + 0.5L)); }
+
+/* Is the vector a matter of rounding: near one of an equal eigenvalue, or with two largest components? */
+bool vector_is_free(const reference::Eigen3 &e, size_t k)
+{
+    const Real size = std::max(std::fabs(e.value[0]), std::fabs(e.value[2]));
+    for (size_t other = 0; other < 3; other++) {
+        if (other != k && std::fabs(e.value[k] - e.value[other]) < size * 1e-6L) {
+            return true;
+        }
+    }
+    std::array<Real, 3> v = e.vector[k];
+    for (Real &c : v) {
+        c = std::fabs(c);
+    }
+    std::sort(v.begin(), v.end());
+    return k < 2 && v[2] - v[1] < 1e-12L;
+}
+
+Tiers eigen_tier(const Arrays &in, const Arrays &exact)
+{
+    std::array<int64_t, 6> a;
+    std::copy(in[0].words.begin(), in[0].words.end(), a.begin());
+    const reference::Eigen3 e = reference::eigen(a);
+    Words values, vectors;
+    bool free = false;
+    for (size_t k = 0; k < 3; k++) {
+        values.push_back(q30(e.value[k] * 0x1p-60L));
+        free = free || vector_is_free(e, k);
+        for (const Real v : e.vector[k]) {
+            vectors.push_back(q30(v));
+        }
+    }
+    Tiers tiers = {{like(exact[0], values), {2}}};
+    if (!free) {
+        tiers.push_back({like(exact[1], vectors), {2}});
+    }
+    return tiers;
+}
+
+reference::Camera camera_of(const Words &w)
+{
+    return {real(w[0]), real(w[1]), real(w[2]), real(w[3]), real(w[4]), real(w[5]), real(w[6]), real(w[7]), real(w[8])};
+}
+
+Tiers undistort_tier(const Arrays &in, const Arrays &exact)
+{
+    const reference::Camera c = camera_of(in[0].words);
+    Words words[2];
+    for (size_t i = 0; i < in[1].words.size(); i += 2) {
+        for (int k = 0; k < 2; k++) {
+            reference::Point p = {real(in[1].words[i]), real(in[1].words[i + 1])};
+            const bool ok = k == 0 ? reference::undistort(c, p) : reference::distort(c, p);
+            words[k].insert(words[k].end(), {ok ? DROGUE_OK : DROGUE_E_DOMAIN, q16(p.x), q16(p.y)});
+        }
+    }
+    return {{like(exact[0], words[0]), {0, 4, 4}}, {like(exact[1], words[1]), {0, 4, 4}}};
+}
+
+Tiers pose_tier(const Arrays &in, const Arrays &exact)
+{
+    const Words &p = in[2].words;
+    const reference::Camera c = camera_of(in[1].words);
+    std::array<reference::Pose, 2> pair;
+    Words words(21, 0);
+    std::vector<uint32_t> bound = {0};
+    bound.resize(17, 4);
+    bound.insert(bound.end(), {0, 8, 8, 8});
+    if (!reference::poses(ellipse_of(in[0].words), c, real(p[0]), pair)) {
+        words[0] = DROGUE_E_DOMAIN;
+        return {{like(exact[0], words), {0}}};
+    }
+    for (size_t i = 0; i < 2; i++) {
+        int64_t *at = &words[1 + 8 * i];
+        for (size_t k = 0; k < 3; k++) {
+            at[k] = q16(pair[i].position[k]);
+            at[3 + k] = q16(pair[i].axis[k]);
+            /* The choice starts from poses in Q16, and a last bit of theirs is many of a pixel's: from the library's. */
+            pair[i].position[k] = real(exact[0].words[1 + 8 * i + k]);
+            pair[i].axis[k] = real(exact[0].words[1 + 8 * i + 3 + k]);
+        }
+        at[6] = q16(pair[i].yaw);
+        at[7] = q16(pair[i].pitch);
+    }
+    reference::Choice choice;
+    if (!reference::choose(pair, {real(p[2]), real(p[3])}, real(p[1]), c, choice)) {
+        words[0] = DROGUE_E_BEHIND_CAMERA;
+    } else {
+        words[18] = q16(choice.distance[0]);
+        words[19] = q16(choice.distance[1]);
+        words[17] = words[19] < words[18] ? 1 : 0;
+        words[20] = q16(choice.ambiguity);
+    }
+    return {{like(exact[0], words), bound}};
+}
+
+Tiers kalman_tier(const Arrays &in, const Arrays &exact)
+{
+    const Words &p = in[0].words;
+    const Words &f = in[1].words;
+    std::array<double, 5> start, process;
+    std::array<std::array<double, 3>, 5> start_std;
+    Words words;
+    for (size_t k = 0; k < 5; k++) {
+        process[k] = static_cast<double>(real(p[1 + k]));
+        start[k] = static_cast<double>(real(p[21 + k]));
+        for (size_t i = 0; i < 3; i++) {
+            start_std[k][i] = static_cast<double>(real(p[6 + 3 * k + i]));
+        }
+    }
+    reference::Kalman filter(start, start_std);
+    for (size_t i = 0; i < f.size(); i += 10) {
+        std::array<double, 5> value, std;
+        filter.predict(static_cast<double>(p[0]) / 1e6, process);
+        for (size_t k = 0; k < 5; k++) {
+            value[k] = static_cast<double>(real(f[i + k]));
+            std[k] = static_cast<double>(real(f[i + 5 + k]));
+        }
+        if (std[0] > 0) {
+            filter.correct(value, std);
+        }
+        for (int order = 0; order < 3; order++) {
+            for (int k = 0; k < 5; k++) {
+                words.push_back(q16(filter.state(k, order)));
+            }
+        }
+    }
+    return {{like(exact[0], words), {16}}};
+}
+
+Tiers frame_tier(const Arrays &in, const Arrays &exact)
+{
+    const FrameReference r = mirror_frame(image_of(in[0]), in[1].words, in[2].words, in[3].words);
+    return {{like(exact[0], r.words), r.bound}};
+}
+
+} // namespace
+
+Tiers reference_of(const std::string &stage, const Arrays &inputs, const Arrays &exact)
+{
+    using Tier = Tiers (*)(const Arrays &, const Arrays &);
+    static const std::map<std::string, Tier> tiers = {
+        {"smooth", smooth_tier},   {"gradient", gradient_tier},   {"canny", canny_tier},     {"mask", mask_tier},
+        {"arcs", arcs_tier},       {"constraints", constraints_tier}, {"ellipse", ellipse_tier}, {"quality", quality_tier},
+        {"cluster", cluster_tier}, {"centroid", centroid_tier},   {"eigen", eigen_tier},     {"undistort", undistort_tier},
+        {"pose", pose_tier},       {"kalman", kalman_tier},       {"frame", frame_tier}};
+    return tiers.at(stage)(inputs, exact);
+}
+
+} // namespace vectors
