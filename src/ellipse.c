@@ -149,8 +149,9 @@ static drogue_status eliminate_linear_part(drogue_wide scatter[6][6])
 }
 
 /* Cholesky factor of the reduced scatter matrix, inverted: lower triangle h with h M h' = 1. Pivots are judged against
- * 'spread', the diagonal before the reduction. */
-static drogue_status inverse_cholesky(drogue_wide h[3][3], drogue_wide scatter[6][6], const drogue_wide spread[3])
+ * 'spread', the diagonal before the reduction; 'singular' tells that the last one vanished. */
+static drogue_status inverse_cholesky(drogue_wide h[3][3], int *singular, drogue_wide scatter[6][6],
+                                      const drogue_wide spread[3])
 {
     const drogue_wide one = drogue_wide_from_s64(1, 0);
     drogue_wide g[3][3];
@@ -168,7 +169,8 @@ static drogue_status inverse_cholesky(drogue_wide h[3][3], drogue_wide scatter[6
                 if (least.mantissa <= 0 || (i < 2 && drogue_wide_cmp(sum, least) <= 0)) {
                     return DROGUE_E_DEGENERATE; /* more than one conic through the points, or one that is no ellipse */
                 }
-                g[i][i] = drogue_wide_sqrt(drogue_wide_cmp(sum, least) < 0 ? least : sum);
+                *singular = drogue_wide_cmp(sum, least) < 0;
+                g[i][i] = drogue_wide_sqrt(*singular ? least : sum);
                 h[i][i] = drogue_wide_div(one, g[i][i]);
             } else {
                 g[i][j] = drogue_wide_mul(sum, h[j][j]);
@@ -188,7 +190,7 @@ typedef struct conic {
 } conic;
 
 /* The quadratic part: largest eigenvalue of h K h', K the constraint 4AC - B^2 as a matrix. */
-static drogue_status solve_quadratic_part(drogue_wide theta[6], drogue_wide h[3][3])
+static drogue_status solve_quadratic_part(drogue_wide theta[6], drogue_wide h[3][3], int singular)
 {
     drogue_wide n[6];
     drogue_wide v[3];
@@ -203,8 +205,8 @@ static drogue_status solve_quadratic_part(drogue_wide theta[6], drogue_wide h[3]
     n[5] = drogue_wide_sub(drogue_wide_scale(drogue_wide_mul(h[2][0], h[2][2]), 2), drogue_wide_mul(h[2][1], h[2][1]));
     (void)drogue_sym3_normalise(&matrix, n);
     (void)drogue_eigen_sym3(&eigen, &matrix);
-    if (eigen.value[0] <= 0) {
-        return DROGUE_E_DEGENERATE;
+    if (eigen.value[0] <= 0 || (singular && -eigen.value[2] >= eigen.value[0] >> 8)) {
+        return DROGUE_E_DEGENERATE; /* the conic that the points lie on is no ellipse */
     }
     for (k = 0; k < 3; k++) {
         v[k] = drogue_wide_from_s64(eigen.vector_q60[0][k], -DROGUE_EIGEN_FRAC);
@@ -280,6 +282,7 @@ drogue_status drogue_ellipse_fit(drogue_ellipse *out, const drogue_moments *m, i
     drogue_status status;
     int64_t cx;
     int64_t cy;
+    int singular = 0;
     int swap;
     int k;
     int i;
@@ -305,10 +308,10 @@ drogue_status drogue_ellipse_fit(drogue_ellipse *out, const drogue_moments *m, i
     }
     status = eliminate_linear_part(scatter);
     if (status == DROGUE_OK) {
-        status = inverse_cholesky(h, scatter, spread);
+        status = inverse_cholesky(h, &singular, scatter, spread);
     }
     if (status == DROGUE_OK) {
-        status = solve_quadratic_part(theta, h);
+        status = solve_quadratic_part(theta, h, singular);
     }
     if (status != DROGUE_OK) {
         return status;

@@ -72,16 +72,11 @@ void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q
     }
 }
 
-/* Difference of two angles, brought to one turn. */
+/* Difference of two angles, less its whole turns. */
 static drogue_wide wrap(drogue_wide angle)
 {
-    if (drogue_wide_cmp(angle, drogue_wide_scale(two_pi, -1)) > 0) {
-        return drogue_wide_sub(angle, two_pi);
-    }
-    if (drogue_wide_cmp(angle, drogue_wide_scale(drogue_wide_neg(two_pi), -1)) < 0) {
-        return drogue_wide_add(angle, two_pi);
-    }
-    return angle;
+    int64_t turns = drogue_wide_to_s64(drogue_wide_div(angle, two_pi), 0);
+    return drogue_wide_sub(angle, drogue_wide_mul(drogue_wide_from_s64(turns, 0), two_pi));
 }
 
 void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],

@@ -5,7 +5,7 @@
 #include "drogue/wide.h"
 
 #define FRAC 36
-#define MAX_STEPS 24
+#define MAX_STEPS 32
 
 static const int64_t one_q36 = INT64_C(1) << FRAC;
 static const int64_t most_q36 = INT64_C(4) << FRAC; /* off the axis, in focal lengths */
@@ -112,19 +112,47 @@ drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, c
 /* Is the map locally one to one, and tame enough for the arithmetic of a step? */
 static int regular(const distorted *d, int64_t u, int64_t v)
 {
-    const int64_t most = INT64_C(16) << FRAC;
-    return d->dxx > 0 && d->dyy > 0 && d->dxx < most && d->dyy < most && abs_s64(d->dxy) < most &&
-           abs_s64(u - d->x) < most && abs_s64(v - d->y) < most &&
+    const int64_t steepest = INT64_C(64) << FRAC;
+    const int64_t farthest = INT64_C(16) << FRAC;
+    return d->dxx > 0 && d->dyy > 0 && d->dxx < steepest && d->dyy < steepest && abs_s64(d->dxy) < steepest &&
+           abs_s64(u - d->x) < farthest && abs_s64(v - d->y) < farthest &&
            mul_q36(d->dxx, d->dyy) - mul_q36(d->dxy, d->dxy) > (one_q36 >> 16);
 }
 
-/* Quotient of two Q36 numbers, den > 2^-16: the divisor is taken to 20 bits, which costs a step nothing. */
+/* Does the radius as seen grow all the way from the axis to (x, y)? Its derivative 1 + 3 k1 q + 5 k2 q^2 + 7 k3 q^3,
+ * q the squared radius, is looked at in 16 places, unless its negative terms alone cannot undo the 1. */
+static int before_fold(const drogue_camera *c, int64_t x, int64_t y)
+{
+    int64_t q = mul_q36(x, x) + mul_q36(y, y);
+    int64_t k[3];
+    int64_t fall;
+    int i;
+    k[0] = 3 * widen(c->k1_q16);
+    k[1] = 5 * widen(c->k2_q16);
+    k[2] = 7 * widen(c->k3_q16);
+    fall = mul_q36((k[0] < 0 ? k[0] : 0) + mul_q36((k[1] < 0 ? k[1] : 0) + mul_q36(k[2] < 0 ? k[2] : 0, q), q), q);
+    if (one_q36 + fall > 0) {
+        return 1;
+    }
+    for (i = 1; i <= 16; i++) {
+        int64_t p = (q >> 4) * i;
+        if (one_q36 + mul_q36(k[0] + mul_q36(k[1] + mul_q36(k[2], p), p), p) <= 0) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Quotient of two Q36 numbers, den > 2^-16: 20 bits of the divisor are enough for a step. */
 static int64_t divide(int64_t num_q36, int64_t den_q36)
 {
-    const int64_t most = INT64_C(8) << FRAC;
-    num_q36 = num_q36 > most ? most : num_q36 < -most ? -most : num_q36;
-    DROGUE_NOTE("undistort: step numerator, Q36", num_q36, 40);
-    return drogue_div_round_s64(num_q36 * (INT64_C(1) << 20), den_q36 >> 16);
+    int excess = 23 - drogue_clz_u64(drogue_abs_u64(num_q36)); /* bits beyond 41 */
+    if (excess > 0) {
+        num_q36 >>= excess;
+        den_q36 >>= excess;
+    }
+    DROGUE_NOTE("undistort: step numerator, Q36", num_q36, 42);
+    return drogue_div_round_s64(num_q36 * (INT64_C(1) << 19), (den_q36 >> 17) + 1);
 }
 
 drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera)
@@ -155,7 +183,7 @@ drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16,
         dx = divide(mul_q36(d.dyy, u - d.x) - mul_q36(d.dxy, v - d.y), det);
         dy = divide(mul_q36(d.dxx, v - d.y) - mul_q36(d.dxy, u - d.x), det);
         if (abs_s64(dx) + abs_s64(dy) <= still_q36) {
-            return leave(x_px_q16, y_px_q16, x + dx, y + dy, camera);
+            return !before_fold(camera, x, y) ? DROGUE_E_DOMAIN : leave(x_px_q16, y_px_q16, x + dx, y + dy, camera);
         }
         dx = x + dx > most_q36 ? most_q36 - x : x + dx < -most_q36 ? -most_q36 - x : dx;
         dy = y + dy > most_q36 ? most_q36 - y : y + dy < -most_q36 ? -most_q36 - y : dy;

@@ -26,7 +26,8 @@ typedef struct drogue_pose {
  *  radius   rim radius, > 0
  *  return   DROGUE_OK, DROGUE_E_DOMAIN (ellipse flat or empty, camera without focal length, position beyond Q16)
  *  scaling  62-bit mantissas for the cone, block-normalised Jacobi rotations; no overflow
- *  error    position <= 4 LSB, axis and angles <= 4 LSB against double from the same ellipse
+ *  error    position, axis and angles <= 4 LSB against double from the same ellipse, for a focal length of 300 px and
+ *           more and a centre within 2 focal lengths of the principal point
  *  source   paper (20)-(30)
  */
 drogue_status drogue_pose_from_ellipse(drogue_pose out[2], const drogue_ellipse *ellipse, const drogue_camera *camera,

@@ -22,14 +22,15 @@ static inline int drogue_camera_distorts(const drogue_camera *c)
  *  x, y    in/out, px Q16
  *  return  DROGUE_OK; DROGUE_E_DOMAIN when the point lies more than 4 focal lengths off the axis, a
  *          coefficient exceeds DROGUE_MAX_DISTORTION_Q16, or the result leaves Q16
- *  error   <= 2 LSB
+ *  error   <= 2 LSB for coefficients up to 2, 4 LSB over the domain
  */
 drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);
 
 /* Pixel as seen -> pixel of the ideal pinhole camera, by damped Newton steps from the axis.
  *
  *  x, y    in/out, px Q16; unchanged on failure
- *  return  DROGUE_OK; DROGUE_E_DOMAIN as above, or when the model cannot be inverted there (beyond a fold)
+ *  return  DROGUE_OK; DROGUE_E_DOMAIN as above, when the model cannot be inverted there (beyond a
+ *          fold), or when it stretches more than 64-fold
  *  error   <= 4 LSB
  */
 drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);

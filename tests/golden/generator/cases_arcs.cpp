@@ -86,42 +86,44 @@ void add_full_arcs(Set &set)
     const Front f = thresholds(100, 200, 0, 1);
     cv::Mat image = constant(22 * pitch, 22 * pitch, 0);
     const auto arcs = [&] { return static_cast<int>(arc_lengths(image, f).size()); };
-    fill(image, pitch / 2, pitch / 2, 1, 1, 100);
+    fill(image, pitch / 2, pitch / 2, 1, 1, 200);
     const int each = arcs();
     int dots = 1;
-    while ((dots + 1) * each <= CONF_MAX_ARCS) {
-        fill(image, dots % 22 * pitch + pitch / 2, dots / 22 * pitch + pitch / 2, 1, 1, 100);
+    while (each > 0 && (dots + 1) * each <= CONF_MAX_ARCS) {
+        fill(image, dots % 22 * pitch + pitch / 2, dots / 22 * pitch + pitch / 2, 1, 1, 200);
         dots++;
     }
     if (arcs() != CONF_MAX_ARCS) {
         throw std::runtime_error("the dots do not fill the arc table");
     }
     add_front(set, "arcs-all-used", Tier::boundary, {"table-full"}, image, f);
-    fill(image, dots % 22 * pitch + pitch / 2, dots / 22 * pitch + pitch / 2, 1, 1, 100);
+    fill(image, dots % 22 * pitch + pitch / 2, dots / 22 * pitch + pitch / 2, 1, 1, 200);
     add_front(set, "arcs-full", Tier::must_reject, {"table-full"}, image, f);
 }
 
-/* As many candidates in the ring as the edge list holds, and one more: found by moving a large ring's border. */
+/* One candidate more in the ring than the edge list holds: found by moving a large ring's outer circle to the left. */
 void add_full_edges(Set &set)
 {
     const cv::Mat image = image_from(2048, 26, [](int x, int) { return x % 3 == 2 ? 255 : 0; });
     Front f = thresholds(200, 400, 0, 2147483647);
+    const cv::Mat candidates = reference::canny(image, f.low, f.low, false);
     f.use_ring = 1;
     f.longest = 6144;
-    const auto candidates = [&] {
-        return cv::countNonZero(reference::canny(image, f.low, f.low, false) &
-                                reference::ring(image.cols, image.rows, f.centre2_x, f.centre2_y, f.longest));
+    const auto count = [&](int centre2_x) {
+        return cv::countNonZero(candidates &
+                                reference::ring(image.cols, image.rows, centre2_x, f.centre2_y, f.longest));
     };
     for (f.centre2_y = 0; f.centre2_y < 4000; f.centre2_y += 40) {
-        for (f.centre2_x = -3600; f.centre2_x > -5000; f.centre2_x--) {
-            const int count = candidates();
-            if (count == CONF_MAX_EDGES + 1) {
-                add_front(set, "edges-full", Tier::must_reject, {"table-full"}, image, f);
-                return;
-            }
-            if (count < CONF_MAX_EDGES + 1 && f.centre2_x < -4200) {
-                break;
-            }
+        int few = -6000; /* bisect for the last place with no more than wanted */
+        int many = -1800;
+        while (many - few > 1) {
+            const int middle = few + (many - few) / 2;
+            (count(middle) > CONF_MAX_EDGES + 1 ? many : few) = middle;
+        }
+        if (count(few) == CONF_MAX_EDGES + 1) {
+            f.centre2_x = few;
+            add_front(set, "edges-full", Tier::must_reject, {"table-full"}, image, f);
+            return;
         }
     }
     throw std::runtime_error("no ring holds one candidate too many");
