@@ -119,24 +119,22 @@ static int regular(const distorted *d, int64_t u, int64_t v)
            mul_q36(d->dxx, d->dyy) - mul_q36(d->dxy, d->dxy) > (one_q36 >> 16);
 }
 
-/* Does the radius as seen grow all the way from the axis to (x, y)? Its derivative 1 + 3 k1 q + 5 k2 q^2 + 7 k3 q^3,
- * q the squared radius, is looked at in 16 places, unless its negative terms alone cannot undo the 1. */
+/* Is the map regular all the way from the axis to (x, y)? Where the terms that could fold it cannot outweigh the 1 of
+ * its derivative it is; else 16 places on the way are looked at. */
 static int before_fold(const drogue_camera *c, int64_t x, int64_t y)
 {
     int64_t q = mul_q36(x, x) + mul_q36(y, y);
-    int64_t k[3];
-    int64_t fall;
+    int64_t k1 = c->k1_q16 < 0 ? 3 * widen(c->k1_q16) : 0; /* d (r radial) / dr = 1 + 3 k1 q + 5 k2 q^2 + 7 k3 q^3 */
+    int64_t k2 = c->k2_q16 < 0 ? 5 * widen(c->k2_q16) : 0;
+    int64_t k3 = c->k3_q16 < 0 ? 7 * widen(c->k3_q16) : 0;
+    int64_t p = 4 * (abs_s64(widen(c->p1_q16)) + abs_s64(widen(c->p2_q16))); /* times 1 + q >= 2 r */
     int i;
-    k[0] = 3 * widen(c->k1_q16);
-    k[1] = 5 * widen(c->k2_q16);
-    k[2] = 7 * widen(c->k3_q16);
-    fall = mul_q36((k[0] < 0 ? k[0] : 0) + mul_q36((k[1] < 0 ? k[1] : 0) + mul_q36(k[2] < 0 ? k[2] : 0, q), q), q);
-    if (one_q36 + fall > 0) {
+    if (one_q36 + mul_q36(k1 + mul_q36(k2 + mul_q36(k3, q), q), q) - mul_q36(p, one_q36 + q) > 0) {
         return 1;
     }
-    for (i = 1; i <= 16; i++) {
-        int64_t p = (q >> 4) * i;
-        if (one_q36 + mul_q36(k[0] + mul_q36(k[1] + mul_q36(k[2], p), p), p) <= 0) {
+    for (i = 1; i < 16; i++) {
+        distorted d = distort_q36(c, (x >> 4) * i, (y >> 4) * i);
+        if (!regular(&d, d.x, d.y)) {
             return 0;
         }
     }

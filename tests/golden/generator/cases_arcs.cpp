@@ -108,14 +108,14 @@ void add_full_edges(Set &set)
     Front f = thresholds(200, 400, 0, 2147483647);
     const cv::Mat candidates = reference::canny(image, f.low, f.low, false);
     f.use_ring = 1;
-    f.longest = 6144;
+    f.longest = 16384;
     const auto count = [&](int centre2_x) {
         return cv::countNonZero(candidates &
                                 reference::ring(image.cols, image.rows, centre2_x, f.centre2_y, f.longest));
     };
     for (f.centre2_y = 0; f.centre2_y < 4000; f.centre2_y += 40) {
-        int few = -6000; /* bisect for the last place with no more than wanted */
-        int many = -1800;
+        int few = -13400; /* bisect for the last place with no more than wanted */
+        int many = -11000;
         while (many - few > 1) {
             const int middle = few + (many - few) / 2;
             (count(middle) > CONF_MAX_EDGES + 1 ? many : few) = middle;
