@@ -251,7 +251,7 @@ drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *wor
     dark_pass pass;
     uint32_t best;
     memset(out, 0, sizeof *out);
-    if (!drogue_image_valid(image) || disc->longest_px < 1) {
+    if (!drogue_image_valid(image) || !drogue_mask_valid(disc)) {
         return DROGUE_E_ARGUMENT;
     }
     if ((uint32_t)image->width_px > workspace->capacity.width_px) {

@@ -29,6 +29,7 @@ void drogue_config_default(drogue_config *config)
     config->min_cover_q16 = DROGUE_Q16(45, 100);
     config->optics_blur_px_q16 = 0;
     config->min_dark_area_px = 9;
+    config->max_ambiguity_q16 = DROGUE_Q16(1, 2);
     config->inner_gate_q16 = DROGUE_Q16(1, 4);
 }
 
@@ -47,5 +48,6 @@ int drogue_config_valid(const drogue_config *c)
            within(c->cluster.angle_rad_q16, 0, INT32_MAX) && within(c->cluster.round_q16, 0, DROGUE_Q16_ONE) &&
            within(c->refit_band_px_q16, 1, DROGUE_Q16(8, 1)) && within(c->refit_cos_q16, 0, DROGUE_Q16_ONE) &&
            c->refit_rounds <= 16 && within(c->min_cover_q16, 0, DROGUE_Q16_ONE) &&
-           within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) && within(c->inner_gate_q16, 0, INT32_MAX);
+           within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) && within(c->max_ambiguity_q16, 0, DROGUE_Q16_ONE) &&
+           within(c->inner_gate_q16, 0, INT32_MAX);
 }

@@ -20,6 +20,9 @@ static int32_t cross(drogue_point o, drogue_point a, drogue_point b)
 /* Drop points of the chain above 'base' that p makes concave or straight, then push p. */
 static uint32_t chain_push(drogue_point *hull, uint32_t size, uint32_t base, drogue_point p)
 {
+    if (size > 0 && hull[size - 1].x == p.x && hull[size - 1].y == p.y) {
+        return size;
+    }
     while (size >= base + 2 && cross(hull[size - 2], hull[size - 1], p) <= 0) {
         size--;
     }

@@ -33,7 +33,8 @@ static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, con
     }
     clip(&r.x_px, &r.width_px, image->width_px);
     clip(&r.y_px, &r.height_px, image->height_px);
-    if (r.width_px < 1 || r.height_px < 1 || r.width_px > DROGUE_MAX_SIDE || r.height_px > DROGUE_MAX_SIDE) {
+    if (r.width_px < 1 || r.height_px < 1 || r.width_px > DROGUE_MAX_SIDE || r.height_px > DROGUE_MAX_SIDE ||
+        r.x_px + r.width_px > INT16_MAX || r.y_px + r.height_px > INT16_MAX) { /* coordinates are Q16 */
         return DROGUE_E_REGION;
     }
     *mask = drogue_mask_of_size(region->width_px, region->height_px);
@@ -96,7 +97,8 @@ static drogue_status choose(drogue_result *out, const drogue_pose poses[2], cons
             return status;
         }
         out->orientation_resolved =
-            choice.distance_px_q16[choice.index] <= drogue_q16_mul(config->inner_gate_q16, out->ideal.a_px_q16);
+            choice.distance_px_q16[choice.index] <= drogue_q16_mul(config->inner_gate_q16, out->ideal.a_px_q16) &&
+            choice.ambiguity_q16 <= config->max_ambiguity_q16;
     }
     out->ambiguity_q16 = choice.ambiguity_q16;
     out->pose = poses[choice.index];
@@ -141,13 +143,19 @@ static drogue_status measure(drogue_result *out, drogue_workspace *workspace, co
         status = drogue_outline_undistorted(&out->ideal, &outline, workspace, &out->list, config, camera,
                                             out->region.x_px, out->region.y_px);
         if (status != DROGUE_OK) {
+            memset(&out->ideal, 0, sizeof out->ideal);
             return DROGUE_E_NO_ELLIPSE;
         }
     }
     if (model->inner_radius_m_q16 > 0) {
-        out->has_inner = find_inner(&out->inner, workspace, config, &view, &outline.ellipse) == DROGUE_OK;
-        out->inner.x_px_q16 = drogue_q16_add(out->inner.x_px_q16, drogue_q16_from_int(out->region.x_px));
-        out->inner.y_px_q16 = drogue_q16_add(out->inner.y_px_q16, drogue_q16_from_int(out->region.y_px));
+        status = find_inner(&out->inner, workspace, config, &view, &outline.ellipse);
+        if (status == DROGUE_OK) {
+            out->has_inner = 1;
+            out->inner.x_px_q16 = drogue_q16_add(out->inner.x_px_q16, drogue_q16_from_int(out->region.x_px));
+            out->inner.y_px_q16 = drogue_q16_add(out->inner.y_px_q16, drogue_q16_from_int(out->region.y_px));
+        } else if (status != DROGUE_E_NO_DARK_PART) {
+            return status;
+        }
     }
     status = drogue_pose_from_ellipse(poses, &out->ideal, camera, model->rim_radius_m_q16);
     return status == DROGUE_OK ? choose(out, poses, config, camera, model) : status;

@@ -16,8 +16,8 @@ void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
     int64_t xx = (int64_t)x * x;
     int64_t xy = (int64_t)x * y;
     int64_t yy = (int64_t)y * y;
-    DROGUE_NOTE("ellipse: x", x, 15);
-    DROGUE_NOTE("ellipse: y", y, 15);
+    DROGUE_NOTE("ellipse: x", x, 16);
+    DROGUE_NOTE("ellipse: y", y, 16);
     m->n++;
     m->m10 += x;
     m->m01 += y;

@@ -76,7 +76,8 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
                                     const drogue_frontend_config *config, int32_t width_px, int32_t height_px)
 {
     size_t width;
-    if (config->canny_low < 0 || config->canny_high < config->canny_low || config->ring.longest_px < 0) {
+    if (config->canny_low < 0 || config->canny_high < config->canny_low ||
+        (config->use_ring && !drogue_mask_valid(&config->ring))) {
         return DROGUE_E_ARGUMENT;
     }
     if (width_px < 1 || width_px > DROGUE_MAX_SIDE || height_px < 1 || height_px > DROGUE_MAX_SIDE) {
@@ -342,6 +343,7 @@ drogue_status drogue_frontend_end(drogue_edge_list *list, drogue_frontend *front
     if (frontend->rows_in != frontend->height_px) {
         return DROGUE_E_ARGUMENT;
     }
+    frontend->rows_in++; /* a frame ends once */
     drain(frontend);
     {
         const uint32_t *alive = resolve_hysteresis(frontend);

@@ -90,6 +90,7 @@ void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DRO
         drogue_wide innovation = drogue_wide_sub(drogue_wide_from_q16(value_q16[p]), f->state[0]);
         drogue_wide first[3]; /* first row of the covariance: P H' */
         drogue_wide gain[3];
+        drogue_wide shrink;
         int i;
         int j;
         if (p == DROGUE_PITCH || p == DROGUE_YAW) {
@@ -100,7 +101,12 @@ void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DRO
             gain[i] = drogue_wide_div(first[i], innovation_variance);
             f->state[i] = drogue_wide_add(f->state[i], drogue_wide_mul(gain[i], innovation));
         }
-        for (i = 0; i < 3; i++) { /* (1 - K H) P (1 - K H)' + K L K', term by term */
+        /* (1 - K H) P (1 - K H)' + K L K', term by term; in the first row it comes to P L / (P + L), free of cancellation */
+        shrink = drogue_wide_div(drogue_wide_mul(s, s), innovation_variance);
+        for (j = 0; j < 3; j++) {
+            f->covariance[packed(0, j)] = drogue_wide_mul(first[j], shrink);
+        }
+        for (i = 1; i < 3; i++) {
             for (j = i; j < 3; j++) {
                 drogue_wide cross =
                     drogue_wide_add(drogue_wide_mul(gain[i], first[j]), drogue_wide_mul(gain[j], first[i]));

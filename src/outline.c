@@ -35,11 +35,15 @@ static uint32_t count_near(const drogue_ellipse_frame *frame, drogue_q16 thresho
     return near_count;
 }
 
+static int round_enough(const drogue_ellipse *e, const drogue_config *config)
+{
+    return (int64_t)e->b_px_q16 * DROGUE_Q16_ONE >= (int64_t)e->a_px_q16 * config->min_axis_ratio_q16;
+}
+
 static int plausible(const drogue_ellipse *e, const drogue_mask *mask, const drogue_config *config)
 {
     int64_t a = e->a_px_q16;
-    return (int64_t)e->b_px_q16 * DROGUE_Q16_ONE >= a * config->min_axis_ratio_q16 &&
-           a >= (int64_t)config->min_size_q16 * mask->longest_px &&
+    return round_enough(e, config) && a >= (int64_t)config->min_size_q16 * mask->longest_px &&
            a <= (int64_t)config->max_size_q16 * mask->longest_px;
 }
 
@@ -81,7 +85,7 @@ static int try_combination(drogue_candidate *out, drogue_quality *quality, const
     drogue_quality_score(quality, &out->ellipse, near_count, (uint32_t)sum.n, &config->quality);
     out->reliability_q16 = quality->reliability_q16;
     out->arcs = combination;
-    return quality->fit_ratio_q16 > config->min_fit_ratio_q16;
+    return quality->fit_ratio_q16 >= config->min_fit_ratio_q16;
 }
 
 /* Look up the farthest arcs of one polarity and sum their moments; returns the bit set of quadrants present. */
@@ -92,7 +96,7 @@ static uint32_t gather(quadrants *q, const drogue_farthest *farthest, int polari
     for (k = 0; k < 4; k++) {
         uint32_t index = farthest->arc[polarity][k];
         q->arc[k] = NULL;
-        if (index != DROGUE_NO_ARC) {
+        if (index != DROGUE_NO_ARC && workspace->arcs[index].count <= DROGUE_MAX_FIT_POINTS / 4) {
             q->arc[k] = &workspace->arcs[index];
             arc_moments(&q->moments[k], workspace->edges, q->arc[k]);
             present |= 1u << k;
@@ -157,7 +161,7 @@ static void collect_point(collection *c, drogue_q16 x_px_q16, drogue_q16 y_px_q1
     int64_t x = drogue_shr_round_s64((int64_t)x_px_q16 - c->x_px_q16, 16 - c->frac_bits);
     int64_t y = drogue_shr_round_s64((int64_t)y_px_q16 - c->y_px_q16, 16 - c->frac_bits);
     DROGUE_NOTE("outline: point in the fit's unit", x, 16);
-    if (x >= INT16_MIN && x <= INT16_MAX && y >= INT16_MIN && y <= INT16_MAX) {
+    if (c->moments.n < DROGUE_MAX_FIT_POINTS && x >= INT16_MIN && x <= INT16_MAX && y >= INT16_MIN && y <= INT16_MAX) {
         drogue_moments_add_point(&c->moments, (int32_t)x, (int32_t)y);
     }
 }
@@ -291,6 +295,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     drogue_ellipse centre = outline->ellipse;
     collection c;
     drogue_status status;
+    uint32_t members;
     uint32_t i;
     memset(out, 0, sizeof *out);
     centre.xc_px_q16 = drogue_q16_add(centre.xc_px_q16, drogue_q16_from_int(x_px));
@@ -300,15 +305,22 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         return DROGUE_E_DEGENERATE;
     }
     collection_begin(&c, &centre);
-    for (i = 0; i < list->edge_count; i++) {
+    for (i = 0, members = 0; i < list->edge_count; i++) {
         const drogue_edge *e = &workspace->edges[i];
         drogue_q16 x = drogue_q16_add(edge_q16(e->x_q5), drogue_q16_from_int(x_px));
         drogue_q16 y = drogue_q16_add(edge_q16(e->y_q5), drogue_q16_from_int(y_px));
-        if (edge_in_band(&frame, &band, e) && drogue_undistort_point(&x, &y, camera) == DROGUE_OK) {
-            collect_point(&c, x, y);
+        if (edge_in_band(&frame, &band, e)) {
+            members++;
+            if (drogue_undistort_point(&x, &y, camera) == DROGUE_OK) {
+                collect_point(&c, x, y);
+            }
         }
     }
     status = collection_fit(out, &c);
+    if (status == DROGUE_OK &&
+        (c.moments.n * 4 < (int64_t)members * 3 || !round_enough(out, config) || out->b_px_q16 < DROGUE_Q16_ONE)) {
+        status = DROGUE_E_DEGENERATE; /* most of the outline lies beyond what the lens model can undo */
+    }
     if (status == DROGUE_OK) {
         undo_blur(out, config);
     }

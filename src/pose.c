@@ -126,6 +126,7 @@ drogue_status drogue_pose_from_ellipse(drogue_pose out[2], const drogue_ellipse 
         combine(axis, i == 0 ? drogue_wide_neg(pair.tilt) : pair.tilt, pair.upright, eigen.vector_q60[0], e3);
         status = finish_pose(&out[i], position, axis);
         if (status != DROGUE_OK) {
+            memset(out, 0, 2 * sizeof *out);
             return status;
         }
     }

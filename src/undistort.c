@@ -5,7 +5,7 @@
 #include "drogue/wide.h"
 
 #define FRAC 36
-#define MAX_STEPS 32
+#define MAX_STEPS 64
 
 static const int64_t one_q36 = INT64_C(1) << FRAC;
 static const int64_t most_q36 = INT64_C(4) << FRAC; /* off the axis, in focal lengths */
@@ -161,6 +161,7 @@ drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16,
     int64_t y;
     int64_t dx = 0;
     int64_t dy = 0;
+    int64_t nearest = INT64_MAX;
     int step;
     if (!enter(&u, &v, *x_px_q16, *y_px_q16, camera)) {
         return DROGUE_E_DOMAIN;
@@ -169,12 +170,14 @@ drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16,
     y = 0;
     for (step = 0; step < MAX_STEPS; step++) {
         distorted d = distort_q36(camera, x + dx, y + dy);
+        int64_t miss = abs_s64(u - d.x) + abs_s64(v - d.y);
         int64_t det;
-        if (!regular(&d, u, v)) { /* across a fold: half the step */
+        if (!regular(&d, u, v) || (miss >= nearest && miss > still_q36)) { /* across a fold or too far: half the step */
             dx >>= 1;
             dy >>= 1;
             continue;
         }
+        nearest = miss;
         x += dx;
         y += dy;
         det = mul_q36(d.dxx, d.dyy) - mul_q36(d.dxy, d.dxy);

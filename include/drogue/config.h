@@ -35,13 +35,15 @@ typedef struct drogue_config {
     drogue_q16 optics_blur_px_q16; /* 0 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
                                       draws a curved edge inward, which is put back (outline.h) */
     uint32_t min_dark_area_px;     /* 9 px: smaller dark parts are noise */
+    drogue_q16 max_ambiguity_q16;  /* 0.5: the inner centre decides only when it is this many times nearer to one
+                                      projected centre than to the other, or less */
     drogue_q16 inner_gate_q16;     /* 0.25: the inner centre decides only when it lies within this share of the
                                       major semi-axis of a projected one */
 } drogue_config;
 
 void drogue_config_default(drogue_config *config);
 
-/* 1 when every threshold is within its range: counts and lengths not negative, low <= high, shares in [0, 1],
+/* 1 when every threshold is within its range: counts and lengths not negative, fit_error to 1024 px, low <= high, shares in [0, 1],
  * refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px, k1 in [0, 64], k2 in [0, 1). */
 int drogue_config_valid(const drogue_config *config);
 

@@ -11,10 +11,17 @@ extern "C" {
 
 /* Circle family of a region: centre ((w-1)/2, (h-1)/2) and longest side, kept exact by doubling. */
 typedef struct drogue_mask {
-    int32_t centre2_x; /* twice the centre, px */
+    int32_t centre2_x; /* twice the centre, px, [-2^15, 2^15] */
     int32_t centre2_y;
     int32_t longest_px; /* longest side of the region, [1, 2^20] */
 } drogue_mask;
+
+static inline int drogue_mask_valid(const drogue_mask *mask)
+{
+    const int32_t most = 1 << 15;
+    return mask->longest_px >= 1 && mask->longest_px <= (1 << 20) && mask->centre2_x >= -most &&
+           mask->centre2_x <= most && mask->centre2_y >= -most && mask->centre2_y <= most;
+}
 
 static inline int64_t drogue_mask_distance2_x4(const drogue_mask *mask, int32_t x, int32_t y)
 {

@@ -37,7 +37,7 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
  *  out       ellipse as an ideal pinhole camera would see it, px of the whole image
  *  outline   found in a region whose pixel (0, 0) is pixel (x_px, y_px) of the image
  *  return    DROGUE_OK, DROGUE_E_TOO_FEW_POINTS, DROGUE_E_DEGENERATE; points outside the lens model's domain
- *            are left out
+ *            are left out, more than a quarter of them degenerate
  */
 drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outline *outline,
                                          const drogue_workspace *workspace, const drogue_edge_list *list,

@@ -168,6 +168,22 @@ START_TEST(no_points)
 }
 END_TEST
 
+START_TEST(a_point_twice_is_one)
+{
+    drogue_min_rect r;
+    drogue_point hull[DROGUE_HULL_MAX];
+    drogue_edge e[4];
+    int k;
+    for (k = 0; k < 4; k++) {
+        e[k] = edge_at(3 + k / 2, 4, NULL);
+    }
+    ck_assert_int_eq(drogue_min_area_rect(&r, hull, e, 2), DROGUE_OK);
+    ck_assert(r.xc_px_q16 == 3 * 65536 && r.yc_px_q16 == 4 * 65536 && r.short_px_q16 == 0 && r.long_px_q16 == 0);
+    ck_assert_int_eq(drogue_min_area_rect(&r, hull, e, 4), DROGUE_OK);
+    ck_assert(r.xc_px_q16 == 7 * 32768 && r.long_px_q16 == 65536 && r.short_px_q16 == 0);
+}
+END_TEST
+
 START_TEST(quadrants)
 {
     ck_assert_int_eq(drogue_quadrant(1, -1), 0);
@@ -265,5 +281,5 @@ START_TEST(farthest_of_each_quadrant_and_polarity)
 END_TEST
 
 SUITE_MAIN("constraints", rectangle_of_random_points, rectangle_of_arcs, rectangle_of_points_on_a_line,
-           hull_of_the_most_corners, first_of_equal_rectangles_wins, no_points, quadrants,
+           hull_of_the_most_corners, first_of_equal_rectangles_wins, no_points, a_point_twice_is_one, quadrants,
            verdict_on_every_direction_in_every_quadrant, farthest_of_each_quadrant_and_polarity)

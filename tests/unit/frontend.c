@@ -251,6 +251,19 @@ START_TEST(begin_arguments)
     ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &bad, 16, 16), DROGUE_E_ARGUMENT);
     bad.canny_low = 101;
     ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &bad, 16, 16), DROGUE_E_ARGUMENT);
+    bad = c;
+    bad.ring.longest_px = 0;
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &bad, 16, 16), DROGUE_E_ARGUMENT);
+    bad.ring.longest_px = (1 << 20) + 1;
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &bad, 16, 16), DROGUE_E_ARGUMENT);
+    bad = c;
+    bad.ring.centre2_x = (1 << 15) + 1;
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &bad, 16, 16), DROGUE_E_ARGUMENT);
+    bad = c;
+    bad.ring.centre2_y = -(1 << 15) - 1;
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &bad, 16, 16), DROGUE_E_ARGUMENT);
+    bad.use_ring = 0; /* not looked at */
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &bad, 16, 16), DROGUE_OK);
     test_workspace_free(&t);
 }
 END_TEST
@@ -273,6 +286,28 @@ START_TEST(missing_rows)
         ck_assert_uint_eq(list.edge_count, 0);
         ck_assert_uint_eq(list.arc_count, 0);
     }
+    test_workspace_free(&t);
+}
+END_TEST
+
+START_TEST(a_frame_ends_once)
+{
+    test_workspace t = test_workspace_of(16, 64, 64, 16);
+    drogue_frontend f;
+    const drogue_frontend_config c = {40, 100, 1, 0, {15, 15, 16}, 1};
+    uint8_t row[16] = {0};
+    drogue_edge_list list;
+    int k;
+    memset(row + 8, 255, 8);
+    ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &c, 16, 16), DROGUE_OK);
+    for (k = 0; k < 20; k++) { /* the last four are too many */
+        drogue_frontend_row(&f, row);
+    }
+    ck_assert_int_eq(drogue_frontend_end(&list, &f), DROGUE_OK);
+    ck_assert_uint_eq(list.edge_count, 16);
+    drogue_frontend_row(&f, row);
+    ck_assert_int_eq(drogue_frontend_end(&list, &f), DROGUE_E_ARGUMENT);
+    ck_assert_uint_eq(list.edge_count, 0);
     test_workspace_free(&t);
 }
 END_TEST
@@ -306,4 +341,4 @@ END_TEST
 
 SUITE_MAIN("frontend", every_small_size, random_images, one_workspace_for_many_sizes, edge_table_overfilled_by_one,
            arc_table_overfilled_by_one, label_table_overfilled_by_one, workspace_arguments, begin_arguments,
-           missing_rows, endless_weak_chain)
+           missing_rows, a_frame_ends_once, endless_weak_chain)

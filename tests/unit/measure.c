@@ -325,6 +325,52 @@ START_TEST(geometry_out_of_range)
 }
 END_TEST
 
+/* With the inner part in the end plane both poses predict it in one place: it decides nothing. */
+START_TEST(inner_part_that_cannot_decide)
+{
+    test_workspace t = usual_workspace();
+    const drogue_model flat = {22938, 13107, 0};
+    drogue_config c;
+    drogue_result r;
+    drogue_config_default(&c);
+    draw(&usual);
+    ck_assert_int_eq(measure(&r, &t, &c, &model, &whole), DROGUE_OK);
+    ck_assert_int_eq(r.orientation_resolved, 1);
+    c.max_ambiguity_q16 = r.ambiguity_q16;
+    ck_assert_int_eq(measure(&r, &t, &c, &model, &whole), DROGUE_OK);
+    ck_assert_int_eq(r.orientation_resolved, 1);
+    c.max_ambiguity_q16 = r.ambiguity_q16 - 1;
+    ck_assert_int_eq(measure(&r, &t, &c, &model, &whole), DROGUE_OK);
+    ck_assert_int_eq(r.orientation_resolved, 0);
+    drogue_config_default(&c);
+    c.inner_gate_q16 = 65536;
+    ck_assert_int_eq(measure(&r, &t, &c, &flat, &whole), DROGUE_OK);
+    ck_assert_int_eq(r.has_inner, 1);
+    ck_assert_int_eq(r.orientation_resolved, 0);
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* A lens that folds the image inside the outline: what cannot be undone is not measured. */
+START_TEST(outline_across_a_fold)
+{
+    test_workspace t = usual_workspace();
+    drogue_camera camera = the_camera();
+    drogue_config c;
+    drogue_result r;
+    drogue_config_default(&c);
+    draw(&usual);
+    camera.fx_px_q16 = camera.fy_px_q16 = q16_of(150);
+    camera.k1_q16 = q16_of(-0.1);
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &c, &camera, &model, &image, &whole), DROGUE_OK);
+    camera.k1_q16 = q16_of(-0.9);
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &c, &camera, &model, &image, &whole), DROGUE_E_NO_ELLIPSE);
+    ck_assert_int_eq(r.ideal.xc_px_q16, 0);
+    ck_assert_int_eq(r.ideal.a_px_q16, 0);
+    test_workspace_free(&t);
+}
+END_TEST
+
 START_TEST(version_is_the_macros)
 {
     char text[32];
@@ -342,5 +388,5 @@ START_TEST(capacity_by_macro_is_capacity_by_function)
 END_TEST
 
 SUITE_MAIN("measure", drawn_drogues, without_inner_part, regions_of_one_image, ring_of_a_clipped_region, arguments,
-           regions_that_miss, full_tables, nothing_to_measure, geometry_out_of_range, version_is_the_macros,
-           capacity_by_macro_is_capacity_by_function)
+           regions_that_miss, full_tables, nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide,
+           outline_across_a_fold, version_is_the_macros, capacity_by_macro_is_capacity_by_function)

@@ -165,7 +165,9 @@ START_TEST(thresholds_decide)
     c.min_size_q16 = q16_of(101.0 / SIDE);
     ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_ELLIPSE);
     c = plain_config();
-    c.min_fit_ratio_q16 = 65536; /* exceeded by nothing */
+    c.min_fit_ratio_q16 = 65536; /* the least share may be the whole: every point lies on a perfect ellipse */
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    c.quality.fit_error_px_q16 = 1; /* but none this exactly */
     ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_ELLIPSE);
     c = plain_config();
     c.min_short_px_q16 = q16_of(90); /* no arc is as round */

@@ -207,6 +207,12 @@ void add_arcs(Set &set)
     Front bad = thresholds(50, 49, 1, 1);
     add_front(set, "low-above-high", Tier::must_reject, {"argument"}, dark, bad);
     bad = thresholds(-1, 49, 1, 1);
+    Front no_ring = thresholds(40, 100, 1, 1);
+    no_ring.use_ring = 1;
+    add_front(set, "ring-empty", Tier::must_reject, {"argument"}, dark, no_ring);
+    no_ring.longest = 64;
+    no_ring.centre2_x = 32769;
+    add_front(set, "ring-centre-too-far", Tier::must_reject, {"argument"}, dark, no_ring);
     add_front(set, "low-negative", Tier::must_reject, {"argument"}, dark, bad);
 }
 

@@ -166,8 +166,8 @@ void add_constraints(Set &set)
     add_arc(set, "longest-diagonal", Tier::stress, {"saturation"}, {{0, 0}, {2047, 2046}, {3, 5}, {2041, 2047}},
             about(2047, 0, 2));
     Judge far = about(0, 0, 3);
-    far.centre2_x = -4194304;
-    far.centre2_y = 4194304;
+    far.centre2_x = -32768;
+    far.centre2_y = 32768;
     add_arc(set, "centre-far-away", Tier::stress, {"saturation"}, arc_pixels(100, 100, 60, 52, 20, 0, 80), far);
     for (int k = 0; k < 8; k++) {
         const std::string name = "blob-" + std::to_string(k);

@@ -138,6 +138,8 @@ void add_centroid(Set &set)
     add_part(set, "disc-above", Tier::boundary, {"border", "rounding-negative"}, inner, {61, -33, 96}, 9);
     add_part(set, "disc-off-image", Tier::must_reject, {"border"}, inner, {500, 500, 96}, 9);
     add_part(set, "disc-empty", Tier::must_reject, {"argument"}, inner, {63, 63, 0}, 9);
+    add_part(set, "disc-centre-too-far", Tier::must_reject, {"argument"}, inner, {63, -32769, 99000}, 9);
+    add_part(set, "disc-centre-far", Tier::boundary, {"border"}, inner, {63, -32768, 49250}, 9);
     /* pixels on the disc's circle: radius 10 and (6, 8), then half-pixel centres */
     for (const int longest : {29, 30, 31}) {
         add_part(set, "circle-of-" + std::to_string(longest), Tier::boundary, {"tie"}, constant(31, 31, 0),
@@ -161,8 +163,6 @@ void add_centroid(Set &set)
     add_part(set, "2048x3", Tier::stress, {"border"},
              image_from(2048, 3, [](int x, int) { return x / 100 % 3 == 1 ? 30 : 170 + x % 7; }), {2047, 2, 5000}, 9);
     add_part(set, "inner-missing", Tier::ordinary, {}, noise(40, 40, random, 90, 99), {39, 39, 90}, 9);
-    add_part(set, "labels-full", Tier::must_reject, {"table-full"},
-             image_from(2048, 32, [](int x, int y) { return x % 4 < 3 && y % 4 < 3 ? 0 : 255; }), {2047, 31, 12000}, 1);
 }
 
 } // namespace vectors

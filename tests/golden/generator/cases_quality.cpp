@@ -214,8 +214,6 @@ void add_cluster(Set &set)
     add_choice(set, "angle-wrap-one-less", Tier::boundary, {"angle-wrap", "tie"}, {low, high});
     low.words[4] = -HALF_PI / 2;
     high.words[4] = low.words[4] + HALF_PI;
-    add_choice(set, "angle-quarter-turn", Tier::boundary, {"angle-wrap", "tie"}, {low, high},
-               {3 * ONE, 3 * ONE, 3 * ONE, HALF_PI, 58982});
     high.words[4]++;
     add_choice(set, "angle-beyond-quarter-turn", Tier::boundary, {"angle-wrap", "tie"}, {low, high},
                {3 * ONE, 3 * ONE, 3 * ONE, HALF_PI, 58982});

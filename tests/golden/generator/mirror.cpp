@@ -61,7 +61,8 @@ bool place(cv::Rect &clipped, drogue_mask &mask, const cv::Mat &image, const std
     mask.centre2_x = asked.width - 1 + 2 * (asked.x - clipped.x);
     mask.centre2_y = asked.height - 1 + 2 * (asked.y - clipped.y);
     mask.longest_px = std::max(asked.width, asked.height);
-    return !clipped.empty() && clipped.width <= DROGUE_MAX_SIDE && clipped.height <= DROGUE_MAX_SIDE;
+    return !clipped.empty() && clipped.width <= DROGUE_MAX_SIDE && clipped.height <= DROGUE_MAX_SIDE &&
+           clipped.br().x <= INT16_MAX && clipped.br().y <= INT16_MAX;
 }
 
 FrontEnd run_front_end(const cv::Mat &view, const drogue_mask &mask)
@@ -190,8 +191,8 @@ std::optional<Outline> best_combination(const FrontEnd &front, const Farthest &f
             });
             const reference::Quality q = reference::quality(e, static_cast<int>(near_count), static_cast<int>(points.size()),
                                                             real(config.quality.k1_q16), real(config.quality.k2_q16));
-            if (q.fit_ratio > real(config.min_fit_ratio_q16)) {
-                candidates.push_back({e, q.reliability, polarity});
+            if (q.fit_ratio >= real(config.min_fit_ratio_q16)) {
+                candidates.push_back({e, real(q16(q.reliability)), polarity}); /* equal in Q16 is equal */
                 outlines.push_back({e, polarity, combination, 0});
             }
         }
@@ -262,20 +263,23 @@ reference::Camera camera_of(const std::vector<int64_t> &w)
 Ellipse ideal_of(const Outline &outline, const FrontEnd &front, const reference::Camera &camera, cv::Point origin)
 {
     Point centre = {outline.ellipse.xc + origin.x, outline.ellipse.yc + origin.y};
+    const Ellipse none = {0, 0, 0, 0, 0, false};
+    const std::vector<Point> members = points_in_band(outline.ellipse, outline.polarity, front);
     std::vector<Point> points;
     if (!reference::undistort(camera, centre)) {
-        return {0, 0, 0, 0, 0, false};
+        return none;
     }
-    for (const Point &p : points_in_band(outline.ellipse, outline.polarity, front)) {
+    for (const Point &p : members) {
         Point q = {p.x + origin.x, p.y + origin.y};
         if (reference::undistort(camera, q)) {
             points.push_back(q);
         }
     }
     Ellipse e = fit(points);
-    if (e.ok) {
-        undo_blur(e);
+    if (!e.ok || 4 * points.size() < 3 * members.size() || e.b < e.a * real(config.min_axis_ratio_q16) || e.b < 1) {
+        return none;
     }
+    undo_blur(e);
     return e;
 }
 
@@ -326,14 +330,42 @@ std::array<uint32_t, 8> pose_bound(const Ellipse &e, const std::array<uint32_t, 
     return bound;
 }
 
+/* LSB by which the ambiguity may move when each word of the poses moves by its bound. */
+uint32_t ambiguity_bound(const std::array<reference::Pose, 2> &pair, const std::array<std::array<uint32_t, 8>, 2> &bound,
+                         const reference::Choice &choice, Point inner, Real depth, const reference::Camera &camera)
+{
+    Real moved = 0;
+    for (size_t i = 0; i < 2; i++) {
+        for (size_t k = 0; k < 6; k++) {
+            reference::Pose p = pair[i];
+            Point q;
+            (k < 3 ? p.position[k] : p.axis[k - 3]) += static_cast<Real>(bound[i][k]) / 65536;
+            if (reference::project(p, depth, camera, q)) {
+                moved += std::fabs(std::hypot(q.x - inner.x, q.y - inner.y) - choice.distance[i]);
+            }
+        }
+    }
+    const Real farther = std::max(choice.distance[0], choice.distance[1]);
+    return static_cast<uint32_t>(std::min<Real>(65536, 1 + std::ceil(65536 * moved / std::max<Real>(farther, 1e-6L))));
+}
+
 enum Word { STATUS = 0, SEEN = 1, IDEAL = 6, POLARITY = 11, ARCS, REFIT, HAS_INNER, INNER, POSE = 19, OTHER = 27, RESOLVED = 35, AMBIGUITY };
 constexpr uint32_t ELLIPSE_LSB = 16;
 constexpr uint32_t ANY_ANGLE = 205887; /* pi */
 
-std::array<uint32_t, 5> ellipse_bound(const Ellipse &e)
+/* The last fit takes points on a grid about the ellipse before it, the finest in which four semi-axes fit 16 bits. Edge
+ * points, on a grid of their own, are all moved alike: the centre is good to half a pitch. Without their grid, the lens
+ * undone, they move each in its own way. */
+std::array<uint32_t, 5> ellipse_bound(const Ellipse &e, bool lens)
 {
-    const Real angle = ELLIPSE_LSB + std::ceil(ELLIPSE_LSB / std::max<Real>(e.a - e.b, 1e-9L));
-    return {ELLIPSE_LSB, ELLIPSE_LSB, ELLIPSE_LSB, ELLIPSE_LSB, angle < ANY_ANGLE ? static_cast<uint32_t>(angle) : ANY_ANGLE};
+    uint32_t pitch = 64; /* LSB */
+    while (pitch < 65536 && 4 * e.a * 65536 / pitch > 32767) {
+        pitch *= 2;
+    }
+    const uint32_t centre = ELLIPSE_LSB + pitch / 2;
+    const uint32_t axis = lens ? centre : ELLIPSE_LSB;
+    const Real angle = axis + std::ceil(axis / std::max<Real>(e.a - e.b, 1e-9L));
+    return {centre, centre, axis, axis, angle < ANY_ANGLE ? static_cast<uint32_t>(angle) : ANY_ANGLE};
 }
 
 } // namespace
@@ -377,15 +409,18 @@ FrameReference mirror_frame(const cv::Mat &image, const std::vector<int64_t> &ca
     seen.xc += clipped.x;
     seen.yc += clipped.y;
     Ellipse ideal = seen;
-    if ((camera_words[4] | camera_words[5] | camera_words[6] | camera_words[7] | camera_words[8]) != 0) {
+    const bool lens = (camera_words[4] | camera_words[5] | camera_words[6] | camera_words[7] | camera_words[8]) != 0;
+    if (lens) {
         ideal = ideal_of(*outline, front, camera, clipped.tl());
     }
     put_ellipse(&w[SEEN], seen);
-    put_ellipse(&w[IDEAL], ideal);
     w[POLARITY] = outline->polarity;
     w[ARCS] = outline->combination;
     w[REFIT] = outline->refit_points;
-    const std::array<uint32_t, 5> bounds[2] = {ellipse_bound(seen), ellipse_bound(ideal)};
+    if (ideal.ok) {
+        put_ellipse(&w[IDEAL], ideal);
+    }
+    const std::array<uint32_t, 5> bounds[2] = {ellipse_bound(seen, false), ellipse_bound(ideal, lens)};
     std::copy(bounds[0].begin(), bounds[0].end(), out.bound.begin() + SEEN);
     std::copy(bounds[1].begin(), bounds[1].end(), out.bound.begin() + IDEAL);
     if (!ideal.ok) {
@@ -419,15 +454,20 @@ FrameReference mirror_frame(const cv::Mat &image, const std::vector<int64_t> &ca
             w[STATUS] = DROGUE_E_BEHIND_CAMERA;
             return out;
         }
-        w[RESOLVED] = choice.distance[static_cast<size_t>(choice.index)] <= real(config.inner_gate_q16) * ideal.a;
+        w[RESOLVED] = choice.distance[static_cast<size_t>(choice.index)] <= real(config.inner_gate_q16) * ideal.a &&
+                      choice.ambiguity <= real(config.max_ambiguity_q16);
     }
     w[AMBIGUITY] = q16(choice.ambiguity);
-    for (const size_t k : {0, 1}) {
-        const size_t which = k == 0 ? static_cast<size_t>(choice.index) : static_cast<size_t>(1 - choice.index);
+    const std::array<std::array<uint32_t, 8>, 2> pose_bounds = {pose_bound(ideal, bounds[1], camera, radius, 0),
+                                                                pose_bound(ideal, bounds[1], camera, radius, 1)};
+    for (const int k : {0, 1}) {
+        const auto which = static_cast<size_t>(choice.index ^ k);
         const std::array<int64_t, 8> words = pose_words(pair[which]);
-        const std::array<uint32_t, 8> bound = pose_bound(ideal, bounds[1], camera, radius, which);
         std::copy(words.begin(), words.end(), w.begin() + (k == 0 ? POSE : OTHER));
-        std::copy(bound.begin(), bound.end(), out.bound.begin() + (k == 0 ? POSE : OTHER));
+        std::copy(pose_bounds[which].begin(), pose_bounds[which].end(), out.bound.begin() + (k == 0 ? POSE : OTHER));
+    }
+    if (w[HAS_INNER] != 0) {
+        out.bound[AMBIGUITY] = ambiguity_bound(pair, pose_bounds, choice, inner, real(model[2]), camera);
     }
     return out;
 }

@@ -71,6 +71,12 @@ Tiers canny_tier(const Arrays &in, const Arrays &exact) { return {{image_like(ex
 
 int as_int(int64_t word) { return static_cast<int>(word); }
 
+/* centre2_x centre2_y longest */
+bool valid_mask(const int64_t *p)
+{
+    return p[2] >= 1 && p[2] <= 1 << 20 && std::abs(p[0]) <= 1 << 15 && std::abs(p[1]) <= 1 << 15;
+}
+
 Tiers mask_tier(const Arrays &in, const Arrays &exact)
 {
     const Words &p = in[0].words;
@@ -84,11 +90,8 @@ Tiers arcs_tier(const Arrays &in, const Arrays &exact)
 {
     const Words &p = in[1].words;
     const cv::Mat image = image_of(in[0]);
-    if (p[0] < 0 || p[1] < p[0]) {
+    if (p[0] < 0 || p[1] < p[0] || (p[3] != 0 && !valid_mask(&p[4]))) {
         return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0}), {}}};
-    }
-    if (exact[0].words[0] == DROGUE_E_LABELS_FULL) {
-        return {}; /* how many provisional labels a labeller needs is its own affair */
     }
     cv::Mat candidates = reference::canny(image, as_int(p[0]), as_int(p[0]), p[2] != 0);
     cv::Mat edges = canny(in[0], in[1]);
@@ -119,7 +122,9 @@ Tiers arcs_tier(const Arrays &in, const Arrays &exact)
     }
     Words words = {DROGUE_OK, static_cast<int64_t>(points.size() / 4), count};
     words.insert(words.end(), points.begin(), points.end());
-    if (cv::countNonZero(candidates) > CONF_MAX_EDGES) {
+    if (reference::arcs(candidates, gx, gy).size() >= CONF_MAX_LABELS) { /* provisional labels are no fewer */
+        words = {DROGUE_E_LABELS_FULL, 0, 0};
+    } else if (cv::countNonZero(candidates) > CONF_MAX_EDGES) {
         words = {DROGUE_E_EDGES_FULL, 0, 0};
     } else if (count > CONF_MAX_ARCS) {
         words = {DROGUE_E_ARCS_FULL, 0, 0};
@@ -184,6 +189,14 @@ reference::Ellipse ellipse_of(const Words &w)
     return {real(w[0]), real(w[1]), real(w[2]), real(w[3]), real(w[4]), true};
 }
 
+/* The deviation of (10) with the coordinates in units of the semi-axes saturated as drogue/quality.h says. */
+Real saturated_deviation(const reference::Ellipse &e, reference::Point p)
+{
+    const Real dx = p.x - e.xc, dy = p.y - e.yc, c = std::cos(e.angle), s = std::sin(e.angle);
+    const Real u = std::clamp<Real>((dx * c + dy * s) / e.a, -16, 16), v = std::clamp<Real>((dy * c - dx * s) / e.b, -16, 16);
+    return std::max(std::fabs(dx), std::fabs(dy)) < 15 * e.b ? reference::deviation(e, p) : std::fabs(u * u + v * v - 1);
+}
+
 Tiers quality_tier(const Arrays &in, const Arrays &exact)
 {
     const reference::Ellipse e = ellipse_of(in[0].words);
@@ -199,7 +212,7 @@ Tiers quality_tier(const Arrays &in, const Arrays &exact)
     }
     for (int i = 0; i < total; i++) {
         const size_t k = 2 * static_cast<size_t>(i);
-        words.push_back(ok ? q16(reference::deviation(e, {real(points[k]), real(points[k + 1])})) : 0);
+        words.push_back(ok ? q16(saturated_deviation(e, {real(points[k]), real(points[k + 1])})) : 0);
         near_count += ok && words.back() < threshold;
     }
     if (!ok || e.a + e.b >= 8192) {
@@ -229,7 +242,7 @@ Tiers cluster_tier(const Arrays &in, const Arrays &exact)
 Tiers centroid_tier(const Arrays &in, const Arrays &exact)
 {
     const Words &p = in[1].words;
-    if (p[2] < 1) {
+    if (!valid_mask(&p[0])) {
         return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0, 0, 0}), {}}};
     }
     const reference::DarkPart part =
@@ -247,8 +260,9 @@ int64_t q30(Real v) { return static_cast<int64_t>(std::floor(v * 0x1p30L + 0.5L)
 bool vector_is_free(const reference::Eigen3 &e, size_t k)
 {
     const Real size = std::max(std::fabs(e.value[0]), std::fabs(e.value[2]));
+    const Real least = std::max(size * 1e-6L, 0x1p38L); /* eigenvalues are good to 2^6 units of the matrix */
     for (size_t other = 0; other < 3; other++) {
-        if (other != k && std::fabs(e.value[k] - e.value[other]) < size * 1e-6L) {
+        if (other != k && std::fabs(e.value[k] - e.value[other]) < least) {
             return true;
         }
     }
@@ -300,6 +314,16 @@ Tiers undistort_tier(const Arrays &in, const Arrays &exact)
     return {{like(exact[0], words[0]), {0, 4, 4}}, {like(exact[1], words[1]), {0, 4, 4}}};
 }
 
+Real saturated(Real v) { return std::clamp<Real>(v, -32768, real(INT32_MAX)); }
+
+/* Relative error of the cone: its matrix comes from a sine of 30 bits, whose last one weighs (a / b)^2, and has 58 bits
+ * itself, of which the smallest eigenvalue takes (a / f)^2. Nothing for a drogue, something for a needle or a dot. */
+Real cone_error(const reference::Ellipse &e, const reference::Camera &c)
+{
+    const Real flat = e.a / e.b, distant = std::max(c.fx, c.fy) / e.a;
+    return 0x1p-30L * flat * flat + 0x1p-56L * distant * distant;
+}
+
 Tiers pose_tier(const Arrays &in, const Arrays &exact)
 {
     const Words &p = in[2].words;
@@ -313,6 +337,7 @@ Tiers pose_tier(const Arrays &in, const Arrays &exact)
         words[0] = DROGUE_E_DOMAIN;
         return {{like(exact[0], words), {0}}};
     }
+    const Real error = cone_error(ellipse_of(in[0].words), c);
     for (size_t i = 0; i < 2; i++) {
         int64_t *at = &words[1 + 8 * i];
         for (size_t k = 0; k < 3; k++) {
@@ -324,16 +349,23 @@ Tiers pose_tier(const Arrays &in, const Arrays &exact)
         }
         at[6] = q16(pair[i].yaw);
         at[7] = q16(pair[i].pitch);
+        const int64_t farthest = std::max({std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
+        for (size_t k = 0; k < 8; k++) {
+            bound[1 + 8 * i + k] += static_cast<uint32_t>(error * static_cast<Real>(k < 3 ? farthest : DROGUE_Q16_ONE));
+        }
     }
-    reference::Choice choice;
-    if (!reference::choose(pair, {real(p[2]), real(p[3])}, real(p[1]), c, choice)) {
-        words[0] = DROGUE_E_BEHIND_CAMERA;
-    } else {
-        words[18] = q16(choice.distance[0]);
-        words[19] = q16(choice.distance[1]);
-        words[17] = words[19] < words[18] ? 1 : 0;
-        words[20] = q16(choice.ambiguity);
+    for (size_t i = 0; i < 2; i++) {
+        reference::Point q;
+        if (!reference::project(pair[i], real(p[1]), c, q)) {
+            words[0] = DROGUE_E_BEHIND_CAMERA;
+            words[18] = words[19] = 0;
+            return {{like(exact[0], words), bound}};
+        }
+        words[18 + i] = q16(std::hypot(saturated(q.x) - real(p[2]), saturated(q.y) - real(p[3])));
     }
+    words[17] = words[19] < words[18] ? 1 : 0;
+    const auto [nearer, farther] = std::minmax(words[18], words[19]);
+    words[20] = farther > 0 ? q16(real(nearer) / real(farther)) : 65536;
     return {{like(exact[0], words), bound}};
 }
 
