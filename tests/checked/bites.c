@@ -17,7 +17,6 @@ int main(int argc, char **argv)
     case 5: (void)drogue_mul_shr_round_s64(big, big, 1); break;
     case 6: drogue_sincos_q30(&s, &c, INT32_MAX); break;
     case 7: (void)drogue_wide_div(one, zero); break;
-    case 8: (void)drogue_q16_div(DROGUE_Q16_ONE, (drogue_q16)(big - big)); break;
     default: DROGUE_NOTE("bites: a quantity", 1, 1); break;
     }
     return 0;

@@ -112,14 +112,6 @@ drogue_wide checked_wide_div(drogue_wide a, drogue_wide b, const char *file, int
     return drogue_wide_div(a, b);
 }
 
-drogue_q16 checked_q16_div(drogue_q16 a, drogue_q16 b, const char *file, int line)
-{
-    if (b == 0) {
-        checked_fail("drogue_q16_div: by zero", file, line);
-    }
-    return drogue_q16_div(a, b);
-}
-
 /* The report follows whatever the program did; an excess is a failure. */
 static void at_end(void)
 {

@@ -62,6 +62,13 @@ void checked_fail(const char *what, const char *file, int line);
         CHECKED_SATURATION("drogue_wide_to_s64", checked_v.mantissa != 0 && checked_v.exponent + checked_frac > 1); \
         (drogue_wide_to_s64)(checked_v, checked_frac);                                                              \
     })
+#define drogue_q16_div(a, b)                                          \
+    __extension__({                                                   \
+        drogue_q16 checked_a = (a);                                   \
+        drogue_q16 checked_b = (b);                                   \
+        CHECKED_SATURATION("drogue_q16_div by zero", checked_b == 0); \
+        (drogue_q16_div)(checked_a, checked_b);                       \
+    })
 #define drogue_q16_add(a, b) drogue_sat_s32((int64_t)(a) + (b))
 #define drogue_q16_sub(a, b) drogue_sat_s32((int64_t)(a) - (b))
 #define drogue_q16_mul(a, b) drogue_sat_s32(drogue_shr_round_s64((int64_t)(a) * (b), 16))
@@ -73,7 +80,6 @@ void checked_fail(const char *what, const char *file, int line);
 #define drogue_mul_shr_round_s64(a, b, n) checked_mul_shr_round_s64(a, b, n, __FILE__, __LINE__)
 #define drogue_sincos_q30(s, c, angle) checked_sincos_q30(s, c, angle, __FILE__, __LINE__)
 #define drogue_wide_div(a, b) checked_wide_div(a, b, __FILE__, __LINE__)
-#define drogue_q16_div(a, b) checked_q16_div(a, b, __FILE__, __LINE__)
 
 #endif
 
@@ -83,7 +89,6 @@ int64_t checked_div_round_s64(int64_t num, int64_t den, const char *file, int li
 int64_t checked_mul_shr_round_s64(int64_t a, int64_t b, int n, const char *file, int line);
 void checked_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29, const char *file, int line);
 drogue_wide checked_wide_div(drogue_wide a, drogue_wide b, const char *file, int line);
-drogue_q16 checked_q16_div(drogue_q16 a, drogue_q16 b, const char *file, int line);
 
 /* Print the table of peaks and saturations; returns the number of excesses so far. */
 int checked_report(void);
