@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# usage: embed.sh FOLDER: the golden vectors as C files in FOLDER, by the host tool conformance_embed, which it builds there.
+# usage: embed.sh FOLDER: writes the golden vectors as C files into FOLDER, by the host tool conformance_embed, which it
+# builds there.
 set -euo pipefail
 folder=$(realpath -m "$1")
 cd "$(dirname "$0")/../.."

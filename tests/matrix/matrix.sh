@@ -11,27 +11,28 @@ most_s=900 # of one row's run
 host=$(uname -m)
 host=${host/_/-}
 
-# row | 'ci': one of those of --ci | compiler | flags | where it runs | target, pointer bits, byte order, core it must report
+# row | in --ci? | compiler | flags | where it runs | what it must report: target, pointer bits, byte order, core
 rows="
-gcc-O0     | ci | gcc                     | -O0                             | host         | $host 64 little -
-gcc-O2     |    | gcc                     | -O2                             | host         | $host 64 little -
-gcc-O3     | ci | gcc                     | -O3                             | host         | $host 64 little -
-gcc-Os     |    | gcc                     | -Os                             | host         | $host 64 little -
-clang-O0   |    | clang                   | -O0                             | host         | $host 64 little -
-clang-O2   | ci | clang                   | -O2                             | host         | $host 64 little -
-clang-O3   |    | clang                   | -O3                             | host         | $host 64 little -
-clang-Os   |    | clang                   | -Os                             | host         | $host 64 little -
-gcc-m32    | ci | gcc                     | -m32 -O2                        | host         | i386 32 little -
-aarch64    |    | aarch64-linux-gnu-gcc   | -O2                             | qemu-aarch64 | aarch64 64 little -
-arm        |    | arm-linux-gnueabihf-gcc | -O2                             | qemu-arm     | arm 32 little -
-riscv64    |    | riscv64-linux-gnu-gcc   | -O2                             | qemu-riscv64 | rv64 64 little -
-s390x      | ci | s390x-linux-gnu-gcc     | -O2                             | qemu-s390x   | s390x 64 big -
-cortex-m0+ |    | arm-none-eabi-gcc       | -mcpu=cortex-m0plus -mthumb -Os | mps2-an385   | armv6-m 32 little Cortex-M3
-cortex-m3  |    | arm-none-eabi-gcc       | -mcpu=cortex-m3 -mthumb -O2     | mps2-an385   | armv7-m 32 little Cortex-M3
-cortex-m7  | ci | arm-none-eabi-gcc       | -mcpu=cortex-m7 -mthumb -O3     | mps2-an500   | armv7e-m 32 little Cortex-M7
-rv32       | ci | riscv64-unknown-elf-gcc | -march=rv32imac -mabi=ilp32 -O2 | virt         | rv32 32 little RV32
+gcc-O0     |ci| gcc                     | -O0                             | host         | $host 64 little -
+gcc-O2     |  | gcc                     | -O2                             | host         | $host 64 little -
+gcc-O3     |ci| gcc                     | -O3                             | host         | $host 64 little -
+gcc-Os     |  | gcc                     | -Os                             | host         | $host 64 little -
+clang-O0   |  | clang                   | -O0                             | host         | $host 64 little -
+clang-O2   |ci| clang                   | -O2                             | host         | $host 64 little -
+clang-O3   |  | clang                   | -O3                             | host         | $host 64 little -
+clang-Os   |  | clang                   | -Os                             | host         | $host 64 little -
+gcc-m32    |ci| gcc                     | -m32 -O2                        | host         | i386 32 little -
+aarch64    |  | aarch64-linux-gnu-gcc   | -O2                             | qemu-aarch64 | aarch64 64 little -
+arm        |  | arm-linux-gnueabihf-gcc | -O2                             | qemu-arm     | arm 32 little -
+riscv64    |  | riscv64-linux-gnu-gcc   | -O2                             | qemu-riscv64 | rv64 64 little -
+s390x      |ci| s390x-linux-gnu-gcc     | -O2                             | qemu-s390x   | s390x 64 big -
+cortex-m0+ |  | arm-none-eabi-gcc       | -mcpu=cortex-m0plus -mthumb -Os | mps2-an385   | armv6-m 32 little Cortex-M3
+cortex-m3  |  | arm-none-eabi-gcc       | -mcpu=cortex-m3 -mthumb -O2     | mps2-an385   | armv7-m 32 little Cortex-M3
+cortex-m7  |ci| arm-none-eabi-gcc       | -mcpu=cortex-m7 -mthumb -O3     | mps2-an500   | armv7e-m 32 little Cortex-M7
+rv32       |ci| riscv64-unknown-elf-gcc | -march=rv32imac -mabi=ilp32 -O2 | virt         | rv32 32 little RV32
 "
 
+# row_names CI: of all, or of those of --ci
 row_names() { awk -F'|' -v ci="$1" 'NF && (ci == "" || $2 ~ ci) {gsub(/ /, "", $1); print $1}' <<<"$rows"; }
 
 usage() {
@@ -127,19 +128,19 @@ build_row() {
 # value NAME LINE: of NAME=VALUE in a line
 value() { sed -nE "s/.*\b$1=([^ ]*).*/\1/p" <<<"$2"; }
 
-# took_effect IMAGE LINE: nothing, or how the program differs from the row looked up. The level of optimisation is what the
-# compiler recorded in the image: one level for every file that was compiled.
+# took_effect IMAGE LINE: nothing, or how the program differs from the row looked up. The level of optimisation is what
+# the compiler recorded in the image: one level for every file that was compiled.
 took_effect() {
     local level recorded speed=speed
     level=$(printf '%s\n' "${flags[@]}" | grep '^-O')
-    recorded=$(readelf -p .GCC.command.line "$1" 2>/dev/null | grep -oE -- ' "?-O[0-9sgz]*' | tr -d ' "' | sort -u | xargs)
+    recorded=$(readelf -p .GCC.command.line "$1" 2>/dev/null | grep -oE -- ' -O[0-9sgz]*' | sort -u | xargs)
     case $level in
     -O0) speed=none ;;
     -Os) speed=size ;;
     esac
     if [ "$(value target "$2") $(value bits "$2") $(value order "$2") $(value core "$2")" != "$reports" ]; then
         echo "reports '$2' instead of '$reports'"
-    elif [ "$(value optimised "$2")" != $speed ] || [ "$recorded" != "$level" ]; then
+    elif [ "$(value optimised "$2")" != "$speed" ] || [ "$recorded" != "$level" ]; then
         echo "compiled with '$recorded', reports $(value optimised "$2")"
     elif [[ $(value compiler "$2") != "$([[ $compiler == *clang ]] && echo clang || echo gcc)"-* ]]; then
         echo "compiled by $(value compiler "$2")"
@@ -168,14 +169,15 @@ do_row() {
         line=$(grep -a '^row: ' "$dir/log" | head -n 1)
         built=$(value compiler "$line")
         ran="$where: $(value target "$line") $(value bits "$line") bit $(value order "$line") $(value core "$line")"
-        last=$(tail -n 1 "$dir/log" | grep -aE '^conformance: cases=[0-9]+ exact=[0-9]+ failed=[0-9]+ digest=[0-9a-f]{64}$')
+        last=$(tail -n 1 "$dir/log" |
+            grep -aE '^conformance: cases=[0-9]+ exact=[0-9]+ failed=[0-9]+ digest=[0-9a-f]{64}$')
         if [ -z "$last" ]; then
             verdict="FAILED: no result, exit status $status"
         else
             verdict=$(took_effect "$dir/image" "$line")
             verdict=${verdict:+FAILED: $verdict}
         fi
-        if [ -z "$verdict" ] && { [ $status -ne 0 ] || [ "$(value failed "$last")" != 0 ]; }; then
+        if [ -z "$verdict" ] && { [ "$status" -ne 0 ] || [ "$(value failed "$last")" != 0 ]; }; then
             verdict="FAILED: exit status $status"
         fi
     fi
@@ -242,8 +244,8 @@ compare() {
                 print line
             }
             if (differ != "") print "matrix: digest differs from the other rows in:" differ
-            printf "matrix: rows=%d ok=%d failed=%d skipped=%d seconds=%d digest=%s\n", NR, NR - failed - (ci ? 0 : skipped),
-                failed, skipped, seconds, common == "" ? "-" : common
+            printf "matrix: rows=%d ok=%d failed=%d skipped=%d seconds=%d digest=%s\n", NR,
+                NR - failed - (ci ? 0 : skipped), failed, skipped, seconds, common == "" ? "-" : common
             exit failed > 0 || common == ""
         }'
 }

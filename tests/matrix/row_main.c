@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What a row of the matrix was compiled by and for, printed before the conformance run (embedded_main.c, its main()
- * renamed): the pointer size and byte order are those met at run time, and so is the processor where it can be asked. */
+/* Prints what a row of the matrix was compiled by and for, before the conformance run (embedded_main.c, its main()
+ * renamed). Pointer size and byte order are those met at run time, and so is the processor where it can be asked. */
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>

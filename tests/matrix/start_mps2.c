@@ -24,9 +24,7 @@ __attribute__((section(".vectors"), used)) static const vector_table vectors = {
 };
 
 /* exit() calls it; the C library leaves it to the start-up code. */
-void _fini(void)
-{
-}
+void _fini(void) {}
 
 void fault(void)
 {

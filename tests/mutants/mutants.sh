@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Do the golden vectors notice a wrong bit? Builds the core once per entry of list.txt with that one change in it, runs the
-# vectors, and counts the changes that make a case fail.
+# Do the golden vectors notice a wrong bit? Builds the core once per entry of list.txt with that one change in it, runs
+# the vectors, and counts the changes that make a case fail.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit
 list=tests/mutants/list.txt
@@ -58,7 +58,7 @@ stale() {
 # check_entry NAME: complete, and its old text in its file exactly once
 check_entry() {
     local text rest path=${file[$1]}
-    if [ -z "${file[$1]}" ] || [ -z "${old[$1]}" ] || [ -z "${new[$1]}" ] || [ -z "${what[$1]}" ] || [ ! -f "$path" ]; then
+    if [ -z "${old[$1]}" ] || [ -z "${new[$1]}" ] || [ -z "${what[$1]}" ] || [ ! -f "$path" ]; then
         stale "$1: needs an existing file, old, new and what"
         return
     fi

@@ -121,6 +121,32 @@ void add_straightness(Set &set)
     }
 }
 
+/* A rectangle whose centre is one LSB beside an axis: neither on it nor within what rounding may lose. */
+void add_one_lsb_off(Set &set)
+{
+    for (int k = 0; k < 4; k++) {
+        const std::string name = "centre-one-lsb-" + std::string(k == 0 ? "right" : k == 1 ? "left" : k == 2 ? "below" : "above");
+        accuracy::Random random = set.random(name);
+        const int64_t wanted = k % 2 == 0 ? 1 : -1;
+        Points points;
+        Judge j = about(300, 300, 0);
+        j.min_short_q16 = 0;
+        int64_t off = 0;
+        while (off != wanted) {
+            points = blob(random, 180, 180, 230, 230, 3);
+            const reference::Rect r = reference::min_area_rect(in_raster_order(points));
+            const int64_t at = reference::q16(k < 2 ? r.xc : r.yc);
+            const int64_t centre2 = (at + 16384) >> 15;
+            off = at - centre2 * 32768;
+            (k < 2 ? j.centre2_x : j.centre2_y) = static_cast<int>(centre2);
+            const bool right = k < 2 ? wanted > 0 : reference::q16(r.xc) > j.centre2_x * 32768;
+            const bool above = k < 2 ? reference::q16(r.yc) < j.centre2_y * 32768 : wanted < 0;
+            j.direction = above ? (right ? 0 : 1) : (right ? 3 : 2);
+        }
+        add_arc(set, name, Tier::boundary, {"quadrant-axis", "half-lsb"}, points, j);
+    }
+}
+
 } // namespace
 
 void add_constraints(Set &set)
@@ -128,6 +154,7 @@ void add_constraints(Set &set)
     set.begin("constraints");
     add_quadrants(set);
     add_straightness(set);
+    add_one_lsb_off(set);
     Judge loose = about(30, 30, 0);
     loose.min_short_q16 = 0;
     add_arc(set, "single", Tier::boundary, {"degenerate"}, {{40, 20}}, loose);

@@ -142,6 +142,24 @@ void add_exact_conics(Set &set)
     add_fit(set, "five-points-twice", Tier::boundary, {"exact-conic", "degenerate"}, twice, 0);
 }
 
+/* The largest symmetric shape of the 16 bits, one point moved by a unit: upright but for a millionth. */
+void add_nearly_upright(Set &set)
+{
+    for (const int moved : {1, -1}) {
+        Words words;
+        for (int i = 0; i < 30; i++) {
+            const int major = 200 + 1080 * i;
+            const int minor = static_cast<int>(std::floor(22000 * std::sqrt(1 - major * (major / 1.05e9))));
+            for (int k = 0; k < 4; k++) {
+                words.push_back(k & 2 ? -minor : minor);
+                words.push_back(k & 1 ? -major : major);
+            }
+        }
+        words[80] += moved;
+        add_fit(set, moved > 0 ? "nearly-upright" : "nearly-upright-back", Tier::boundary, {"angle-wrap"}, words, 5);
+    }
+}
+
 void add_rejected(Set &set)
 {
     const Words circle = lattice_conic(1, 0, 1, 4225, 0, 0);
@@ -161,6 +179,18 @@ void add_rejected(Set &set)
     add_fit(set, "line-slanted", Tier::must_reject, {"degenerate", "collinear"}, slanted, 5);
     add_fit(set, "one-place", Tier::must_reject, {"degenerate"}, same, 5);
     add_fit(set, "beyond-q16", Tier::must_reject, {"saturation"}, far, 0);
+    /* conics that are no ellipse, and places too few for one */
+    Words hyperbola, lines, four, three;
+    for (const int x : {1, 2, 3, 4, 5, 6, 10, 12, 15, 20, 30, 60}) {
+        hyperbola.insert(hyperbola.end(), {x, 60 / x, -x, -60 / x});
+        lines.insert(lines.end(), {x, 2 * x, x, -x});
+        four.insert(four.end(), {x % 2 ? 10 : -7, x % 3 ? 21 : -4, 3, 5});
+        three.insert(three.end(), {x % 2 ? 10 : -7, x % 2 ? 0 : -4, 3, 5});
+    }
+    add_fit(set, "hyperbola", Tier::must_reject, {"degenerate", "exact-conic"}, hyperbola, 0);
+    add_fit(set, "two-lines", Tier::must_reject, {"degenerate", "exact-conic"}, lines, 0);
+    add_fit(set, "four-or-five-places", Tier::must_reject, {"degenerate"}, four, 0);
+    add_fit(set, "three-places", Tier::must_reject, {"degenerate"}, three, 0);
     add_fit(set, "parabola", Tier::stress, {"degenerate"}, parabola, 5);
 }
 
@@ -171,6 +201,7 @@ void add_ellipse(Set &set)
     set.begin("ellipse");
     add_arcs_of_ellipses(set);
     add_angles(set);
+    add_nearly_upright(set);
     add_exact_conics(set);
     add_rejected(set);
     accuracy::Random random = set.random("ellipse");

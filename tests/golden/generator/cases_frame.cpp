@@ -139,6 +139,11 @@ void add_disturbed_scenes(Set &set)
     Frame folded = photograph(scene_at(39, 4, 3, 12, 5, 5), region_of(scene_at(39, 4, 3, 12, 5, 5)), 0);
     folded.camera.k1 = -3;
     add_frame(set, "folded-lens", Tier::must_reject, {"folded-lens"}, folded);
+    /* the same, the fold running through the outline: much, a third, a little of it cannot be undone */
+    for (const double k1 : {-0.80, -0.76, -0.74, -0.72}) {
+        folded.camera.k1 = k1;
+        add_frame(set, "fold-through-outline-" + std::to_string(cvRound(-100 * k1)), Tier::stress, {"folded-lens"}, folded);
+    }
 }
 
 void add_regions(Set &set)
@@ -179,13 +184,32 @@ void add_regions(Set &set)
     add_frame(set, "region-too-large", Tier::must_reject, {"saturation"}, f);
     f.region = {-1048577, 0, 64, 64};
     add_frame(set, "region-too-far", Tier::must_reject, {"saturation"}, f);
+    f.region = {0, 0, 8193, 60};
+    add_frame(set, "region-too-wide", Tier::must_reject, {"two-thresholds"}, f);
+    f.region = {0, 0, 60, 8193};
+    add_frame(set, "region-too-high", Tier::must_reject, {"two-thresholds"}, f);
+    f.region = {0, 0, 8192, 8192};
+    add_frame(set, "region-largest", Tier::must_reject, {"two-thresholds"}, f);
+    f.region = {4, 40, 90, 1};
+    add_frame(set, "region-one-row", Tier::must_reject, {"1xN"}, f);
+    f.region = {40, 4, 1, 90};
+    add_frame(set, "region-one-column", Tier::must_reject, {"1xN"}, f);
     f = all;
     f.camera.fx_px = 0;
     add_frame(set, "no-focal-length", Tier::must_reject, {"argument"}, f);
     f = all;
     f.radius = 0;
     add_frame(set, "no-radius", Tier::must_reject, {"argument"}, f);
+    f.radius = -0.35;
+    add_frame(set, "radius-negative", Tier::must_reject, {"argument"}, f);
     f = all;
+    f.camera.fy_px = 0;
+    add_frame(set, "no-focal-length-y", Tier::must_reject, {"argument"}, f);
+    f = all;
+    f.inner_radius = -1.0 / 65536;
+    add_frame(set, "inner-radius-negative", Tier::must_reject, {"argument"}, f);
+    f.inner_radius = 1.0 / 65536;
+    add_frame(set, "inner-radius-one-lsb", Tier::boundary, {"two-thresholds"}, f);
     f.inner_radius = 0;
     add_frame(set, "inner-unknown", Tier::ordinary, {"inner-missing"}, f);
     f = all;
@@ -240,6 +264,18 @@ void add_drawings(Set &set)
         fill(f.image, i - 4, 79 - i - 4, 9, 9, 135);
     }
     add_frame(set, "arcs-of-equal-distance", Tier::boundary, {"tie", "farthest-arc"}, f);
+    f = drawn(20, 30, 20, 220, 20); /* small enough for the finest unit of the fit */
+    add_frame(set, "smallest-outline", Tier::boundary, {"near-circle"}, f);
+    /* outlines that are too flat, too small, too large for the region */
+    f.region = {0, 0, 80, 80};
+    f.image = image_from(80, 80, [](int x, int y) {
+        return 4 * (2 * x - 79) * (2 * x - 79) + 29 * (2 * y - 79) * (2 * y - 79) < 4 * 72 * 72 ? 60 : 200;
+    });
+    add_frame(set, "outline-too-flat", Tier::must_reject, {"two-thresholds"}, f);
+    f.image = image_from(80, 80, [](int x, int y) { return (x - 60) * (x - 60) + (y - 19) * (y - 19) < 90 ? 60 : 200; });
+    add_frame(set, "outline-too-small", Tier::must_reject, {"two-thresholds"}, f);
+    f.image = image_from(80, 80, [](int x, int y) { return (x + 20) * (x + 20) + (y - 99) * (y - 99) < 111 * 111 ? 60 : 200; });
+    add_frame(set, "outline-too-large", Tier::must_reject, {"two-thresholds"}, f);
     accuracy::Random random = set.random("drawings");
     f.image = constant(64, 64, 0);
     f.region = {0, 0, 64, 64};
@@ -258,9 +294,17 @@ void add_drawings(Set &set)
     f.image = square;
     f.region = {0, 0, 72, 72};
     add_frame(set, "square", Tier::must_reject, {"straight"}, f);
+    f.image = image_from(72, 72, [](int x, int) { return x < 63 ? 190 : 60; });
+    add_frame(set, "straight-edge", Tier::must_reject, {"straight"}, f);
     f.image = drawn(64, 160, 60, 200, 60).image;
     f.region = {0, 0, 64, 64};
     add_frame(set, "outline-outside-ring", Tier::must_reject, {"border"}, f);
+    f.image = constant(2048, 3, 50); /* the largest sides of a region */
+    f.region = {0, 0, 2048, 3};
+    add_frame(set, "flat-2048x3", Tier::must_reject, {"two-thresholds"}, f);
+    f.image = constant(3, 2048, 50);
+    f.region = {0, 0, 3, 2048};
+    add_frame(set, "flat-3x2048", Tier::must_reject, {"two-thresholds"}, f);
     f.image = image_from(1, 40, [](int, int y) { return y * 6; });
     f.region = {0, 0, 1, 40};
     add_frame(set, "one-column", Tier::must_reject, {"1xN"}, f);

@@ -140,6 +140,16 @@ void add_centroid(Set &set)
     add_part(set, "disc-empty", Tier::must_reject, {"argument"}, inner, {63, 63, 0}, 9);
     add_part(set, "disc-centre-too-far", Tier::must_reject, {"argument"}, inner, {63, -32769, 99000}, 9);
     add_part(set, "disc-centre-far", Tier::boundary, {"border"}, inner, {63, -32768, 49250}, 9);
+    add_part(set, "disc-smallest", Tier::boundary, {"two-thresholds"}, constant(9, 9, 0), {8, 8, 1}, 1);
+    add_part(set, "two-pixels", Tier::must_reject, {"degenerate"}, image_from(2, 1, [](int x, int) { return 40 * x + 3; }),
+             {1, 0, 9}, 1);
+    add_part(set, "1x2048", Tier::stress, {"1xN"}, image_from(1, 2048, [](int, int y) { return y / 64 % 5 * 50; }),
+             {0, 2047, 6000}, 9);
+    for (int longest = 51; longest <= 66; longest += 3) { /* up to the border, on it, past it */
+        add_part(set, "disc-near-border-" + std::to_string(longest), Tier::boundary, {"border"},
+                 image_from(39, 37, [](int x, int y) { return (x == 0 || x == 38 ? 0 : 130) + 3 * y; }), {38, 37, longest}, 2);
+    }
+    add_part(set, "disc-largest", Tier::boundary, {"saturation"}, inner, {63, 63, 1048576}, 9);
     /* pixels on the disc's circle: radius 10 and (6, 8), then half-pixel centres */
     for (const int longest : {29, 30, 31}) {
         add_part(set, "circle-of-" + std::to_string(longest), Tier::boundary, {"tie"}, constant(31, 31, 0),

@@ -44,8 +44,9 @@ void add_common(Set &set)
     }
     accuracy::Random random = set.random("noise");
     set.add("noise-64x48", Tier::ordinary, {}, {image_array("image", noise(64, 48, random))});
-    set.add("noise-2048x3", Tier::stress, {"border"}, {image_array("image", noise(2048, 3, random))});
-    set.add("noise-3x600", Tier::stress, {"border"}, {image_array("image", noise(3, 600, random))});
+    set.add("noise-2048x2", Tier::stress, {"border"}, {image_array("image", noise(2048, 2, random))});
+    set.add("noise-1x2048", Tier::stress, {"border", "1xN"}, {image_array("image", noise(1, 2048, random))});
+    set.add("noise-3x200", Tier::stress, {"border"}, {image_array("image", noise(3, 200, random))});
     set.add("extremes", Tier::stress, {"saturation"}, {image_array("image", few_levels(40, 40, random, {0, 255}))});
     set.add("white", Tier::boundary, {"saturation"}, {image_array("image", constant(9, 7, 255))});
     set.add("checker", Tier::stress, {"saturation"},

@@ -4,6 +4,7 @@
 
 #include "case.hpp"
 #include "geometry.hpp"
+#include "reference.hpp"
 
 namespace vectors {
 
@@ -67,11 +68,24 @@ void add_lens_limits(Set &set)
     add_lens(set, "beyond-format", Tier::must_reject, {"saturation"},
              {9000 * ONE, 9000 * ONE, 0, 0, 3 * ONE, ONE, 0, 0, 0},
              {20000 * ONE, 0, 0, 20000 * ONE, -20000 * ONE, 0, 0, -20000 * ONE, 9000 * ONE, 9000 * ONE, 30000 * ONE, ONE});
+    const int64_t most = 256 * ONE; /* largest coefficient */
+    for (int k = 0; k < 5; k++) {
+        for (const int64_t sign : {1, -1}) {
+            const int64_t far = k == 2 || k == 3 ? ONE / 1000 : ONE; /* tangential ones fold the image near the axis */
+            const Words through = {1100 * far, 0, 200 * far, 150 * far, far, 0, 0, 3000 * far, -4000 * far, 4000 * far, 0, 0};
+            Words camera = {1000 * ONE, 1000 * ONE, 0, 0, 0, 0, 0, 0, 0};
+            const std::string name = "largest-coefficient-" + std::to_string(k) + (sign > 0 ? "" : "-negative");
+            camera[static_cast<size_t>(4 + k)] = sign * most;
+            add_lens(set, name, Tier::boundary, {"two-thresholds"}, camera, through);
+            camera[static_cast<size_t>(4 + k)] += sign;
+            add_lens(set, name + "-and-more", Tier::must_reject, {"two-thresholds"}, camera, through);
+        }
+    }
     add_lens(set, "coefficients-largest", Tier::stress, {"saturation"},
-             {1000 * ONE, 1000 * ONE, 0, 0, INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX},
-             {4000 * ONE, 4000 * ONE, 10, 10, 4000 * ONE, 0, 0, 4000 * ONE, -4000 * ONE, 4000 * ONE, ONE, 0});
+             {1000 * ONE, 1000 * ONE, 0, 0, most, most, most, most, most},
+             {-4000 * ONE, 4000 * ONE, 10, 10, 4000 * ONE, 0, 0, 4000 * ONE, -4000 * ONE, 4000 * ONE, ONE, 0});
     add_lens(set, "coefficients-least", Tier::stress, {"saturation", "rounding-negative"},
-             {1000 * ONE, 1000 * ONE, 0, 0, INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN, INT32_MIN},
+             {1000 * ONE, 1000 * ONE, 0, 0, -most, -most, -most, -most, -most},
              {4000 * ONE, 4000 * ONE, 10, 10, 4000 * ONE, 0, 0, 4000 * ONE, -4000 * ONE, 4000 * ONE, ONE, 0});
     add_lens(set, "camera-tiny", Tier::stress, {"saturation"}, {1, 1, 0, 0, 0, 0, 0, 0, 0}, {0, 0, 4, -4, 5, 0, 1, -5, 2, 1});
     add_lens(set, "camera-largest", Tier::stress, {"saturation"},
@@ -204,6 +218,33 @@ void add_pose_limits(Set &set)
     add_pair(set, "inner-far-away", Tier::boundary, {"saturation"}, e, camera, {q16(0.35), q16(0.25), INT32_MAX, INT32_MIN});
 }
 
+/* Poses one of whose angles lies next to a tie of its rounding: it moves with the last bits of what it is made of. */
+void add_poses_near_ties(Set &set)
+{
+    const auto real = [](int64_t word) { return static_cast<reference::Real>(word) / 65536; };
+    for (int k = 0; k < 12; k++) {
+        const std::string name = "near-tie-" + std::to_string(k);
+        accuracy::Random random = set.random(name);
+        const Words camera = camera_words(k % 2 == 0 ? oblong : plain);
+        const reference::Camera c = {real(camera[0]), real(camera[1]), real(camera[2]), real(camera[3])};
+        Words ellipse;
+        std::array<reference::Pose, 2> pair;
+        double off = 1;
+        while (off > 0.001) { /* LSB */
+            ellipse = {between(random, 0, 1300 * 65536), between(random, 0, 1000 * 65536),
+                       between(random, 20 * 65536, 120 * 65536), 0, between(random, -102943, 102944)};
+            ellipse[3] = static_cast<int64_t>(static_cast<double>(ellipse[2]) * random.uniform(0.7, 0.99));
+            if (reference::poses({real(ellipse[0]), real(ellipse[1]), real(ellipse[2]), real(ellipse[3]), real(ellipse[4])}, c,
+                                 real(22938), pair)) {
+                const reference::Real angle = 65536 * (k % 4 < 2 ? pair[0].yaw : pair[1].pitch);
+                off = static_cast<double>(std::fabs(angle - std::floor(angle) - 0.5L));
+            }
+        }
+        add_pair(set, name, Tier::boundary, {"half-lsb", "angle"}, ellipse, camera,
+                 {22938, 16384, ellipse[0] + 65536, ellipse[1] - 65536});
+    }
+}
+
 } // namespace
 
 void add_undistort(Set &set)
@@ -251,6 +292,7 @@ void add_pose(Set &set)
     set.begin("pose");
     add_views(set);
     add_symmetric(set);
+    add_poses_near_ties(set);
     add_pose_limits(set);
     for (int k = 0; k < 10; k++) {
         const std::string name = "random-" + std::to_string(k);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "case.hpp"
+#include "reference.hpp"
 
 namespace vectors {
 
@@ -68,12 +69,58 @@ void add_ordinary_scores(Set &set)
     }
 }
 
+/* Scores that lie next to a tie of their rounding, over the whole range of the exponential: they move with the last bits
+ * of what they are made of. */
+void add_scores_near_ties(Set &set)
+{
+    for (int k = 0; k < 30; k++) {
+        const std::string name = "score-near-tie-" + std::to_string(k);
+        accuracy::Random random = set.random(name);
+        Scored s;
+        double off = 1;
+        while (off > 0.002) { /* LSB */
+            s.ellipse = {0, 0, between(random, 9, 400) * ONE + between(random, 0, 65535), 0, 0};
+            s.ellipse[3] = ONE + static_cast<int64_t>(random.uniform(0.35, 0.98) * static_cast<double>(s.ellipse[2] - ONE));
+            s.points = {s.ellipse[2], 0};
+            s.k1 = k * ONE * 2 + between(random, 0, 131071);
+            s.k2 = between(random, 0, 15000);
+            const auto real = [](int64_t word) { return static_cast<reference::Real>(word) / 65536; };
+            const reference::Ellipse e = {0, 0, real(s.ellipse[2]), real(s.ellipse[3]), 0};
+            const reference::Real score = reference::quality(e, 1, 1, real(s.k1), real(s.k2)).score * 65536;
+            const reference::Real length = reference::quality(e, 1, 1, real(s.k1), real(s.k2)).length_ratio * 65536;
+            const reference::Real own = score - length / 2; /* the axes' share is rounded alone */
+            off = static_cast<double>(std::fabs(own - std::floor(own) - 0.5L));
+        }
+        add_scored(set, name, Tier::boundary, {"exponential", "half-lsb"}, s);
+    }
+}
+
+/* Points at many semi-axes' distance magnify the last bits of sine and cosine. */
+void add_magnified_angles(Set &set)
+{
+    for (int k = 0; k < 12; k++) {
+        const std::string name = "sine-and-cosine-" + std::to_string(k);
+        accuracy::Random random = set.random(name);
+        Scored s;
+        s.ellipse = {between(random, -99999, 99999), between(random, -99999, 99999), ONE + 3 * k, ONE,
+                     k == 0 ? HALF_PI : k == 1 ? -HALF_PI : between(random, -102943, 102943)};
+        for (int i = 0; i < 50; i++) {
+            const double t = random.uniform(0, 2 * CV_PI);
+            s.points.push_back(s.ellipse[0] + q16(15.5 * std::cos(t)));
+            s.points.push_back(s.ellipse[1] + q16(15.5 * std::sin(t)));
+        }
+        add_scored(set, name, Tier::boundary, {"angle", "half-lsb"}, s);
+    }
+}
+
 } // namespace
 
 void add_quality(Set &set)
 {
     set.begin("quality");
     add_ordinary_scores(set);
+    add_scores_near_ties(set);
+    add_magnified_angles(set);
     accuracy::Random random = set.random("quality");
     Scored circle;
     circle.ellipse = {100 * ONE, 100 * ONE, 64 * ONE, 64 * ONE, 0};
