@@ -166,14 +166,15 @@ static void collect_point(collection *c, drogue_q16 x_px_q16, drogue_q16 y_px_q1
     }
 }
 
-/* Begin a collection about an ellipse: the finest unit in which four semi-axes fit 16 bits. */
-static void collection_begin(collection *c, const drogue_ellipse *e)
+/* Begin a collection of points that reach this far from a centre: the finest unit in which they fit 16 bits. The origin
+ * is a whole pixel: edge points, multiples of 1/32 px, are then exact, where any other would shift them all alike. */
+static void collection_begin(collection *c, const drogue_ellipse *e, int64_t reach_px_q16)
 {
     drogue_moments_clear(&c->moments);
-    c->x_px_q16 = e->xc_px_q16;
-    c->y_px_q16 = e->yc_px_q16;
+    c->x_px_q16 = drogue_q16_from_int((int32_t)drogue_shr_round_s64(e->xc_px_q16, 16));
+    c->y_px_q16 = drogue_q16_from_int((int32_t)drogue_shr_round_s64(e->yc_px_q16, 16));
     c->frac_bits = 10;
-    while (c->frac_bits > 0 && ((int64_t)e->a_px_q16 * 4) >> (16 - c->frac_bits) > INT16_MAX) {
+    while (c->frac_bits > 0 && reach_px_q16 >> (16 - c->frac_bits) > INT16_MAX) {
         c->frac_bits--;
     }
 }
@@ -227,7 +228,7 @@ static drogue_status collect_outline(collection *c, const drogue_outline *outlin
     if (status != DROGUE_OK) {
         return status;
     }
-    collection_begin(c, &outline->ellipse);
+    collection_begin(c, &outline->ellipse, (int64_t)outline->ellipse.a_px_q16 + 16 * DROGUE_Q16_ONE);
     for (i = 0; i < list->edge_count; i++) {
         const drogue_edge *e = &workspace->edges[i];
         if (edge_in_band(&frame, &band, e)) {
@@ -304,7 +305,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         drogue_undistort_point(&centre.xc_px_q16, &centre.yc_px_q16, camera) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
-    collection_begin(&c, &centre);
+    collection_begin(&c, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
     for (i = 0, members = 0; i < list->edge_count; i++) {
         const drogue_edge *e = &workspace->edges[i];
         drogue_q16 x = drogue_q16_add(edge_q16(e->x_q5), drogue_q16_from_int(x_px));
