@@ -70,9 +70,9 @@ void add_least_length(Set &set)
         throw std::runtime_error("the disc has no long arc");
     }
     f.min_arc = lengths[0];
-    add_front(set, "least-length-met", Tier::boundary, {"two-thresholds"}, image, f);
+    add_front(set, "least-length-met", Tier::boundary, {"threshold-met"}, image, f);
     f.min_arc++;
-    add_front(set, "least-length-missed", Tier::boundary, {"two-thresholds"}, image, f);
+    add_front(set, "least-length-missed", Tier::boundary, {"threshold-met"}, image, f);
     f.min_arc = 2147483647;
     add_front(set, "least-length-huge", Tier::boundary, {"saturation"}, image, f);
     f.min_arc = 0;
@@ -148,9 +148,9 @@ void add_full_labels(Set &set)
 void add_mask_range(Set &set)
 {
     const cv::Mat image = soft_disc(16, 16, 15, 15, 26, 4, 200, 40);
-    static const int masks[][3] = {{15, 15, 1},         {15, 15, 0},         {15, 15, 1048576},
-                                   {32768, 15, 32800},  {32769, 15, 32800},  {-32768, 15, 32800}, {-32769, 15, 32800},
-                                   {15, 32768, 32800},  {15, 32769, 32800},  {15, -32768, 32800}, {15, -32769, 32800}};
+    static const int masks[][3] = {{15, 15, 1},        {15, 15, 0},         {15, 15, 1048576},   {32768, 15, 32800},
+                                   {32769, 15, 32800}, {-32768, 15, 32800}, {-32769, 15, 32800}, {15, 32768, 32800},
+                                   {15, 32769, 32800}, {15, -32768, 32800}, {15, -32769, 32800}};
     for (const auto &m : masks) {
         const bool valid = m[2] >= 1 && std::abs(m[0]) <= 32768 && std::abs(m[1]) <= 32768;
         Front f = thresholds(40, 100, 1, 2);
@@ -158,8 +158,9 @@ void add_mask_range(Set &set)
         f.centre2_x = m[0];
         f.centre2_y = m[1];
         f.longest = m[2];
-        const std::string name = "mask-" + std::to_string(m[0]) + "-" + std::to_string(m[1]) + "-" + std::to_string(m[2]);
-        add_front(set, name, valid ? Tier::boundary : Tier::must_reject, {"two-thresholds", "mask-range"}, image, f);
+        const std::string name =
+            "mask-" + std::to_string(m[0]) + "-" + std::to_string(m[1]) + "-" + std::to_string(m[2]);
+        add_front(set, name, valid ? Tier::boundary : Tier::must_reject, {"threshold-met", "mask-range"}, image, f);
     }
 }
 
@@ -208,8 +209,9 @@ void add_arcs(Set &set)
     fill(square, 10, 10, 20, 20, 160);
     add_front(set, "square", Tier::boundary, {"axis-gradient", "plateau"}, square, thresholds(40, 100, 1, 1));
     add_front(set, "square-dark", Tier::boundary, {"axis-gradient", "plateau"},
-              image_from(40, 40, [&](int x, int y) { return 220 - square.at<uint8_t>(y, x); }), thresholds(40, 100, 0, 1));
-    add_front(set, "diagonals", Tier::boundary, {"tie", "diagonal"},
+              image_from(40, 40, [&](int x, int y) { return 220 - square.at<uint8_t>(y, x); }),
+              thresholds(40, 100, 0, 1));
+    add_front(set, "diagonals", Tier::boundary, {"tie"},
               image_from(36, 36, [](int x, int y) { return (x + y) / 9 % 2 * 120 + (x - y + 36) / 12 % 2 * 60; }),
               thresholds(40, 100, 0, 1));
 
@@ -223,16 +225,18 @@ void add_arcs(Set &set)
     add_front(set, "comb", Tier::stress, {"label-merge"}, comb(60, 36, 6, 3, true, 200, 60), thresholds(30, 200, 0, 2));
     /* rounded waves: arcs of one class that meet from both sides further down */
     add_front(set, "waves", Tier::stress, {"label-merge"},
-              image_from(56, 56, [](int x, int y) {
-                  const int u = x % 14 - 7;
-                  return (y + u * u / 2) / 10 % 2 * 100 + 50;
-              }),
+              image_from(56, 56,
+                         [](int x, int y) {
+                             const int u = x % 14 - 7;
+                             return (y + u * u / 2) / 10 % 2 * 100 + 50;
+                         }),
               thresholds(40, 100, 1, 1));
     add_front(set, "rings", Tier::stress, {"label-merge"},
-              image_from(60, 60, [](int x, int y) {
-                  const int d = (2 * x - 59) * (2 * x - 59) + (2 * y - 59) * (2 * y - 59);
-                  return d / 400 % 2 * 140 + 50;
-              }),
+              image_from(60, 60,
+                         [](int x, int y) {
+                             const int d = (2 * x - 59) * (2 * x - 59) + (2 * y - 59) * (2 * y - 59);
+                             return d / 400 % 2 * 140 + 50;
+                         }),
               thresholds(40, 200, 1, 6));
     add_least_length(set);
     add_full_arcs(set);

@@ -49,7 +49,8 @@ bool sector_patch(cv::Mat &patch, accuracy::Random &random, int gx, int gy)
     }
     const int m = magnitude(2, 2);
     const bool across = std::abs(gx) > std::abs(gy);
-    const bool axis = across ? m > magnitude(1, 2) && m >= magnitude(3, 2) : m > magnitude(2, 1) && m >= magnitude(2, 3);
+    const bool axis =
+        across ? m > magnitude(1, 2) && m >= magnitude(3, 2) : m > magnitude(2, 1) && m >= magnitude(2, 3);
     const int s = (gx ^ gy) < 0 ? -1 : 1;
     const bool diagonal = m > magnitude(2 - s, 1) && m > magnitude(2 + s, 3);
     return axis != diagonal;
@@ -147,15 +148,15 @@ void add_few_levels(Set &set)
     };
     /* magnitudes are multiples of the step: many equal neighbours, many that meet a threshold exactly */
     static const Levels levels[] = {
-        {"levels-two", {0, 10}, 20, 40, 0},          {"levels-three", {0, 20, 40}, 60, 120, 0},
+        {"levels-two", {0, 10}, 20, 40, 0},           {"levels-three", {0, 20, 40}, 60, 120, 0},
         {"levels-four", {10, 15, 20, 25}, 30, 60, 0}, {"levels-extreme", {0, 255}, 510, 1020, 0},
         {"levels-smooth", {0, 64, 128}, 100, 200, 1}, {"levels-equal-thresholds", {0, 20, 40}, 100, 100, 0},
         {"levels-low-zero", {7, 8}, 0, 3, 0},         {"levels-both-zero", {7, 8}, 0, 0, 0},
     };
     for (const Levels &l : levels) {
         accuracy::Random random = set.random(l.name);
-        add_map(set, l.name, Tier::boundary, {"tie", "plateau", "two-thresholds"},
-                few_levels(40, 37, random, l.levels), l.low, l.high, l.smooth);
+        add_map(set, l.name, Tier::boundary, {"tie", "plateau", "two-thresholds"}, few_levels(40, 37, random, l.levels),
+                l.low, l.high, l.smooth);
     }
 }
 
@@ -164,11 +165,12 @@ void add_few_levels(Set &set)
 void add_canny(Set &set)
 {
     set.begin("canny");
-    static const int sizes[][2] = {{1, 1}, {1, 40}, {40, 1}, {2, 2}, {3, 3}, {2, 30}, {30, 2}, {3, 21}, {5, 7}, {33, 31}};
+    static const int sizes[][2] = {{1, 1},  {1, 40}, {40, 1}, {2, 2}, {3, 3},
+                                   {2, 30}, {30, 2}, {3, 21}, {5, 7}, {33, 31}};
     for (const auto &s : sizes) {
         for (const int smooth : {0, 1}) {
-            const std::string name = "noise-" + std::to_string(s[0]) + "x" + std::to_string(s[1]) +
-                                     (smooth ? "-smoothed" : "");
+            const std::string name =
+                "noise-" + std::to_string(s[0]) + "x" + std::to_string(s[1]) + (smooth ? "-smoothed" : "");
             accuracy::Random random = set.random(name);
             add_map(set, name, Tier::boundary, {s[0] == 1 || s[1] == 1 ? "1xN" : "odd-size", "border"},
                     noise(s[0], s[1], random), smooth ? 40 : 200, smooth ? 100 : 500, smooth);
@@ -178,7 +180,8 @@ void add_canny(Set &set)
     add_map(set, "noise-64x64", Tier::ordinary, {}, noise(64, 64, random), 300, 700, 0);
     add_map(set, "noise-64x64-smoothed", Tier::ordinary, {}, noise(64, 64, random), 60, 150, 1);
     add_map(set, "noise-all-edges", Tier::stress, {"label-merge"}, noise(64, 48, random), 0, 400, 0);
-    add_map(set, "noise-none-strong", Tier::boundary, {"two-thresholds", "saturation"}, noise(32, 32, random), 0, 2040, 0);
+    add_map(set, "noise-none-strong", Tier::boundary, {"two-thresholds", "saturation"}, noise(32, 32, random), 0, 2040,
+            0);
     add_map(set, "noise-2048x3", Tier::stress, {"border"}, noise(2048, 3, random), 400, 900, 1);
     add_map(set, "flat", Tier::boundary, {"degenerate"}, constant(16, 16, 77), 0, 0, 1);
     add_map(set, "thresholds-huge", Tier::boundary, {"saturation"}, noise(16, 16, random), 2147483647, 2147483647, 0);
@@ -186,9 +189,13 @@ void add_canny(Set &set)
     add_map(set, "disc-dark", Tier::ordinary, {}, disc_image(64, 64, 100, 40, 200), 40, 100, 1);
     add_map(set, "disc-bright", Tier::ordinary, {}, disc_image(63, 64, 101, 220, 30), 40, 100, 1);
     add_map(set, "disc-step", Tier::boundary, {"plateau", "tie"}, disc_image(48, 48, 76, 255, 0), 40, 100, 0);
-    add_map(set, "ramps", Tier::boundary, {"plateau", "tie"}, image_from(48, 48, [](int x, int y) {
-                return x < 24 ? 8 * std::min(x, y) : y < 24 ? 250 - 10 * std::abs(x - 36) : 5 * (x + y) % 256;
-            }), 20, 60, 0);
+    add_map(
+        set, "ramps", Tier::boundary, {"plateau", "tie"},
+        image_from(48, 48,
+                   [](int x, int y) {
+                       return x < 24 ? 8 * std::min(x, y) : y < 24 ? 250 - 10 * std::abs(x - 36) : 5 * (x + y) % 256;
+                   }),
+        20, 60, 0);
     add_few_levels(set);
     add_weak_ring(set);
     add_chains(set);

@@ -72,7 +72,9 @@ Points blob(accuracy::Random &random, int x, int y, int w, int h, int count)
 {
     Points points;
     for (int i = 0; i < count; i++) {
-        points.emplace_back(x + between(random, 0, w), y + between(random, 0, h));
+        const int dx = between(random, 0, w); /* apart: the order of arguments is the compiler's */
+        const int dy = between(random, 0, h);
+        points.emplace_back(x + dx, y + dy);
     }
     return points;
 }
@@ -93,8 +95,8 @@ void add_quadrants(Set &set)
         const double middle = -45 - 90 * quadrant;
         for (int direction = 0; direction < 4; direction++) {
             add_arc(set, "quadrant-" + std::to_string(quadrant + 1) + "-class-" + std::to_string(direction + 1),
-                    Tier::ordinary, {"direction-class"},
-                    arc_pixels(100, 100, 60, 52, 20, middle - 50, middle + 30), about(100, 100, direction));
+                    Tier::ordinary, {"direction-class"}, arc_pixels(100, 100, 60, 52, 20, middle - 50, middle + 30),
+                    about(100, 100, direction));
         }
     }
 }
@@ -115,9 +117,9 @@ void add_straightness(Set &set)
         const int64_t shorter = reference::q16(reference::min_area_rect(in_raster_order(a.points)).shorter);
         Judge j = about(200, 150, 0);
         j.min_short_q16 = shorter;
-        add_arc(set, std::string(a.name) + "-met", Tier::boundary, {"two-thresholds"}, a.points, j);
+        add_arc(set, std::string(a.name) + "-met", Tier::boundary, {"threshold-met"}, a.points, j);
         j.min_short_q16 = shorter + 1;
-        add_arc(set, std::string(a.name) + "-missed", Tier::boundary, {"two-thresholds"}, a.points, j);
+        add_arc(set, std::string(a.name) + "-missed", Tier::boundary, {"threshold-met"}, a.points, j);
     }
 }
 
@@ -125,7 +127,10 @@ void add_straightness(Set &set)
 void add_one_lsb_off(Set &set)
 {
     for (int k = 0; k < 4; k++) {
-        const std::string name = "centre-one-lsb-" + std::string(k == 0 ? "right" : k == 1 ? "left" : k == 2 ? "below" : "above");
+        const std::string name = "centre-one-lsb-" + std::string(k == 0   ? "right"
+                                                                 : k == 1 ? "left"
+                                                                 : k == 2 ? "below"
+                                                                          : "above");
         accuracy::Random random = set.random(name);
         const int64_t wanted = k % 2 == 0 ? 1 : -1;
         Points points;
@@ -166,7 +171,7 @@ void add_constraints(Set &set)
     add_arc(set, "diagonal", Tier::boundary, {"degenerate"}, segment(35, 5, 1, 1, 20), loose);
     add_arc(set, "antidiagonal", Tier::boundary, {"degenerate"}, segment(55, 5, -1, 1, 20), loose);
     add_arc(set, "steep", Tier::boundary, {"degenerate", "rounding-negative"}, segment(60, 1, -2, 3, 9), loose);
-    add_arc(set, "straight-rejected", Tier::boundary, {"two-thresholds"}, segment(35, 5, 1, 1, 20), about(30, 30, 0));
+    add_arc(set, "straight-rejected", Tier::boundary, {"threshold-met"}, segment(35, 5, 1, 1, 20), about(30, 30, 0));
     add_arc(set, "square", Tier::boundary, {"tie"}, {{40, 10}, {50, 10}, {40, 20}, {50, 20}}, loose);
     add_arc(set, "square-turned", Tier::boundary, {"tie"}, {{45, 5}, {50, 10}, {45, 15}, {40, 10}}, loose);
     add_arc(set, "square-oblique", Tier::boundary, {"tie"}, {{41, 10}, {48, 11}, {47, 18}, {40, 17}}, loose);
@@ -177,19 +182,32 @@ void add_constraints(Set &set)
     add_arc(set, "hull-with-straight-sides", Tier::boundary, {"degenerate"},
             {{40, 2}, {41, 2}, {42, 2}, {50, 2}, {40, 5}, {50, 6}, {40, 9}, {45, 9}, {50, 9}, {44, 4}}, loose);
     /* the rectangle's centre on the vertical, the horizontal, both axes; one LSB of the centre beside them */
-    add_arc(set, "centre-on-vertical-axis", Tier::boundary, {"quadrant-axis"}, {{20, 4}, {40, 4}, {20, 12}, {40, 12}}, loose);
-    add_arc(set, "centre-on-horizontal-axis", Tier::boundary, {"quadrant-axis"}, {{40, 26}, {60, 26}, {40, 34}, {60, 34}}, loose);
-    add_arc(set, "centre-on-centre", Tier::boundary, {"quadrant-axis"}, {{20, 26}, {40, 26}, {20, 34}, {40, 34}}, loose);
+    for (int direction = 0; direction < 4; direction++) {
+        Judge on = loose;
+        on.direction = direction;
+        const std::string of_class = "-class-" + std::to_string(direction + 1);
+        add_arc(set, "centre-on-axis-above" + of_class, Tier::boundary, {"quadrant-axis"},
+                {{20, 4}, {40, 4}, {20, 12}, {40, 12}}, on);
+        add_arc(set, "centre-on-axis-below" + of_class, Tier::boundary, {"quadrant-axis"},
+                {{20, 44}, {40, 44}, {20, 52}, {40, 52}}, on);
+        add_arc(set, "centre-on-axis-right" + of_class, Tier::boundary, {"quadrant-axis"},
+                {{40, 26}, {60, 26}, {40, 34}, {60, 34}}, on);
+        add_arc(set, "centre-on-axis-left" + of_class, Tier::boundary, {"quadrant-axis"},
+                {{4, 26}, {16, 26}, {4, 34}, {16, 34}}, on);
+    }
+    add_arc(set, "centre-on-centre", Tier::boundary, {"quadrant-axis"}, {{20, 26}, {40, 26}, {20, 34}, {40, 34}},
+            loose);
     for (int k = 0; k < 4; k++) {
         Judge beside = loose;
         beside.centre2_x += k & 1 ? 1 : -1;
         beside.centre2_y += k & 2 ? 1 : -1;
         beside.direction = k & 2 ? (k & 1 ? 1 : 0) : (k & 1 ? 2 : 3);
-        add_arc(set, "centre-half-a-pixel-off-" + std::to_string(k), Tier::boundary, {"quadrant-axis", "rounding-negative"},
-                {{20, 26}, {40, 26}, {20, 34}, {40, 34}}, beside);
+        add_arc(set, "centre-half-a-pixel-off-" + std::to_string(k), Tier::boundary,
+                {"quadrant-axis", "rounding-negative"}, {{20, 26}, {40, 26}, {20, 34}, {40, 34}}, beside);
     }
     add_arc(set, "largest-region", Tier::stress, {"saturation"},
-            {{1, 0}, {2040, 0}, {0, 3}, {2047, 9}, {5, 2040}, {2047, 2041}, {2, 2047}, {2046, 2047}}, about(1024, 1024, 3));
+            {{1, 0}, {2040, 0}, {0, 3}, {2047, 9}, {5, 2040}, {2047, 2041}, {2, 2047}, {2046, 2047}},
+            about(1024, 1024, 3));
     add_arc(set, "longest-diagonal", Tier::stress, {"saturation"}, {{0, 0}, {2047, 2046}, {3, 5}, {2041, 2047}},
             about(2047, 0, 2));
     Judge far = about(0, 0, 3);
@@ -200,19 +218,23 @@ void add_constraints(Set &set)
         const std::string name = "blob-" + std::to_string(k);
         accuracy::Random random = set.random(name);
         const int count = between(random, 3, 60);
-        add_arc(set, name, Tier::ordinary, {},
-                blob(random, between(random, 0, 400), between(random, 0, 400), between(random, 2, 90),
-                     between(random, 2, 90), count),
-                about(230, 230, between(random, 0, 3)));
+        const int x = between(random, 0, 400);
+        const int y = between(random, 0, 400);
+        const int w = between(random, 2, 90);
+        const int h = between(random, 2, 90);
+        const int direction = between(random, 0, 3);
+        add_arc(set, name, Tier::ordinary, {}, blob(random, x, y, w, h, count), about(230, 230, direction));
     }
     for (int k = 0; k < 6; k++) {
         const std::string name = "arc-" + std::to_string(k);
         accuracy::Random random = set.random(name);
         const double from = random.uniform(0, 360);
         const double a = random.uniform(10, 180);
-        add_arc(set, name, Tier::ordinary, {},
-                arc_pixels(220, 220, a, a * random.uniform(0.7, 1), random.uniform(-90, 90), from, from + 80),
-                about(220, 220, between(random, 0, 3)));
+        const double b = a * random.uniform(0.7, 1);
+        const double turn = random.uniform(-90, 90);
+        const int direction = between(random, 0, 3);
+        add_arc(set, name, Tier::ordinary, {}, arc_pixels(220, 220, a, b, turn, from, from + 80),
+                about(220, 220, direction));
     }
 }
 

@@ -72,7 +72,9 @@ void add_arcs_of_ellipses(Set &set)
             const double noise = noises[turn++ % 3];
             Arc arc;
             const std::string name = "arc" + std::to_string(extent) + "-r" + std::to_string(radius) +
-                                     (noise == 0 ? "" : noise < 1 ? "-noise-third" : "-noise-one");
+                                     (noise == 0  ? ""
+                                      : noise < 1 ? "-noise-third"
+                                                  : "-noise-one");
             accuracy::Random random = set.random(name);
             arc.a = radius;
             arc.b = radius * random.uniform(0.75, 0.97);
@@ -83,7 +85,7 @@ void add_arcs_of_ellipses(Set &set)
             arc.count = std::min(240, 4 + static_cast<int>(radius * extent / 57.3));
             arc.xc = radius > 400 ? random.uniform(-90, 90) : random.uniform(-600, 600);
             arc.yc = radius > 400 ? random.uniform(-90, 90) : random.uniform(-600, 600);
-            const Flags flags = {extent == 90 ? "90-degree-arc" : extent == 360 ? "whole-ellipse" : "arc"};
+            const Flags flags = {extent == 90 ? "90-degree-arc" : "arc"};
             add_fit(set, name, extent == 60 ? Tier::stress : Tier::ordinary, flags, points_of(arc, random, 5), 5);
         }
     }
@@ -124,9 +126,12 @@ void add_angles(Set &set)
 void add_exact_conics(Set &set)
 {
     add_fit(set, "circle-25", Tier::boundary, {"exact-conic", "near-circle"}, lattice_conic(1, 0, 1, 25, 0, 0), 0);
-    add_fit(set, "circle-4225", Tier::boundary, {"exact-conic", "near-circle"}, lattice_conic(1, 0, 1, 4225, 100, -77), 0);
-    add_fit(set, "circle-105625", Tier::boundary, {"exact-conic", "near-circle"}, lattice_conic(1, 0, 1, 105625, -11, 5), 0);
-    add_fit(set, "ellipse-across", Tier::boundary, {"exact-conic", "angle-wrap"}, lattice_conic(1, 0, 4, 4225, 1, 1), 0);
+    add_fit(set, "circle-4225", Tier::boundary, {"exact-conic", "near-circle"}, lattice_conic(1, 0, 1, 4225, 100, -77),
+            0);
+    add_fit(set, "circle-105625", Tier::boundary, {"exact-conic", "near-circle"},
+            lattice_conic(1, 0, 1, 105625, -11, 5), 0);
+    add_fit(set, "ellipse-across", Tier::boundary, {"exact-conic", "angle-wrap"}, lattice_conic(1, 0, 4, 4225, 1, 1),
+            0);
     add_fit(set, "ellipse-down", Tier::boundary, {"exact-conic", "angle-wrap"}, lattice_conic(4, 0, 1, 4225, 9, -1), 0);
     add_fit(set, "ellipse-oblique", Tier::boundary, {"exact-conic"}, lattice_conic(1, 1, 1, 637, -300, 200), 0);
     add_fit(set, "ellipse-oblique-back", Tier::boundary, {"exact-conic"}, lattice_conic(1, -1, 1, 8281, 70, 60), 0);
@@ -134,8 +139,7 @@ void add_exact_conics(Set &set)
     add_fit(set, "through-origin", Tier::boundary, {"exact-conic"}, lattice_conic(1, 0, 1, 4225, 63, 16), 0);
     add_fit(set, "circle-fine-unit", Tier::boundary, {"exact-conic"}, lattice_conic(1, 0, 1, 105625, 0, 0), 10);
     add_fit(set, "six-points", Tier::boundary, {"exact-conic"}, first_points(lattice_conic(1, 0, 1, 65, 2, 3), 6), 0);
-    add_fit(set, "six-points-general", Tier::boundary, {"degenerate"},
-            {10, 0, 0, 9, -11, 1, 1, -8, 8, 6, -7, -7}, 0);
+    add_fit(set, "six-points-general", Tier::boundary, {"degenerate"}, {10, 0, 0, 9, -11, 1, 1, -8, 8, 6, -7, -7}, 0);
     Words twice = first_points(lattice_conic(1, 1, 1, 91, 0, 0), 5);
     const Words five = twice;
     twice.insert(twice.end(), five.begin(), five.end());
@@ -178,6 +182,12 @@ void add_rejected(Set &set)
     add_fit(set, "line-across", Tier::must_reject, {"degenerate", "collinear"}, line, 0);
     add_fit(set, "line-slanted", Tier::must_reject, {"degenerate", "collinear"}, slanted, 5);
     add_fit(set, "one-place", Tier::must_reject, {"degenerate"}, same, 5);
+    Words outgrown; /* a short arc of a circle whose radius leaves Q16 */
+    for (int i = -100; i <= 100; i++) {
+        outgrown.push_back(std::lround(35000 * std::sin(i * 0.008)));
+        outgrown.push_back(std::lround(35000 * (1 - std::cos(i * 0.008))));
+    }
+    add_fit(set, "circle-beyond-q16", Tier::must_reject, {"saturation"}, outgrown, 0);
     add_fit(set, "beyond-q16", Tier::must_reject, {"saturation"}, far, 0);
     /* conics that are no ellipse, and places too few for one */
     Words hyperbola, lines, four, three;
@@ -223,7 +233,8 @@ void add_ellipse(Set &set)
         arc.xc = side * 0.55;
         arc.yc = -side * 0.57;
         arc.angle_deg = -35;
-        add_fit(set, "unit-" + std::to_string(bits), Tier::boundary, {"saturation"}, points_of(arc, random, bits), bits);
+        add_fit(set, "unit-" + std::to_string(bits), Tier::boundary, {"saturation"}, points_of(arc, random, bits),
+                bits);
     }
     Arc flat;
     flat.b = 3;

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "images.hpp"
-#include "plain.hpp"
+#include "scene.hpp"
 
 namespace vectors {
 
@@ -84,18 +84,36 @@ void add_demo_scenes(Set &set, const std::string &folder)
         f.image = whole(d.region).clone();
         f.camera = {1465.5, 1465.5, d.cx - d.region.x, d.cy - d.region.y};
         f.region = {0, 0, d.region.width, d.region.height};
-        add_frame(set, std::string(d.name) + "-region", Tier::ordinary, {"picture"}, f);
+        add_frame(set, std::string(d.name) + "-region", Tier::ordinary, {}, f);
     }
 }
 
+/* Drogues before sky, ground and cloud, at the distances of a docking. */
 void add_plain_scenes(Set &set)
 {
     static const double distances[] = {8, 12, 16, 20, 25};
     for (const double z : distances) {
         for (int index = 0; index < 3; index++) {
-            const accuracy::PlainScene s = accuracy::plain_scene(2024, z, index);
-            add_frame(set, "scene-" + std::to_string(static_cast<int>(z)) + "m-" + std::to_string(index), Tier::ordinary,
-                      {index == 0 ? "dark" : index == 1 ? "bright" : "cloud"}, photograph(s.scene, s.region, index));
+            const std::string name = "scene-" + std::to_string(static_cast<int>(z)) + "m-" + std::to_string(index);
+            accuracy::Random random = set.random(name);
+            const double x = z * random.uniform(-0.25, 0.25);
+            const double y = z * random.uniform(-0.25, 0.25);
+            const double yaw = random.uniform(-20, 20);
+            const double pitch = random.uniform(-20, 20);
+            accuracy::Scene s = scene_at(random.next(), x, y, z, yaw, pitch);
+            s.drogue.rib_phase = random.uniform(0, 1);
+            s.sensor.blur_px = random.uniform(0.5, 0.9);
+            s.background = index == 0   ? accuracy::Background::sky()
+                           : index == 1 ? accuracy::Background::ground()
+                                        : accuracy::Background::cloud();
+            s.look = index == 1 || random.next() % 2 == 0 ? accuracy::Look::bright() : accuracy::Look::dark();
+            if (index == 0) {
+                s.look = accuracy::Look::dark();
+            }
+            cv::Rect region = region_of(s);
+            region.x += between(random, -1, 1);
+            region.y += between(random, -1, 1);
+            add_frame(set, name, Tier::ordinary, {"polarity"}, photograph(s, region, index));
         }
     }
 }
@@ -108,7 +126,7 @@ void add_disturbed_scenes(Set &set)
     s = scene_at(32, -0.6, 0.5, 12, -14, 6);
     s.sensor.motion_length_px = 6;
     s.sensor.motion_angle_rad = 0.6;
-    add_frame(set, "motion-blur", Tier::stress, {"blur"}, photograph(s, region_of(s), 0));
+    add_frame(set, "motion-blur", Tier::stress, {"motion-blur"}, photograph(s, region_of(s), 0));
     s = scene_at(33, 0.2, 0.3, 14, 3, 14);
     s.background = accuracy::Background::ground();
     s.look = accuracy::Look::bright();
@@ -142,7 +160,8 @@ void add_disturbed_scenes(Set &set)
     /* the same, the fold running through the outline: much, a third, a little of it cannot be undone */
     for (const double k1 : {-0.80, -0.76, -0.74, -0.72}) {
         folded.camera.k1 = k1;
-        add_frame(set, "fold-through-outline-" + std::to_string(cvRound(-100 * k1)), Tier::stress, {"folded-lens"}, folded);
+        add_frame(set, "fold-through-outline-" + std::to_string(cvRound(-100 * k1)), Tier::stress, {"folded-lens"},
+                  folded);
     }
 }
 
@@ -150,7 +169,7 @@ void add_regions(Set &set)
 {
     const accuracy::Scene s = scene_at(41, 0.4, 0.3, 13, -10, 11);
     const cv::Rect region = region_of(s);
-    const Frame all = photograph(s, region, 6);
+    Frame all = photograph(s, region, 6);
     Frame f = all;
     const auto crop = [&](int left, int top, int right, int bottom) {
         f = all;
@@ -165,6 +184,14 @@ void add_regions(Set &set)
     add_frame(set, "region-past-top-left", Tier::boundary, {"border", "rounding-negative"}, f);
     crop(0, 0, 22, 17);
     add_frame(set, "region-past-bottom-right", Tier::boundary, {"border"}, f);
+    accuracy::Scene grainy = s; /* edges all over the image: which of them lie in the ring shows */
+    grainy.sensor.noise = 14;
+    all = photograph(grainy, region, 6);
+    crop(20, 14, 0, 0);
+    add_frame(set, "grain-past-top-left", Tier::boundary, {"border", "noise"}, f);
+    crop(0, 0, 22, 17);
+    add_frame(set, "grain-past-bottom-right", Tier::boundary, {"border", "noise"}, f);
+    all = photograph(s, region, 6);
     f = all;
     f.region.width += 5;
     f.region.height -= 4;
@@ -185,11 +212,11 @@ void add_regions(Set &set)
     f.region = {-1048577, 0, 64, 64};
     add_frame(set, "region-too-far", Tier::must_reject, {"saturation"}, f);
     f.region = {0, 0, 8193, 60};
-    add_frame(set, "region-too-wide", Tier::must_reject, {"two-thresholds"}, f);
+    add_frame(set, "region-too-wide", Tier::must_reject, {"threshold-met"}, f);
     f.region = {0, 0, 60, 8193};
-    add_frame(set, "region-too-high", Tier::must_reject, {"two-thresholds"}, f);
+    add_frame(set, "region-too-high", Tier::must_reject, {"threshold-met"}, f);
     f.region = {0, 0, 8192, 8192};
-    add_frame(set, "region-largest", Tier::must_reject, {"two-thresholds"}, f);
+    add_frame(set, "region-largest", Tier::must_reject, {"threshold-met"}, f);
     f.region = {4, 40, 90, 1};
     add_frame(set, "region-one-row", Tier::must_reject, {"1xN"}, f);
     f.region = {40, 4, 1, 90};
@@ -209,7 +236,7 @@ void add_regions(Set &set)
     f.inner_radius = -1.0 / 65536;
     add_frame(set, "inner-radius-negative", Tier::must_reject, {"argument"}, f);
     f.inner_radius = 1.0 / 65536;
-    add_frame(set, "inner-radius-one-lsb", Tier::boundary, {"two-thresholds"}, f);
+    add_frame(set, "inner-radius-one-lsb", Tier::boundary, {"threshold-met"}, f);
     f.inner_radius = 0;
     add_frame(set, "inner-unknown", Tier::ordinary, {"inner-missing"}, f);
     f = all;
@@ -271,11 +298,13 @@ void add_drawings(Set &set)
     f.image = image_from(80, 80, [](int x, int y) {
         return 4 * (2 * x - 79) * (2 * x - 79) + 29 * (2 * y - 79) * (2 * y - 79) < 4 * 72 * 72 ? 60 : 200;
     });
-    add_frame(set, "outline-too-flat", Tier::must_reject, {"two-thresholds"}, f);
-    f.image = image_from(80, 80, [](int x, int y) { return (x - 60) * (x - 60) + (y - 19) * (y - 19) < 90 ? 60 : 200; });
-    add_frame(set, "outline-too-small", Tier::must_reject, {"two-thresholds"}, f);
-    f.image = image_from(80, 80, [](int x, int y) { return (x + 20) * (x + 20) + (y - 99) * (y - 99) < 111 * 111 ? 60 : 200; });
-    add_frame(set, "outline-too-large", Tier::must_reject, {"two-thresholds"}, f);
+    add_frame(set, "outline-too-flat", Tier::must_reject, {"threshold-met"}, f);
+    f.image =
+        image_from(80, 80, [](int x, int y) { return (x - 60) * (x - 60) + (y - 19) * (y - 19) < 90 ? 60 : 200; });
+    add_frame(set, "outline-too-small", Tier::must_reject, {"threshold-met"}, f);
+    f.image = image_from(80, 80,
+                         [](int x, int y) { return (x + 20) * (x + 20) + (y - 99) * (y - 99) < 111 * 111 ? 60 : 200; });
+    add_frame(set, "outline-too-large", Tier::must_reject, {"threshold-met"}, f);
     accuracy::Random random = set.random("drawings");
     f.image = constant(64, 64, 0);
     f.region = {0, 0, 64, 64};
@@ -301,10 +330,13 @@ void add_drawings(Set &set)
     add_frame(set, "outline-outside-ring", Tier::must_reject, {"border"}, f);
     f.image = constant(2048, 3, 50); /* the largest sides of a region */
     f.region = {0, 0, 2048, 3};
-    add_frame(set, "flat-2048x3", Tier::must_reject, {"two-thresholds"}, f);
+    add_frame(set, "flat-2048x3", Tier::must_reject, {"threshold-met"}, f);
     f.image = constant(3, 2048, 50);
     f.region = {0, 0, 3, 2048};
-    add_frame(set, "flat-3x2048", Tier::must_reject, {"two-thresholds"}, f);
+    add_frame(set, "flat-3x2048", Tier::must_reject, {"threshold-met"}, f);
+    f.image = image_from(40, 1, [](int x, int) { return x * 6; });
+    f.region = {0, 0, 40, 1};
+    add_frame(set, "one-row", Tier::must_reject, {"1xN"}, f);
     f.image = image_from(1, 40, [](int, int y) { return y * 6; });
     f.region = {0, 0, 1, 40};
     add_frame(set, "one-column", Tier::must_reject, {"1xN"}, f);

@@ -75,7 +75,8 @@ void add_kalman(Set &set)
     run.missed = [](int i) { return i % 97 > 85; };
     run.dt_us = 20000;
     run.truth = [](double t) {
-        return Five{0.5 * std::sin(1.3 * t), 0.2 * std::cos(0.7 * t), 20 - 0.8 * t, 0.2 * std::sin(0.4 * t), 3.0 + 0.3 * t};
+        return Five{0.5 * std::sin(1.3 * t), 0.2 * std::cos(0.7 * t), 20 - 0.8 * t, 0.2 * std::sin(0.4 * t),
+                    3.0 + 0.3 * t};
     };
     add_run(set, "run-1000-missed-wrapping", Tier::stress, {"long-run", "missed-frames", "angle-wrap"}, run);
 

@@ -32,9 +32,9 @@ cv::Mat one_pixel(int side, int x, int y, int ink, int paper)
 /* Images that both filters take. */
 void add_common(Set &set)
 {
-    static const int odd_sizes[][2] = {{1, 1}, {2, 1}, {1, 2},  {3, 1},  {1, 3},  {4, 1},  {1, 4},  {5, 1},
-                                       {1, 5}, {2, 2}, {3, 2},  {2, 3},  {3, 3},  {4, 3},  {5, 4},  {4, 5},
-                                       {5, 5}, {6, 5}, {7, 6},  {1, 40}, {40, 1}, {2, 17}, {17, 2}, {31, 33}};
+    static const int odd_sizes[][2] = {{1, 1}, {2, 1}, {1, 2}, {3, 1},  {1, 3},  {4, 1},  {1, 4},  {5, 1},
+                                       {1, 5}, {2, 2}, {3, 2}, {2, 3},  {3, 3},  {4, 3},  {5, 4},  {4, 5},
+                                       {5, 5}, {6, 5}, {7, 6}, {1, 40}, {40, 1}, {2, 17}, {17, 2}, {31, 33}};
     for (const auto &size : odd_sizes) {
         const std::string name = size_name("noise", size[0], size[1]);
         accuracy::Random random = set.random(name);
@@ -101,7 +101,7 @@ void add_mask(Set &set)
         {"square-24", 26, 26, 24, 24, 24, Tier::boundary, {"tie"}},
         {"even-32", 32, 32, 31, 31, 32, Tier::ordinary, {}},
         {"odd-33", 33, 33, 32, 32, 33, Tier::ordinary, {"odd-size"}},
-        {"even-34", 34, 34, 33, 33, 34, Tier::ordinary, {"tie"}}, /* outer radius 17: (8, 15) */
+        {"even-34", 34, 34, 33, 33, 34, Tier::ordinary, {"tie"}},                   /* outer radius 17: (8, 15) */
         {"half-pixel-50", 51, 50, 49, 50, 50, Tier::boundary, {"tie", "odd-size"}}, /* (7.5, 10) .. (12, 16.5) */
         {"wide", 48, 20, 47, 19, 48, Tier::ordinary, {"border"}},
         {"tall", 20, 48, 19, 47, 48, Tier::ordinary, {"border"}},

@@ -65,7 +65,7 @@ void add_ordinary_scores(Set &set)
         Scored scored;
         scored.ellipse = {q16(s.xc), q16(s.yc), q16(s.a), q16(s.b), q16(s.angle)};
         scored.points = points_about(scored.ellipse, random, s.count, 0.8);
-        add_scored(set, s.name, Tier::ordinary, {s.xc < 0 ? "rounding-negative" : "score"}, scored);
+        add_scored(set, s.name, Tier::ordinary, s.xc < 0 ? Flags{"rounding-negative"} : Flags{}, scored);
     }
 }
 
@@ -80,7 +80,8 @@ void add_scores_near_ties(Set &set)
         double off = 1;
         while (off > 0.002) { /* LSB */
             s.ellipse = {0, 0, between(random, 9, 400) * ONE + between(random, 0, 65535), 0, 0};
-            s.ellipse[3] = ONE + static_cast<int64_t>(random.uniform(0.35, 0.98) * static_cast<double>(s.ellipse[2] - ONE));
+            s.ellipse[3] =
+                ONE + static_cast<int64_t>(random.uniform(0.35, 0.98) * static_cast<double>(s.ellipse[2] - ONE));
             s.points = {s.ellipse[2], 0};
             s.k1 = k * ONE * 2 + between(random, 0, 131071);
             s.k2 = between(random, 0, 15000);
@@ -103,13 +104,15 @@ void add_magnified_angles(Set &set)
         accuracy::Random random = set.random(name);
         Scored s;
         s.ellipse = {between(random, -99999, 99999), between(random, -99999, 99999), ONE + 3 * k, ONE,
-                     k == 0 ? HALF_PI : k == 1 ? -HALF_PI : between(random, -102943, 102943)};
+                     k == 0   ? HALF_PI
+                     : k == 1 ? -HALF_PI
+                              : between(random, -102943, 102943)};
         for (int i = 0; i < 50; i++) {
             const double t = random.uniform(0, 2 * CV_PI);
             s.points.push_back(s.ellipse[0] + q16(15.5 * std::cos(t)));
             s.points.push_back(s.ellipse[1] + q16(15.5 * std::sin(t)));
         }
-        add_scored(set, name, Tier::boundary, {"angle", "half-lsb"}, s);
+        add_scored(set, name, Tier::boundary, {"half-lsb"}, s);
     }
 }
 
@@ -125,13 +128,13 @@ void add_quality(Set &set)
     Scored circle;
     circle.ellipse = {100 * ONE, 100 * ONE, 64 * ONE, 64 * ONE, 0};
     /* deviation of (64 + d) px along an axis is 2 d / 64 + (d / 64)^2; thresholds 2 / 64 met, missed by one LSB */
-    circle.points = {164 * ONE, 100 * ONE, 100 * ONE, 164 * ONE, 36 * ONE, 100 * ONE, 165 * ONE, 100 * ONE, 163 * ONE,
-                     100 * ONE, 100 * ONE, 100 * ONE, 164 * ONE + 512, 100 * ONE, 100 * ONE, 35 * ONE};
+    circle.points = {164 * ONE, 100 * ONE, 100 * ONE, 164 * ONE, 36 * ONE,        100 * ONE, 165 * ONE, 100 * ONE,
+                     163 * ONE, 100 * ONE, 100 * ONE, 100 * ONE, 164 * ONE + 512, 100 * ONE, 100 * ONE, 35 * ONE};
     add_scored(set, "circle", Tier::ordinary, {}, circle);
     circle.fit_error = 32 * (2 * 1024 + 16); /* threshold equal to the deviation at 65 px: 1 / 32 + 1 / 4096 */
-    add_scored(set, "threshold-met", Tier::boundary, {"tie", "two-thresholds"}, circle);
+    add_scored(set, "threshold-met", Tier::boundary, {"tie", "threshold-met"}, circle);
     circle.fit_error += 32;
-    add_scored(set, "threshold-passed", Tier::boundary, {"tie", "two-thresholds"}, circle);
+    add_scored(set, "threshold-passed", Tier::boundary, {"tie", "threshold-met"}, circle);
     circle.fit_error = 0;
     add_scored(set, "no-tolerance", Tier::boundary, {"degenerate"}, circle);
     circle.fit_error = 1024 * ONE;
@@ -145,9 +148,10 @@ void add_quality(Set &set)
         add_scored(set, "decay-" + std::to_string(k1), Tier::boundary, {"exponential"}, s);
     }
     s.k1 = 6 * ONE;
-    for (const int64_t k2 : {INT64_C(0), INT64_C(56796), INT64_C(56797), INT64_C(56798), ONE - 1}) { /* b / a is 56797 */
+    for (const int64_t k2 :
+         {INT64_C(0), INT64_C(56796), INT64_C(56797), INT64_C(56798), ONE - 1}) { /* b / a is 56797 */
         s.k2 = k2;
-        add_scored(set, "zero-score-at-" + std::to_string(k2), Tier::boundary, {"two-thresholds"}, s);
+        add_scored(set, "zero-score-at-" + std::to_string(k2), Tier::boundary, {"threshold-met"}, s);
     }
     s.k2 = 0;
     for (int k = 0; k < 6; k++) { /* the exponential over its whole range */
@@ -157,19 +161,19 @@ void add_quality(Set &set)
     }
     s = Scored();
     s.ellipse = {50 * ONE, 50 * ONE, 12 * ONE, 9 * ONE, -30000};
-    s.points = {4000 * ONE, 50 * ONE, 50 * ONE, -9000 * ONE, -32768 * ONE, -32768 * ONE, 32767 * ONE, 32767 * ONE,
-                50 * ONE, 242 * ONE, 242 * ONE, 50 * ONE, 50 * ONE, 50 * ONE};
+    s.points = {4000 * ONE,  50 * ONE, 50 * ONE,  -9000 * ONE, -32768 * ONE, -32768 * ONE, 32767 * ONE,
+                32767 * ONE, 50 * ONE, 242 * ONE, 242 * ONE,   50 * ONE,     50 * ONE,     50 * ONE};
     add_scored(set, "points-far-away", Tier::stress, {"saturation"}, s);
     s.points = points_about(s.ellipse, random, 200, 0.2);
     add_scored(set, "more-points-than-circumference", Tier::boundary, {"saturation"}, s);
     s.points.resize(2);
     add_scored(set, "single-point", Tier::boundary, {"degenerate"}, s);
     const Words points = {ONE, 0, 3 * ONE, -ONE, 0, 0};
-    add_scored(set, "minor-axis-one", Tier::boundary, {"two-thresholds"}, {{0, 0, 3 * ONE, ONE, 1000}, points});
-    add_scored(set, "minor-axis-below-one", Tier::must_reject, {"two-thresholds"},
+    add_scored(set, "minor-axis-one", Tier::boundary, {"threshold-met"}, {{0, 0, 3 * ONE, ONE, 1000}, points});
+    add_scored(set, "minor-axis-below-one", Tier::must_reject, {"threshold-met"},
                {{0, 0, 3 * ONE, ONE - 1, 1000}, points});
     add_scored(set, "minor-above-major", Tier::must_reject, {"domain"}, {{0, 0, 3 * ONE, 3 * ONE + 1, 0}, points});
-    add_scored(set, "both-axes-one", Tier::boundary, {"two-thresholds"}, {{0, 0, ONE, ONE, 0}, points});
+    add_scored(set, "both-axes-one", Tier::boundary, {"threshold-met"}, {{0, 0, ONE, ONE, 0}, points});
     add_scored(set, "no-axes", Tier::must_reject, {"degenerate", "domain"}, {{0, 0, 0, 0, 0}, points});
     add_scored(set, "circumference-last", Tier::boundary, {"saturation"},
                {{0, 0, 4096 * ONE, 4096 * ONE - 1, 9}, {4096 * ONE, 0, 0, 4096 * ONE, -4096 * ONE, 1}});
@@ -208,8 +212,8 @@ Candidate changed(const std::vector<std::pair<int, int64_t>> &by)
 
 const Words default_config = {3 * ONE, 3 * ONE, 3 * ONE, 13107, 58982};
 
-void add_choice(Set &set, const std::string &name, Tier tier, const Flags &flags, const std::vector<Candidate> &candidates,
-                const Words &config = default_config)
+void add_choice(Set &set, const std::string &name, Tier tier, const Flags &flags,
+                const std::vector<Candidate> &candidates, const Words &config = default_config)
 {
     Words words;
     for (const Candidate &c : candidates) {
@@ -226,8 +230,9 @@ void add_thresholds(Set &set)
         const int64_t threshold = m < 4 ? 3 * ONE : 13107;
         for (const int64_t sign : {1, -1}) {
             for (const int64_t less : {0, 1}) {
-                add_choice(set, std::string(members[m]) + (sign > 0 ? "-more-" : "-less-") + (less ? "within" : "at-limit"),
-                           Tier::boundary, {"two-thresholds", sign > 0 ? "tie" : "rounding-negative"},
+                add_choice(set,
+                           std::string(members[m]) + (sign > 0 ? "-more-" : "-less-") + (less ? "within" : "at-limit"),
+                           Tier::boundary, {"threshold-met", sign > 0 ? "tie" : "rounding-negative"},
                            {Candidate(), changed({{m, sign * (threshold - less)}})});
             }
         }
@@ -244,8 +249,8 @@ void add_cluster(Set &set)
     add_choice(set, "single", Tier::boundary, {"degenerate"}, {Candidate()});
     add_choice(set, "distance-at-limit", Tier::boundary, {"tie"}, {Candidate(), changed({{0, 117964}, {1, -157286}})},
                {196607, ONE, ONE, 13107, 58982}); /* (117964, 157286) is 196607.3 long */
-    add_choice(set, "distance-pythagorean", Tier::boundary, {"tie"}, {Candidate(), changed({{0, 3 * ONE}, {1, 4 * ONE}})},
-               {5 * ONE, ONE, ONE, 13107, 58982});
+    add_choice(set, "distance-pythagorean", Tier::boundary, {"tie"},
+               {Candidate(), changed({{0, 3 * ONE}, {1, 4 * ONE}})}, {5 * ONE, ONE, ONE, 13107, 58982});
     add_choice(set, "distance-within", Tier::boundary, {"tie"}, {Candidate(), changed({{0, 3 * ONE}, {1, 4 * ONE}})},
                {5 * ONE + 1, ONE, ONE, 13107, 58982});
     add_choice(set, "polarity", Tier::ordinary, {}, {Candidate(), changed({{6, 1}})});
@@ -302,9 +307,10 @@ void add_cluster(Set &set)
     Candidate worst;
     worst.words[5] = 0;
     add_choice(set, "reliability-zero", Tier::boundary, {"degenerate"}, {worst, worst});
-    add_choice(set, "extremes", Tier::stress, {"saturation"},
-               {{{INT32_MIN, INT32_MAX, INT32_MAX, 0, -HALF_PI, 3, 0}}, {{INT32_MAX, INT32_MIN, 0, INT32_MAX, HALF_PI, 3, 0}}},
-               {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX, ONE});
+    add_choice(
+        set, "extremes", Tier::stress, {"saturation"},
+        {{{INT32_MIN, INT32_MAX, INT32_MAX, 0, -HALF_PI, 3, 0}}, {{INT32_MAX, INT32_MIN, 0, INT32_MAX, HALF_PI, 3, 0}}},
+        {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX, ONE});
     for (int k = 0; k < 6; k++) {
         const std::string name = "random-" + std::to_string(k);
         accuracy::Random random = set.random(name);

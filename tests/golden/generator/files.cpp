@@ -35,8 +35,8 @@ std::string bytes_of(const Array &a) { return a.width > 0 ? png_bytes(a) : hex_t
 /* An array's object without the closing brace. */
 std::string describe(const Array &a, const std::string &path, const std::string &bytes)
 {
-    std::string text = "{\"name\": " + quoted(a.name) + ", \"file\": " + quoted(path) +
-                       ", \"bits\": " + std::to_string(a.bits);
+    std::string text =
+        "{\"name\": " + quoted(a.name) + ", \"file\": " + quoted(path) + ", \"bits\": " + std::to_string(a.bits);
     if (a.width > 0) {
         text += ", \"width\": " + std::to_string(a.width) + ", \"height\": " + std::to_string(a.height);
     } else {
@@ -103,10 +103,10 @@ std::string case_object(Files &files, const Case &c)
     }
     const std::vector<std::string> exact = expected_objects(files, c, c.exact, ".out");
     const std::vector<std::string> reference = expected_objects(files, c, c.reference, ".ref");
-    return "    {\"id\": " + quoted(c.id()) + ", \"stage\": " + quoted(c.stage) + ", \"tier\": " +
-           quoted(tier_name(c.tier)) + ", \"flags\": [" + flags + "], \"origin\": {\"seed\": " + std::to_string(c.seed) +
-           ", \"generator\": " + quoted(c.stage) + "},\n" + list("inputs", inputs) + ",\n" +
-           list("reference", reference) + ",\n" + list("exact", exact) + "}";
+    return "    {\"id\": " + quoted(c.id()) + ", \"stage\": " + quoted(c.stage) +
+           ", \"tier\": " + quoted(tier_name(c.tier)) + ", \"flags\": [" + flags +
+           "], \"origin\": {\"seed\": " + std::to_string(c.seed) + ", \"generator\": " + quoted(c.stage) + "},\n" +
+           list("inputs", inputs) + ",\n" + list("reference", reference) + ",\n" + list("exact", exact) + "}";
 }
 
 } // namespace

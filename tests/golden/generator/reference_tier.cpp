@@ -151,7 +151,8 @@ Tiers constraints_tier(const Arrays &in, const Arrays &exact)
             polarity = position == p[3] ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
         }
     }
-    return {{like(exact[0], {q16(r.xc), q16(r.yc), q16(r.shorter), q16(r.longer), quadrant, polarity}), {4, 4, 4, 4, 0, 0}}};
+    return {{like(exact[0], {q16(r.xc), q16(r.yc), q16(r.shorter), q16(r.longer), quadrant, polarity}),
+             {4, 4, 4, 4, 0, 0}}};
 }
 
 /* LSB by which the angle may differ when each semi-axis may by 'px' LSB: it says less the rounder the ellipse. */
@@ -193,8 +194,10 @@ reference::Ellipse ellipse_of(const Words &w)
 Real saturated_deviation(const reference::Ellipse &e, reference::Point p)
 {
     const Real dx = p.x - e.xc, dy = p.y - e.yc, c = std::cos(e.angle), s = std::sin(e.angle);
-    const Real u = std::clamp<Real>((dx * c + dy * s) / e.a, -16, 16), v = std::clamp<Real>((dy * c - dx * s) / e.b, -16, 16);
-    return std::max(std::fabs(dx), std::fabs(dy)) < 15 * e.b ? reference::deviation(e, p) : std::fabs(u * u + v * v - 1);
+    const Real u = std::clamp<Real>((dx * c + dy * s) / e.a, -16, 16),
+               v = std::clamp<Real>((dy * c - dx * s) / e.b, -16, 16);
+    return std::max(std::fabs(dx), std::fabs(dy)) < 15 * e.b ? reference::deviation(e, p)
+                                                             : std::fabs(u * u + v * v - 1);
 }
 
 Tiers quality_tier(const Arrays &in, const Arrays &exact)
@@ -235,7 +238,8 @@ Tiers cluster_tier(const Arrays &in, const Arrays &exact)
         candidates.push_back({ellipse_of(Words(w.begin() + static_cast<long>(i), w.begin() + static_cast<long>(i) + 5)),
                               real(w[i + 5]), as_int(w[i + 6])});
     }
-    const int best = reference::cluster_best(candidates, {real(p[0]), real(p[1]), real(p[2]), real(p[3]), real(p[4])}, members);
+    const int best =
+        reference::cluster_best(candidates, {real(p[0]), real(p[1]), real(p[2]), real(p[3]), real(p[4])}, members);
     return {{like(exact[0], {best, members}), {}}};
 }
 
@@ -415,10 +419,11 @@ Tiers reference_of(const std::string &stage, const Arrays &inputs, const Arrays 
 {
     using Tier = Tiers (*)(const Arrays &, const Arrays &);
     static const std::map<std::string, Tier> tiers = {
-        {"smooth", smooth_tier},   {"gradient", gradient_tier},   {"canny", canny_tier},     {"mask", mask_tier},
-        {"arcs", arcs_tier},       {"constraints", constraints_tier}, {"ellipse", ellipse_tier}, {"quality", quality_tier},
-        {"cluster", cluster_tier}, {"centroid", centroid_tier},   {"eigen", eigen_tier},     {"undistort", undistort_tier},
-        {"pose", pose_tier},       {"kalman", kalman_tier},       {"frame", frame_tier}};
+        {"smooth", smooth_tier},     {"gradient", gradient_tier}, {"canny", canny_tier},
+        {"mask", mask_tier},         {"arcs", arcs_tier},         {"constraints", constraints_tier},
+        {"ellipse", ellipse_tier},   {"quality", quality_tier},   {"cluster", cluster_tier},
+        {"centroid", centroid_tier}, {"eigen", eigen_tier},       {"undistort", undistort_tier},
+        {"pose", pose_tier},         {"kalman", kalman_tier},     {"frame", frame_tier}};
     return tiers.at(stage)(inputs, exact);
 }
 

@@ -39,14 +39,30 @@ std::vector<int64_t> pack(const Array &array)
 /* Fractional bits of a stage's output; README.md says which of its words are whole numbers. */
 int format_of(const std::string &stage, const std::string &output)
 {
-    static const std::map<std::string, int> formats = {
-        {"smooth/image", 0},          {"gradient/gx", 0},           {"gradient/gy", 0},          {"canny/map", 0},
-        {"mask/ring", 0},             {"mask/disc", 0},             {"arcs/arcs", 0},            {"arcs/edges", 5},
-        {"constraints/verdict", 16},  {"constraints/distance2", 32}, {"ellipse/ellipse", 16},    {"quality/quality", 16},
-        {"quality/status", 0},        {"cluster/winner", 0},        {"centroid/part", 16},       {"eigen/values", 30},
-        {"eigen/vectors", 30},        {"eigen/full", 60},           {"undistort/undistorted", 16},
-        {"undistort/distorted", 16},  {"pose/pose", 16},            {"kalman/states", 16},       {"frame/frame", 16},
-        {"frame/detail", 16}};
+    static const std::map<std::string, int> formats = {{"smooth/image", 0},
+                                                       {"gradient/gx", 0},
+                                                       {"gradient/gy", 0},
+                                                       {"canny/map", 0},
+                                                       {"mask/ring", 0},
+                                                       {"mask/disc", 0},
+                                                       {"arcs/arcs", 0},
+                                                       {"arcs/edges", 5},
+                                                       {"constraints/verdict", 16},
+                                                       {"constraints/distance2", 32},
+                                                       {"ellipse/ellipse", 16},
+                                                       {"quality/quality", 16},
+                                                       {"quality/status", 0},
+                                                       {"cluster/winner", 0},
+                                                       {"centroid/part", 16},
+                                                       {"eigen/values", 30},
+                                                       {"eigen/vectors", 30},
+                                                       {"eigen/full", 60},
+                                                       {"undistort/undistorted", 16},
+                                                       {"undistort/distorted", 16},
+                                                       {"pose/pose", 16},
+                                                       {"kalman/states", 16},
+                                                       {"frame/frame", 16},
+                                                       {"frame/detail", 16}};
     const auto found = formats.find(stage + "/" + output);
     if (found == formats.end()) {
         throw std::runtime_error("no format for output " + stage + "/" + output);
@@ -108,7 +124,8 @@ void compare(StageReport &r, const Case &c, const Expected &reference)
         throw std::runtime_error(c.id() + ": the reference's " + reference.array.name + " has another size");
     }
     for (size_t i = 0; i < exact->words.size(); i++) {
-        const double lsb = std::fabs(static_cast<double>(exact->words[i]) - static_cast<double>(reference.array.words[i]));
+        const double lsb =
+            std::fabs(static_cast<double>(exact->words[i]) - static_cast<double>(reference.array.words[i]));
         const double bound = bound_at(reference, i);
         if (lsb > bound) {
             std::printf("EXCESS %s %s word %zu: reference %lld, library %lld, bound %g\n", c.id().c_str(),
@@ -229,7 +246,8 @@ bool Set::report() const
             compare(r, c, e);
         }
     }
-    std::printf("%-12s %5s %9s %9s %9s  %s\n", "stage", "cases", "worst LSB", "mean LSB", "of bound", "nearest to its bound");
+    std::printf("%-12s %5s %9s %9s %9s  %s\n", "stage", "cases", "worst LSB", "mean LSB", "of bound",
+                "nearest to its bound");
     for (const std::string &stage : order) {
         const StageReport &r = reports[stage];
         std::printf("%-12s %5ld %9.0f %9.4f %8.0f%%  %s\n", stage.c_str(), r.cases, r.worst,
