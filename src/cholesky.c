@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Cholesky factorisation of matrices up to 5 x 5. */
+#include "drogue/cholesky.h"
+
+#define PIVOT_BITS 40 /* a pivot this many bits below its diagonal entry is rounding */
+
+drogue_status drogue_cholesky_factor(drogue_wide *a, int n)
+{
+    int i;
+    int j;
+    int k;
+    for (j = 0; j < n; j++) {
+        for (i = j; i < n; i++) {
+            drogue_wide sum = a[DROGUE_PACKED(i, j)];
+            for (k = 0; k < j; k++) {
+                sum = drogue_wide_sub(sum, drogue_wide_mul(a[DROGUE_PACKED(i, k)], a[DROGUE_PACKED(j, k)]));
+            }
+            if (i > j) {
+                a[DROGUE_PACKED(i, j)] = drogue_wide_div(sum, a[DROGUE_PACKED(j, j)]);
+            } else if (drogue_wide_cmp(sum, drogue_wide_scale(a[DROGUE_PACKED(j, j)], -PIVOT_BITS)) <= 0) {
+                return DROGUE_E_DEGENERATE;
+            } else {
+                a[DROGUE_PACKED(j, j)] = drogue_wide_sqrt(sum);
+            }
+        }
+    }
+    return DROGUE_OK;
+}
+
+/* Solve L x = b in place. */
+static void forward(drogue_wide *b, const drogue_wide *l, int n)
+{
+    int i;
+    int k;
+    for (i = 0; i < n; i++) {
+        for (k = 0; k < i; k++) {
+            b[i] = drogue_wide_sub(b[i], drogue_wide_mul(l[DROGUE_PACKED(i, k)], b[k]));
+        }
+        b[i] = drogue_wide_div(b[i], l[DROGUE_PACKED(i, i)]);
+    }
+}
+
+void drogue_cholesky_solve(drogue_wide *b, const drogue_wide *l, int n)
+{
+    int i;
+    int k;
+    forward(b, l, n);
+    for (i = n - 1; i >= 0; i--) {
+        for (k = i + 1; k < n; k++) {
+            b[i] = drogue_wide_sub(b[i], drogue_wide_mul(l[DROGUE_PACKED(k, i)], b[k]));
+        }
+        b[i] = drogue_wide_div(b[i], l[DROGUE_PACKED(i, i)]);
+    }
+}
+
+drogue_wide drogue_cholesky_square(const drogue_wide *b, const drogue_wide *l, int n)
+{
+    drogue_wide y[DROGUE_CHOLESKY_MAX];
+    drogue_wide sum = {0, 0};
+    int i;
+    for (i = 0; i < n; i++) {
+        y[i] = b[i];
+    }
+    forward(y, l, n);
+    for (i = 0; i < n; i++) {
+        sum = drogue_wide_add(sum, drogue_wide_mul(y[i], y[i]));
+    }
+    return sum;
+}
+
+void drogue_cholesky_invert(drogue_wide *inverse, const drogue_wide *l, int n)
+{
+    drogue_wide column[DROGUE_CHOLESKY_MAX];
+    int i;
+    int j;
+    for (j = 0; j < n; j++) {
+        for (i = 0; i < n; i++) {
+            column[i] = drogue_wide_from_s64(i == j ? 1 : 0, 0);
+        }
+        drogue_cholesky_solve(column, l, n);
+        for (i = j; i < n; i++) {
+            inverse[DROGUE_PACKED(i, j)] = column[i];
+        }
+    }
+}
