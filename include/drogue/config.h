@@ -27,9 +27,11 @@ typedef struct drogue_config {
     drogue_q16 min_size_q16;       /* 0.2: least semi-major axis, as a share of the region's longest side */
     drogue_q16 max_size_q16;       /* 0.75: largest semi-major axis, as a share of the region's longest side */
     drogue_cluster_config cluster; /* T_d 3 px, T_a 3 px, T_b 3 px, T_rho 0.2 rad, round 0.9 */
+    drogue_q16 search_band_q16;    /* 0.03: a candidate's edge points lie this near, as a share of its major semi-axis;
+                                      at least refit_band, at most 8 px */
     drogue_q16 refit_band_px_q16;  /* 1.5 px: the last fit takes all edge points this near with agreeing gradient */
     drogue_q16 refit_cos_q16;      /* 0.87 (30 degrees): least cosine between gradient and normal that agrees */
-    uint32_t refit_rounds;         /* 3: times the band is applied; 0 keeps the fit of the arcs */
+    uint32_t refit_rounds;         /* 4: times the band is applied; 0 keeps the fit of the arcs */
     drogue_q16 min_cover_q16;      /* 0.45: least number of edge points that belong to the outline, over its
                                       circumference; half an outline gives about 0.45 */
     drogue_q16 optics_blur_px_q16; /* 0 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
