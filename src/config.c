@@ -28,6 +28,7 @@ void drogue_config_default(drogue_config *config)
     config->refit_cos_q16 = DROGUE_Q16(87, 100);
     config->refit_rounds = 4;
     config->min_cover_q16 = DROGUE_Q16(45, 100);
+    config->recentre_cover_q16 = DROGUE_Q16(85, 100);
     config->optics_blur_px_q16 = 0;
     config->min_dark_area_px = 9;
     config->max_ambiguity_q16 = DROGUE_Q16(1, 2);
@@ -48,7 +49,7 @@ int drogue_config_valid(const drogue_config *c)
            within(c->cluster.a_px_q16, 0, INT32_MAX) && within(c->cluster.b_px_q16, 0, INT32_MAX) &&
            within(c->cluster.angle_rad_q16, 0, INT32_MAX) && within(c->cluster.round_q16, 0, DROGUE_Q16_ONE) &&
            within(c->search_band_q16, 0, DROGUE_Q16_ONE) && within(c->refit_band_px_q16, 1, DROGUE_Q16(8, 1)) && within(c->refit_cos_q16, 0, DROGUE_Q16_ONE) &&
-           c->refit_rounds <= 16 && within(c->min_cover_q16, 0, DROGUE_Q16_ONE) &&
+           c->refit_rounds <= 16 && within(c->min_cover_q16, 0, DROGUE_Q16_ONE) && within(c->recentre_cover_q16, 0, DROGUE_Q16_ONE) &&
            within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) && within(c->max_ambiguity_q16, 0, DROGUE_Q16_ONE) &&
            within(c->inner_gate_q16, 0, INT32_MAX);
 }

@@ -106,41 +106,95 @@ static drogue_status choose(drogue_result *out, const drogue_pose poses[2], cons
     return DROGUE_OK;
 }
 
+/* Does the ring mask hold the whole outline? */
+static int ring_holds(const drogue_ellipse *e, const drogue_mask *mask)
+{
+    const int64_t dx = (int64_t)e->xc_px_q16 - (int64_t)mask->centre2_x * (DROGUE_Q16_ONE / 2);
+    const int64_t dy = (int64_t)e->yc_px_q16 - (int64_t)mask->centre2_y * (DROGUE_Q16_ONE / 2);
+    const int64_t off = (int64_t)drogue_isqrt_u64((uint64_t)(dx * dx + dy * dy));
+    const int64_t longest = (int64_t)mask->longest_px * DROGUE_Q16_ONE;
+    return 2 * (e->a_px_q16 + off + DROGUE_Q16_ONE) <= longest && 3 * (e->b_px_q16 - off - DROGUE_Q16_ONE) >= longest;
+}
+
+/* Square region whose ring mask suits an outline found in another region. */
+static drogue_region region_about(const drogue_ellipse *e, const drogue_region *found_in)
+{
+    const int64_t least = 2 * (int64_t)e->a_px_q16 + 4 * DROGUE_Q16_ONE;
+    const int64_t middle = (2 * (int64_t)e->a_px_q16 + 3 * (int64_t)e->b_px_q16) / 2;
+    const int32_t side = (int32_t)drogue_shr_round_s64(middle > least ? middle : least, 16);
+    drogue_region r;
+    r.x_px = found_in->x_px + (int32_t)drogue_shr_round_s64((int64_t)e->xc_px_q16 - (int64_t)(side - 1) * 32768, 16);
+    r.y_px = found_in->y_px + (int32_t)drogue_shr_round_s64((int64_t)e->yc_px_q16 - (int64_t)(side - 1) * 32768, 16);
+    r.width_px = side;
+    r.height_px = side;
+    return r;
+}
+
+/* A frame on its way. */
+typedef struct frame {
+    drogue_image view; /* the region's pixels */
+    drogue_mask mask;
+    drogue_outline outline;
+} frame;
+
+static drogue_status find_outline(drogue_result *out, frame *f, drogue_workspace *workspace,
+                                  const drogue_config *config, const drogue_image *image, const drogue_region *region)
+{
+    drogue_status status = place_region(&out->region, &f->mask, image, region);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    f->view.data = drogue_image_row(image, out->region.y_px) + out->region.x_px;
+    f->view.width_px = out->region.width_px;
+    f->view.height_px = out->region.height_px;
+    f->view.stride = image->stride;
+    status = run_frontend(&out->list, workspace, config, &f->view, &f->mask);
+    return status == DROGUE_OK ? drogue_outline_find(&f->outline, workspace, &out->list, &f->mask, config) : status;
+}
+
+/* An outline that the ring mask cuts is looked for once more in a region that suits it. */
+static drogue_status find_outline_twice(drogue_result *out, frame *f, drogue_workspace *workspace,
+                                        const drogue_config *config, const drogue_image *image,
+                                        const drogue_region *region)
+{
+    drogue_region better;
+    drogue_status status = find_outline(out, f, workspace, config, image, region);
+    if ((status != DROGUE_OK && status != DROGUE_E_NO_ELLIPSE) ||
+        f->outline.cover_q16 < drogue_shr_round_s64(config->min_cover_q16, 1) ||
+        f->outline.cover_q16 >= config->recentre_cover_q16 || ring_holds(&f->outline.ellipse, &f->mask)) {
+        return status;
+    }
+    better = region_about(&f->outline.ellipse, &out->region);
+    if ((uint32_t)better.width_px > workspace->capacity.width_px) {
+        return status;
+    }
+    return find_outline(out, f, workspace, config, image, &better);
+}
+
 static drogue_status measure(drogue_result *out, drogue_workspace *workspace, const drogue_config *config,
                              const drogue_camera *camera, const drogue_model *model, const drogue_image *image,
                              const drogue_region *region)
 {
-    drogue_outline outline;
+    frame f;
     drogue_pose poses[2];
-    drogue_mask mask;
-    drogue_image view;
-    drogue_status status = place_region(&out->region, &mask, image, region);
+    drogue_status status;
+    memset(&f, 0, sizeof f);
+    status = find_outline_twice(out, &f, workspace, config, image, region);
     if (status != DROGUE_OK) {
         return status;
     }
-    view.data = drogue_image_row(image, out->region.y_px) + out->region.x_px;
-    view.width_px = out->region.width_px;
-    view.height_px = out->region.height_px;
-    view.stride = image->stride;
-    status = run_frontend(&out->list, workspace, config, &view, &mask);
-    if (status == DROGUE_OK) {
-        status = drogue_outline_find(&outline, workspace, &out->list, &mask, config);
-    }
-    if (status != DROGUE_OK) {
-        return status;
-    }
-    memcpy(out->arcs, outline.arcs, sizeof out->arcs);
-    out->quality = outline.quality;
-    out->polarity = outline.polarity;
-    out->cluster_members = outline.cluster_members;
-    out->refit_points = outline.refit_points;
-    out->cover_q16 = outline.cover_q16;
-    out->ellipse = outline.ellipse;
+    memcpy(out->arcs, f.outline.arcs, sizeof out->arcs);
+    out->quality = f.outline.quality;
+    out->polarity = f.outline.polarity;
+    out->cluster_members = f.outline.cluster_members;
+    out->refit_points = f.outline.refit_points;
+    out->cover_q16 = f.outline.cover_q16;
+    out->ellipse = f.outline.ellipse;
     out->ellipse.xc_px_q16 = drogue_q16_add(out->ellipse.xc_px_q16, drogue_q16_from_int(out->region.x_px));
     out->ellipse.yc_px_q16 = drogue_q16_add(out->ellipse.yc_px_q16, drogue_q16_from_int(out->region.y_px));
     out->ideal = out->ellipse;
     if (drogue_camera_distorts(camera)) {
-        status = drogue_outline_undistorted(&out->ideal, &outline, workspace, &out->list, config, camera,
+        status = drogue_outline_undistorted(&out->ideal, &f.outline, workspace, &out->list, config, camera,
                                             out->region.x_px, out->region.y_px);
         if (status != DROGUE_OK) {
             memset(&out->ideal, 0, sizeof out->ideal);
@@ -148,7 +202,7 @@ static drogue_status measure(drogue_result *out, drogue_workspace *workspace, co
         }
     }
     if (model->inner_radius_m_q16 > 0) {
-        status = find_inner(&out->inner, workspace, config, &view, &outline.ellipse);
+        status = find_inner(&out->inner, workspace, config, &f.view, &f.outline.ellipse);
         if (status == DROGUE_OK) {
             out->has_inner = 1;
             out->inner.x_px_q16 = drogue_q16_add(out->inner.x_px_q16, drogue_q16_from_int(out->region.x_px));

@@ -34,6 +34,8 @@ typedef struct drogue_config {
     uint32_t refit_rounds;         /* 4: times the band is applied; 0 keeps the fit of the arcs */
     drogue_q16 min_cover_q16;      /* 0.45: least number of edge points that belong to the outline, over its
                                       circumference; half an outline gives about 0.45 */
+    drogue_q16 recentre_cover_q16; /* 0.85: an outline covered less than this that the ring mask cuts is looked for again
+                                      in a region about it; 0: never */
     drogue_q16 optics_blur_px_q16; /* 0 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
                                       draws a curved edge inward, which is put back (outline.h) */
     uint32_t min_dark_area_px;     /* 9 px: smaller dark parts are noise */
