@@ -31,11 +31,11 @@ void drogue_track_config_default(drogue_track_config *config)
     config->angle_std_rad_q16 = DROGUE_Q16(2, 100);
     config->position_floor_m_q16 = DROGUE_Q16(1, 10000);
     config->angle_floor_rad_q16 = DROGUE_Q16(5, 10000);
-    config->process_std_q16[DROGUE_X] = DROGUE_Q16(6, 100);
-    config->process_std_q16[DROGUE_Y] = DROGUE_Q16(6, 100);
-    config->process_std_q16[DROGUE_Z] = DROGUE_Q16(3, 100);
-    config->process_std_q16[DROGUE_PITCH] = DROGUE_Q16(3, 100);
-    config->process_std_q16[DROGUE_YAW] = DROGUE_Q16(3, 100);
+    config->process_std_q16[DROGUE_X] = DROGUE_Q16(1, 4);
+    config->process_std_q16[DROGUE_Y] = DROGUE_Q16(1, 4);
+    config->process_std_q16[DROGUE_Z] = DROGUE_Q16(2, 100);
+    config->process_std_q16[DROGUE_PITCH] = DROGUE_Q16(4, 100);
+    config->process_std_q16[DROGUE_YAW] = DROGUE_Q16(4, 100);
     config->start_rate_std_q16 = DROGUE_Q16(2, 1);
     config->start_accel_std_q16 = DROGUE_Q16(2, 1);
 }
@@ -197,6 +197,12 @@ void drogue_track_begin(drogue_region *region, drogue_track *track, uint32_t dt_
     track->search = track->first_region.width_px <= 0;
 }
 
+/* May a search's find start a track? Its inner part decided, or was at least seen within a good outline. */
+static int looks_whole(const drogue_result *result)
+{
+    return result->orientation_resolved || (result->has_inner && result->cover_q16 >= DROGUE_Q16(3, 4));
+}
+
 /* Look where the drogue is expected, then where it may be. 1 when a search found it. */
 static int look(drogue_result *result, const drogue_region *region, const drogue_track *track,
                 drogue_workspace *workspace, drogue_search *search, const drogue_config *config,
@@ -227,7 +233,7 @@ drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *regi
 {
     drogue_track_begin(region, track, dt_us);
     if (look(result, region, track, workspace, search, config, image) && track->state == DROGUE_LOST &&
-        track->model.inner_radius_m_q16 > 0 && !result->orientation_resolved) {
+        track->model.inner_radius_m_q16 > 0 && !looks_whole(result)) {
         return track->state;
     }
     return drogue_track_end(track, result);

@@ -27,8 +27,8 @@ static void configured_noise(measurement *m, const drogue_track_config *c)
     }
 }
 
-/* Noise from the result's covariance, whose order ends with yaw, pitch. The pose's twin has the same variances, but
- * its own correlations, which are not known: they count as none. */
+/* Noise from the result's covariance, whose order ends with yaw, pitch. The pose's twin has the same variances and the
+ * same correlations of position; those of its angles are its own, not known, and count as none. */
 static void measured_noise(measurement *m, const drogue_result *result, int twin, const drogue_track_config *c)
 {
     static const int from[DROGUE_PARAMETERS] = {0, 1, 2, 4, 3};
@@ -42,7 +42,7 @@ static void measured_noise(measurement *m, const drogue_result *result, int twin
             drogue_wide_add(drogue_wide_from_s64(own_q48 > 0 ? own_q48 : 0, -48), drogue_wide_mul(least, least));
         m->noise[DROGUE_PACKED(p, p)] = variance;
         m->std_q16[p] = at_least_one(drogue_wide_to_q16(drogue_wide_sqrt(variance)));
-        for (q = 0; q < p && !twin; q++) {
+        for (q = 0; q < p && !(twin && p > DROGUE_Z); q++) {
             m->noise[DROGUE_PACKED(p, q)] = drogue_wide_from_s64(result->covariance_q48[from[p]][from[q]], -48);
         }
     }
@@ -98,9 +98,37 @@ static void forget_angles(drogue_kalman *filter, const measurement *m, const dro
     restart(filter, DROGUE_YAW, m->value_q16[DROGUE_YAW], unknown_rad_q16, c);
 }
 
+/* Correct a filter. Off the optical axis the errors of x and y are mostly that of z, times the tangent of the bearing:
+ * the filter, whose parameters are independent, would take a wrong z for a wrong x. So what z's correction leaves of
+ * its innovation, r, is taken out of x and y by their regression on z, k = N_xz / N_zz: x - k r, with variance
+ * N_xx - k^2 N_zz of its own and k^2 P_zz of the corrected z. */
+static void correct(drogue_kalman *filter, const measurement *m, const drogue_track_config *c)
+{
+    const drogue_wide zz = m->noise[DROGUE_PACKED(DROGUE_Z, DROGUE_Z)];
+    const drogue_kalman3 *z = &filter->parameter[DROGUE_Z];
+    const drogue_wide shrink = drogue_wide_div(zz, drogue_wide_add(z->covariance[0], zz));
+    const drogue_wide rest =
+        drogue_wide_mul(drogue_wide_sub(drogue_wide_from_q16(m->value_q16[DROGUE_Z]), z->state[0]), shrink);
+    const drogue_wide variance = drogue_wide_mul(z->covariance[0], shrink);
+    const drogue_wide floor_m = drogue_wide_from_q16(at_least_one(c->position_floor_m_q16));
+    const drogue_wide least = drogue_wide_mul(floor_m, floor_m);
+    measurement own = *m;
+    int p;
+    for (p = DROGUE_X; p <= DROGUE_Y; p++) {
+        const drogue_wide k = drogue_wide_div(m->noise[DROGUE_PACKED(DROGUE_Z, p)], zz);
+        const drogue_wide k2 = drogue_wide_mul(k, k);
+        drogue_wide left = drogue_wide_sub(m->noise[DROGUE_PACKED(p, p)], drogue_wide_mul(k2, zz));
+        left = drogue_wide_add(drogue_wide_cmp(left, least) < 0 ? least : left, drogue_wide_mul(k2, variance));
+        own.value_q16[p] =
+            drogue_wide_to_q16(drogue_wide_sub(drogue_wide_from_q16(m->value_q16[p]), drogue_wide_mul(k, rest)));
+        own.std_q16[p] = at_least_one(drogue_wide_to_q16(drogue_wide_sqrt(left)));
+    }
+    drogue_kalman_correct(filter, own.value_q16, own.std_q16);
+}
+
 static drogue_track_state believe(drogue_track *track, const measurement *m)
 {
-    drogue_kalman_correct(&track->filter, m->value_q16, m->std_q16);
+    correct(&track->filter, m, &track->config);
     track->missed = 0;
     track->agreeing = 0;
     track->state = DROGUE_TRACKING;
@@ -124,7 +152,7 @@ static drogue_track_state refuse(drogue_track *track, const measurement *m, int 
     track->gated = 1;
     track->missed++;
     if (track->agreeing > 0 && passes(&track->second, m, DROGUE_PARAMETERS, c->gate_q16)) {
-        drogue_kalman_correct(&track->second, m->value_q16, m->std_q16);
+        correct(&track->second, m, c);
         track->agreeing++;
         track->second_known |= resolved;
     } else {

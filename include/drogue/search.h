@@ -5,20 +5,19 @@
  * of the drogue's size. In each level a cell that is darker than a circle of eight cells about it, for one of three
  * radii, is a dark disc; rays from it look for the rim, and a circle through what they meet gives centre and size.
  * The inner part is darker than the canopy on every background, so neither the canopy's own grey nor the
- * background's matters. The best few are candidate regions for drogue_measure(). */
+ * background's matters. The best few are regions for drogue_measure(). */
 #ifndef DROGUE_SEARCH_H
 #define DROGUE_SEARCH_H
 
 #include "drogue/drogue.h"
+#include "drogue/rim.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define DROGUE_SEARCH_MAX 8      /* candidates */
-#define DROGUE_SEARCH_LEVELS 6   /* block means of 2 to 64 px a side: semi-axes from 12 to 800 px */
-#define DROGUE_SEARCH_ROWS 48    /* rows that a level keeps */
-#define DROGUE_SEARCH_PENDING 16 /* dark discs of a level that may still grow with the next row */
+#define DROGUE_SEARCH_MAX 8    /* candidates */
+#define DROGUE_SEARCH_LEVELS 6 /* block means of 2 to 64 px a side: semi-axes from 12 to 800 px */
 
 /* Bytes of memory for frames up to the given width: 100352 for 2048 px. Usable in a static array's size. */
 #define DROGUE_SEARCH_BYTES(width_px) ((size_t)(width_px) * (DROGUE_SEARCH_ROWS + 1u))
@@ -29,23 +28,8 @@ typedef struct drogue_sighting {
     int32_t x_px;         /* middle of the outline, about */
     int32_t y_px;
     int32_t radius_px;
-    uint32_t score; /* by evenness and contrast of disc and rim; compares candidates of one frame */
+    uint32_t score; /* by evenness and contrast of disc and rim; compares sightings of one frame */
 } drogue_sighting;
-
-typedef struct drogue_dark_disc {
-    int32_t x; /* cells */
-    int32_t y;
-    int32_t scale;
-    int32_t contrast;
-} drogue_dark_disc;
-
-typedef struct drogue_search_level {
-    uint8_t *rows; /* DROGUE_SEARCH_ROWS x width, a ring */
-    int32_t width; /* cells */
-    int32_t rows_in;
-    int32_t pending_count;
-    drogue_dark_disc pending[DROGUE_SEARCH_PENDING];
-} drogue_search_level;
 
 /* A search in progress; set by drogue_search_init(). */
 typedef struct drogue_search {
@@ -73,16 +57,16 @@ drogue_status drogue_search_begin(drogue_search *search, int32_t width_px);
 /* Feed the next row, width_px grey levels; the row is copied. */
 void drogue_search_row(drogue_search *search, const uint8_t *row);
 
-/* End the frame: search->best[0 .. count - 1] are its candidates. Returns the count. */
+/* End the frame: search->best[0 .. count - 1] are its sightings. Returns the count. */
 int32_t drogue_search_end(drogue_search *search);
 
-/* Search a part of an image, and measure the candidates in order of score until one's inner part decides its
- * orientation; of others the best: with inner part before without, then by cover. With region NULL or the
- * region's middle for candidates that fail, the region itself is the last candidate.
+/* Search a part of an image, and measure what was sighted in order of score, last the part itself with the drogue
+ * about its middle, until an inner part decides the orientation. When none does, the best is the result: one with an
+ * inner part before one without, then by cover.
  *
  *  out     as of drogue_measure()
  *  region  where to search; NULL: the whole image
- *  return  DROGUE_OK; DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else the status of the last candidate
+ *  return  DROGUE_OK; DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else the status of the last that was measured
  */
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_config *config, const drogue_camera *camera, const drogue_model *model,
