@@ -77,7 +77,7 @@ static void follow_rays(rays *r, const drogue_search_level *level, const drogue_
         int32_t best = 0;
         int32_t t;
         r->used[i] = 0;
-        for (t = first - 1; t <= last + 1; t++) {
+        for (t = first; t <= last + 1; t++) {
             const int32_t x = disc->x + ((ray_x[i] * t + 128) >> 8);
             const int32_t y = disc->y + ((ray_y[i] * t + 128) >> 8);
             int32_t next;
@@ -85,7 +85,11 @@ static void follow_rays(rays *r, const drogue_search_level *level, const drogue_
                 break;
             }
             next = drogue_search_level_row(level, y)[x];
-            if (t > first && sign * (next - before) > best) { /* across the step at t - 1 */
+            if (t == first) { /* what is nearer may belong to the disc */
+                before = here = next;
+                continue;
+            }
+            if (sign * (next - before) > best) { /* across the step at t - 1 */
                 best = sign * (next - before);
                 r->x_q4[i] = (ray_x[i] * (t - 1)) >> 4;
                 r->y_q4[i] = (ray_y[i] * (t - 1)) >> 4;

@@ -146,7 +146,10 @@ START_TEST(every_size_tilt_and_shade)
         centre[0] = z * room * at[0];
         centre[1] = z * room * at[1];
         centre[2] = z;
-        rim = draw_drogue(&f, centre, 0.4 * at[2], 0.4 * at[3], &all_shades[i % 3]);
+        /* tilted to 30 degrees from the line of sight */
+        rim = draw_drogue(&f, centre, atan2(centre[0], z) + 0.52 * at[2] * cos(TEST_PI * at[3]),
+                          atan2(centre[1], hypot(centre[0], z)) + 0.52 * at[2] * sin(TEST_PI * at[3]),
+                          &all_shades[i % 3]);
         (void)run(&s.search, &f);
         rank = rank_of(&s.search, &rim);
         MUST(rank >= 0,
