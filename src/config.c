@@ -36,8 +36,9 @@ void drogue_config_default(drogue_config *config)
     config->max_fill_q16 = DROGUE_Q16(14, 10);
     config->outline_std_px_q16 = DROGUE_Q16(1, 100);
     config->optics_blur_std_px2_q16 = DROGUE_Q16(12, 100);
-    config->inner_std_px_q16 = DROGUE_Q16(4, 100);
-    config->inner_std_share_q16 = DROGUE_Q16(3, 1000);
+    config->inner_std_px_q16 = DROGUE_Q16(3, 100);
+    config->inner_std_share_q16 = DROGUE_Q16(2, 1000);
+    config->inner_std_spread_q16 = DROGUE_Q16(5, 10);
     config->max_chi2_q16 = DROGUE_Q16(16, 1);
     config->min_chi2_gap_q16 = DROGUE_Q16(9, 1);
 }
@@ -62,5 +63,6 @@ int drogue_config_valid(const drogue_config *c)
            within(c->outline_std_px_q16, 1, DROGUE_Q16(16, 1)) &&
            within(c->optics_blur_std_px2_q16, 0, DROGUE_Q16(16, 1)) &&
            within(c->inner_std_px_q16, 1, DROGUE_Q16(16, 1)) && within(c->inner_std_share_q16, 0, DROGUE_Q16_ONE) &&
+           within(c->inner_std_spread_q16, 0, DROGUE_Q16(16, 1)) &&
            within(c->max_chi2_q16, 0, INT32_MAX) && within(c->min_chi2_gap_q16, 0, INT32_MAX);
 }

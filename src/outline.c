@@ -248,17 +248,17 @@ static drogue_status collect_outline(collection *c, drogue_support *support, con
     return DROGUE_OK;
 }
 
-/* Band for the next round: three times the spread of the points about the ellipse, from the configured width to the
- * last one. */
+/* Band for the next round: three times the spread of the points about the ellipse, from a third of the configured width
+ * to the last one: what stands out of the outline, as a hose or a fitting behind the rim, drops out. */
 static void narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
                    const drogue_config *config)
 {
     const int64_t variance_q32 = support->points > 0 ? support->squares_q32 / (int64_t)support->points : 0;
     const int64_t spread_px_q16 = drogue_shr_round_s64(
         3 * (int64_t)drogue_isqrt_u64((uint64_t)variance_q32) * e->a_px_q16, 16);
+    const drogue_q16 least = config->refit_band_px_q16 / 3 + 1;
     if (spread_px_q16 < band->half_width_px_q16) {
-        band->half_width_px_q16 =
-            spread_px_q16 < config->refit_band_px_q16 ? config->refit_band_px_q16 : (drogue_q16)spread_px_q16;
+        band->half_width_px_q16 = spread_px_q16 < least ? least : (drogue_q16)spread_px_q16;
     }
 }
 
@@ -282,6 +282,7 @@ static void refit(drogue_outline *outline, const context *x)
         narrow(&band, &outline->support, &ellipse, config);
     }
     if (collect_outline(&c, &outline->support, &outline->ellipse, &band, x) == DROGUE_OK) {
+        outline->band_px_q16 = band.half_width_px_q16;
         outline->cover_q16 = drogue_support_cover(&outline->support);
         outline->polarity = outline->support.bright_bins == 0            ? DROGUE_POLARITY_DARK
                             : outline->support.bright_bins == UINT32_MAX ? DROGUE_POLARITY_BRIGHT
@@ -374,7 +375,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
                                          const drogue_config *config, const drogue_camera *camera, int32_t x_px,
                                          int32_t y_px)
 {
-    const drogue_band band = band_about(&outline->ellipse, 0, config);
+    const drogue_band band = {outline->band_px_q16, config->refit_cos_q16};
     drogue_support support = outline->support;
     drogue_ellipse_frame frame;
     drogue_ellipse centre = outline->ellipse;

@@ -47,6 +47,7 @@ typedef struct drogue_config {
     drogue_q16 optics_blur_std_px2_q16; /* 0.12 px^2: uncertainty of half the variance of the optics' blur */
     drogue_q16 inner_std_px_q16;    /* 0.04 px: standard deviation of the inner centroid, */
     drogue_q16 inner_std_share_q16; /* 0.003: and what its size adds, as a share of the disc's semi-axis */
+    drogue_q16 inner_std_spread_q16; /* 1: and what its spread over thresholds adds, as a factor */
     drogue_q16 max_chi2_q16;        /* 16: outline and inner part contradict each other above this */
     drogue_q16 min_chi2_gap_q16;    /* 9: the orientation is resolved when the other pose is worse by so much */
 } drogue_config;
