@@ -32,9 +32,9 @@ void drogue_config_default(drogue_config *config)
     config->optics_blur_px_q16 = DROGUE_Q16(6, 10);
     config->min_dark_area_px = 9;
     config->inner_gate_q16 = DROGUE_Q16(1, 4);
-    config->min_fill_q16 = DROGUE_Q16(7, 10);
-    config->max_fill_q16 = DROGUE_Q16(14, 10);
-    config->outline_std_px_q16 = DROGUE_Q16(1, 100);
+    config->min_fill_q16 = DROGUE_Q16(75, 100);
+    config->max_fill_q16 = DROGUE_Q16(125, 100);
+    config->outline_shading_q16 = DROGUE_Q16(38, 10);
     config->optics_blur_std_px2_q16 = DROGUE_Q16(12, 100);
     config->inner_std_px_q16 = DROGUE_Q16(3, 100);
     config->inner_std_share_q16 = DROGUE_Q16(2, 1000);
@@ -60,7 +60,7 @@ int drogue_config_valid(const drogue_config *c)
            c->refit_rounds <= 16 && within(c->min_cover_q16, 0, DROGUE_Q16_ONE) && within(c->recentre_cover_q16, 0, DROGUE_Q16_ONE) &&
            within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) &&
            within(c->inner_gate_q16, 0, INT32_MAX) && within(c->min_fill_q16, 0, c->max_fill_q16) &&
-           within(c->outline_std_px_q16, 1, DROGUE_Q16(16, 1)) &&
+           within(c->outline_shading_q16, 1, DROGUE_Q16(1024, 1)) &&
            within(c->optics_blur_std_px2_q16, 0, DROGUE_Q16(16, 1)) &&
            within(c->inner_std_px_q16, 1, DROGUE_Q16(16, 1)) && within(c->inner_std_share_q16, 0, DROGUE_Q16_ONE) &&
            within(c->inner_std_spread_q16, 0, DROGUE_Q16(16, 1)) &&

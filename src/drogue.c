@@ -265,7 +265,7 @@ static drogue_status solve(drogue_result *out, const drogue_pose poses[2], const
     uint32_t best = 0;
     int trusted = inner->std_px_q16 > 0;
     outline.ellipse = out->ideal;
-    status = drogue_joint_outline_covariance(&outline, &f->outline.support, config->outline_std_px_q16,
+    status = drogue_joint_outline_covariance(&outline, &f->outline.support, config->outline_shading_q16,
                                              config->optics_blur_std_px2_q16);
     if (status == DROGUE_OK && trusted) {
         status = solve_both(joint, &best, poses, &outline, inner, camera, model);

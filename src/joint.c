@@ -36,14 +36,14 @@ static void bin_direction(int32_t *c_q30, int32_t *s_q30, uint32_t k)
 }
 
 drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
-                                              drogue_q16 floor_px_q16, drogue_q16 blur_px2_q16)
+                                              drogue_q16 shading_q16, drogue_q16 blur_px2_q16)
 {
     const wide a = drogue_wide_from_q16(outline->ellipse.a_px_q16);
     const wide b = drogue_wide_from_q16(outline->ellipse.b_px_q16);
     int64_t sum_q30[DROGUE_PACKED_MAX]; /* information: points times products of the basis functions */
     wide information[DROGUE_PACKED_MAX];
     wide scatter = {0, 0};
-    wide floor_share;
+    wide shading_share;
     wide blur_share;
     uint32_t bins = 0;
     uint32_t k;
@@ -73,7 +73,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
             }
         }
     }
-    if (bins <= FIT_PARAMETERS) {
+    if (bins <= FIT_PARAMETERS || support->gradient == 0) {
         return DROGUE_E_DEGENERATE;
     }
     scatter = drogue_wide_div(scatter, integer((int64_t)bins - FIT_PARAMETERS));
@@ -84,14 +84,15 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
         return DROGUE_E_DEGENERATE;
     }
     drogue_cholesky_invert(outline->covariance, information, FIT_PARAMETERS);
-    floor_share = drogue_wide_div(drogue_wide_from_q16(floor_px_q16), a);
+    shading_share = drogue_wide_div(mul(drogue_wide_from_q16(shading_q16), integer(support->points)),
+                                    mul(a, integer((int64_t)support->gradient)));
     blur_share = drogue_wide_div(drogue_wide_from_q16(blur_px2_q16), mul(a, b));
     for (i = 0; i < FIT_PARAMETERS; i++) {
         for (j = 0; j <= i; j++) {
             outline->covariance[DROGUE_PACKED(i, j)] = mul(outline->covariance[DROGUE_PACKED(i, j)], scatter);
         }
         outline->covariance[DROGUE_PACKED(i, i)] =
-            add(outline->covariance[DROGUE_PACKED(i, i)], mul(floor_share, floor_share));
+            add(outline->covariance[DROGUE_PACKED(i, i)], mul(shading_share, shading_share));
     }
     outline->covariance[0] = add(outline->covariance[0], mul(blur_share, blur_share));
     return DROGUE_OK;

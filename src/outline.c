@@ -241,7 +241,7 @@ static drogue_status collect_outline(collection *c, drogue_support *support, con
         const drogue_edge *e = &x->workspace->edges[i];
         drogue_band_point p;
         if (drogue_ellipse_band_holds(&p, &frame, band, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy) &&
-            drogue_support_add(support, &p)) {
+            drogue_support_add(support, &p, e)) {
             collect_point(c, drogue_edge_x_q16(e), drogue_edge_y_q16(e));
         }
     }
@@ -396,7 +396,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         drogue_q16 x = drogue_edge_x_q16(e);
         drogue_q16 y = drogue_edge_y_q16(e);
         drogue_band_point p;
-        if (drogue_ellipse_band_holds(&p, &frame, &band, x, y, e->gx, e->gy) && drogue_support_add(&support, &p)) {
+        if (drogue_ellipse_band_holds(&p, &frame, &band, x, y, e->gx, e->gy) && drogue_support_add(&support, &p, e)) {
             members++;
             x = drogue_q16_add(x, drogue_q16_from_int(x_px));
             y = drogue_q16_add(y, drogue_q16_from_int(y_px));

@@ -43,7 +43,8 @@ typedef struct drogue_config {
                                       semi-axis of where a pose expects it */
     drogue_q16 min_fill_q16;       /* 0.7, 1.4: and when its area over the expected disc's is between these */
     drogue_q16 max_fill_q16;
-    drogue_q16 outline_std_px_q16; /* 0.01 px: error of the outline that its own residuals cannot show */
+    drogue_q16 outline_shading_q16; /* 3.8 px grey * 8: error of the outline that its own residuals cannot show, over
+                                       the gradient along it (joint.h) */
     drogue_q16 optics_blur_std_px2_q16; /* 0.12 px^2: uncertainty of half the variance of the optics' blur */
     drogue_q16 inner_std_px_q16;    /* 0.04 px: standard deviation of the inner centroid, */
     drogue_q16 inner_std_share_q16; /* 0.003: and what its size adds, as a share of the disc's semi-axis */

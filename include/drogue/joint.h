@@ -38,13 +38,14 @@ typedef struct drogue_joint {
  * and shape together however far they are correlated along the edge.
  *
  *  support  of the last fit
- *  floor    standard deviation of what the residuals cannot show, px, in every parameter
+ *  shading  what the residuals cannot show, as light that changes along the outline, moves an edge by this over its
+ *           gradient (|gx| + |gy|, grey levels * 8): px times that unit, standard deviation in every parameter
  *  blur     standard deviation of half the variance of the optics' blur, px^2 Q16: moves the whole outline in or out
  *  return   DROGUE_OK; DROGUE_E_DEGENERATE when too few bins hold points
  *  source   the fit's normal equations; (50) of the paper in closed form
  */
 drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
-                                              drogue_q16 floor_px_q16, drogue_q16 blur_px2_q16);
+                                              drogue_q16 shading_q16, drogue_q16 blur_px2_q16);
 
 /* Solve for the pose.
  *
