@@ -349,9 +349,9 @@ drogue_q16 drogue_dark_fill(const drogue_dark_part *part, const drogue_ellipse *
 /* How badly a part fits an expected disc: distance in its semi-axes plus the share by which the areas differ, Q16. */
 static drogue_q16 misfit(const drogue_dark_part *part, const drogue_ellipse *expected)
 {
-    const drogue_q16 away = drogue_q16_div(
-        drogue_sat_s32((int64_t)drogue_isqrt_u64(
-            (uint64_t)distance2_q32(part, expected->xc_px_q16, expected->yc_px_q16))), expected->a_px_q16);
+    const drogue_q16 away = drogue_q16_div(drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)distance2_q32(
+                                               part, expected->xc_px_q16, expected->yc_px_q16))),
+                                           expected->a_px_q16);
     const int64_t fill = (int64_t)drogue_dark_fill(part, expected) - DROGUE_Q16_ONE;
     return drogue_sat_s32(away + (fill < 0 ? -fill : fill));
 }

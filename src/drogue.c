@@ -192,7 +192,8 @@ static int trust_inner(const drogue_result *out, const drogue_ellipse *expected,
         return 0;
     }
     drogue_ellipse_frame_point(&u_q24, &v_q24, &rim, out->inner.x_px_q16, out->inner.y_px_q16);
-    room_q24 = (INT64_C(1) << 24) - drogue_div_round_s64((int64_t)expected->a_px_q16 << 24, f->outline.ellipse.b_px_q16);
+    room_q24 =
+        (INT64_C(1) << 24) - drogue_div_round_s64((int64_t)expected->a_px_q16 << 24, f->outline.ellipse.b_px_q16);
     return room_q24 > 0 && (int64_t)u_q24 * u_q24 + (int64_t)v_q24 * v_q24 <= room_q24 * room_q24;
 }
 
@@ -269,8 +270,8 @@ static drogue_status solve(drogue_result *out, const drogue_pose poses[2], const
                                              config->optics_blur_std_px2_q16);
     if (status == DROGUE_OK && trusted) {
         status = solve_both(joint, &best, poses, &outline, inner, camera, model);
-        trusted = status == DROGUE_OK &&
-                  drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
+        trusted =
+            status == DROGUE_OK && drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
     }
     if (status == DROGUE_OK && !trusted) {
         status = solve_both(joint, &best, poses, &outline, &none, camera, model);
