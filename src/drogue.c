@@ -240,16 +240,24 @@ static int same_solution(const drogue_joint *p, const drogue_joint *q)
            drogue_wide_cmp(drogue_wide_mul(pitch, pitch), p->covariance[DROGUE_PACKED(4, 4)]) <= 0;
 }
 
-/* Solve from both poses; 'best' is the one that explains outline and inner part better. */
+#define STEPS 5 /* most Gauss-Newton steps of the pose taken: the start is within a few degrees */
+
+/* Solve from the pose nearer to the inner part, and far enough from the other one to know how much worse it is. */
 static drogue_status solve_both(drogue_joint joint[2], uint32_t *best, const drogue_pose poses[2],
                                 const drogue_joint_outline *outline, const drogue_joint_inner *inner,
-                                const drogue_camera *camera, const drogue_model *model)
+                                const drogue_camera *camera, const drogue_model *model, uint32_t nearer)
 {
-    drogue_status status = drogue_joint_solve(&joint[0], &poses[0], outline, inner, camera, model);
+    const int with_inner = inner->std_px_q16 > 0;
+    drogue_status status = drogue_joint_solve(&joint[nearer], &poses[nearer], outline, inner, camera, model,
+                                              with_inner ? STEPS : 0);
+    *best = nearer;
     if (status == DROGUE_OK) {
-        status = drogue_joint_solve(&joint[1], &poses[1], outline, inner, camera, model);
+        status = drogue_joint_solve(&joint[1 - nearer], &poses[1 - nearer], outline, inner, camera, model, with_inner);
     }
-    *best = status == DROGUE_OK && drogue_wide_cmp(joint[1].chi2, joint[0].chi2) < 0;
+    if (status == DROGUE_OK && drogue_wide_cmp(joint[1 - nearer].chi2, joint[nearer].chi2) < 0) {
+        *best = 1 - nearer;
+        status = drogue_joint_solve(&joint[*best], &poses[*best], outline, inner, camera, model, STEPS);
+    }
     return status;
 }
 
@@ -257,7 +265,7 @@ static drogue_status solve_both(drogue_joint joint[2], uint32_t *best, const dro
  * part decided between the two. */
 static drogue_status solve(drogue_result *out, const drogue_pose poses[2], const frame *f,
                            const drogue_joint_inner *inner, const drogue_config *config, const drogue_camera *camera,
-                           const drogue_model *model)
+                           const drogue_model *model, uint32_t nearer)
 {
     const drogue_joint_inner none = {0, 0, 0};
     drogue_joint_outline outline;
@@ -269,12 +277,12 @@ static drogue_status solve(drogue_result *out, const drogue_pose poses[2], const
     status = drogue_joint_outline_covariance(&outline, &f->outline.support, config->outline_shading_q16,
                                              config->optics_blur_std_px2_q16);
     if (status == DROGUE_OK && trusted) {
-        status = solve_both(joint, &best, poses, &outline, inner, camera, model);
-        trusted =
-            status == DROGUE_OK && drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
+        status = solve_both(joint, &best, poses, &outline, inner, camera, model, nearer);
+        trusted = status == DROGUE_OK &&
+                  drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
     }
     if (status == DROGUE_OK && !trusted) {
-        status = solve_both(joint, &best, poses, &outline, &none, camera, model);
+        status = solve_both(joint, &best, poses, &outline, &none, camera, model, nearer);
     }
     if (status != DROGUE_OK) {
         return DROGUE_E_DOMAIN;
@@ -313,6 +321,7 @@ static drogue_status measure(drogue_result *out, drogue_workspace *workspace, co
     drogue_choice choice;
     drogue_status status;
     memset(&f, 0, sizeof f);
+    memset(&choice, 0, sizeof choice);
     status = find_outline_twice(out, &f, workspace, config, image, region);
     if (status != DROGUE_OK) {
         return status;
@@ -344,7 +353,7 @@ static drogue_status measure(drogue_result *out, drogue_workspace *workspace, co
             status = DROGUE_OK;
         }
     }
-    return status == DROGUE_OK ? solve(out, poses, &f, &inner, config, camera, model) : status;
+    return status == DROGUE_OK ? solve(out, poses, &f, &inner, config, camera, model, choice.index) : status;
 }
 
 drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_config *config,

@@ -10,7 +10,9 @@
 #define EDGE_FRAC 5                     /* edge points are Q5 */
 #define LOOKS 512                       /* a candidate is scored by so many edge points, evenly taken */
 #define TRIES 3                         /* candidates refined before the best of them is taken */
-#define GOOD_COVER_Q16 DROGUE_Q16(3, 4) /* no further try */
+#define GOOD_COVER_Q16 DROGUE_Q16(3, 4)    /* no further try */
+#define ENOUGH_COVER_Q16 DROGUE_Q16(9, 10) /* no further candidate */
+#define SETTLED_Q16 DROGUE_Q16(1, 256)     /* px: an ellipse that a refit moves by less has settled */
 
 /* The candidates' arcs, and what each of them sums to. */
 typedef struct arc_set {
@@ -136,16 +138,24 @@ static int try_arcs(drogue_candidate *out, drogue_quality *quality, const arc_se
     return quality->fit_ratio_q16 >= c->config->min_fit_ratio_q16;
 }
 
-/* All pairs of arcs from two quadrants, and the first arcs of all quadrants together; returns how many. */
-static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const arc_set *set, const context *c)
+/* The first arcs of all quadrants together; unless they cover enough, all pairs of arcs from two quadrants too. Returns
+ * how many candidates there are. */
+static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const arc_set *set,
+                               const context *c)
 {
     drogue_quality quality;
-    uint8_t chosen[4] = {0, 0, 0, 0};
-    uint32_t count = 0;
-    uint32_t present = 0;
+    uint8_t chosen[4];
+    uint32_t count;
     int k;
     int l;
     int i;
+    for (k = 0; k < 4; k++) {
+        chosen[k] = set->arc[k][0] != NULL;
+    }
+    count = (uint32_t)try_arcs(&candidates[0], &quality, set, chosen, c);
+    if (count == 1 && quality.length_ratio_q16 >= ENOUGH_COVER_Q16) {
+        return 1;
+    }
     for (k = 0; k < 4; k++) {
         for (l = k + 1; l < 4; l++) {
             for (i = 0; i < DROGUE_ARC_CHOICES * DROGUE_ARC_CHOICES; i++) {
@@ -157,13 +167,6 @@ static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES
                 }
             }
         }
-    }
-    for (k = 0; k < 4; k++) {
-        chosen[k] = set->arc[k][0] != NULL;
-        present += chosen[k];
-    }
-    if (present != 2) { /* two: was a pair */
-        count += (uint32_t)try_arcs(&candidates[count], &quality, set, chosen, c);
     }
     return count;
 }
@@ -223,18 +226,20 @@ static void undo_blur(drogue_ellipse *e, const drogue_config *config)
         drogue_wide_to_q16(drogue_wide_add(b, drogue_wide_div(drogue_wide_mul(half, b), drogue_wide_mul(a, a))));
 }
 
-/* Collect the edge points that belong to an outline: counts and residuals by bin, and their moments. */
+/* Collect the edge points that belong to an outline: counts by bin, residuals and moments. Bins have the polarity that
+ * the collection before gave them. */
 static drogue_status collect_outline(collection *c, drogue_support *support, const drogue_ellipse *ellipse,
                                      const drogue_band *band, const context *x)
 {
+    const uint32_t bright_bins = support->bright_bins;
     drogue_ellipse_frame frame;
     drogue_status status = drogue_ellipse_frame_of(&frame, ellipse);
     uint32_t i;
     if (status != DROGUE_OK) {
         return status;
     }
-    drogue_support_count(support, &frame, band, x->workspace->edges, x->list->edge_count, 1);
-    drogue_support_judge(support, ellipse, x->config->polarity, 1);
+    memset(support, 0, sizeof *support);
+    support->bright_bins = bright_bins;
     collection_begin(c, ellipse, (int64_t)ellipse->a_px_q16 + 16 * DROGUE_Q16_ONE);
     for (i = 0; i < x->list->edge_count; i++) {
         const drogue_edge *e = &x->workspace->edges[i];
@@ -245,6 +250,19 @@ static drogue_status collect_outline(collection *c, drogue_support *support, con
         }
     }
     return DROGUE_OK;
+}
+
+static int settled(const drogue_ellipse *p, const drogue_ellipse *q)
+{
+    const int64_t d[4] = {(int64_t)p->xc_px_q16 - q->xc_px_q16, (int64_t)p->yc_px_q16 - q->yc_px_q16,
+                          (int64_t)p->a_px_q16 - q->a_px_q16, (int64_t)p->b_px_q16 - q->b_px_q16};
+    int k;
+    for (k = 0; k < 4; k++) {
+        if (d[k] > SETTLED_Q16 || d[k] < -SETTLED_Q16) {
+            return 0;
+        }
+    }
+    return 1;
 }
 
 /* Band for the next round: three times the spread of the points about the ellipse, from a third of the configured width
@@ -261,32 +279,36 @@ static void narrow(drogue_band *band, const drogue_support *support, const drogu
     }
 }
 
-/* Refit on the points that belong to the outline, as often as configured; stops at the last good fit. Judges the
- * outline by the share of its circumference that they cover. */
+/* Refit on the points that belong to the outline until it settles, as often as configured; stops at the last good fit.
+ * Judges the outline by the share of its circumference that they cover. */
 static void refit(drogue_outline *outline, const context *x)
 {
     const drogue_config *config = x->config;
     drogue_band band = band_about(&outline->ellipse, config->search_band_q16, config);
-    drogue_ellipse ellipse;
     collection c;
     uint32_t round;
-    outline->refit_points = 0;
-    for (round = 0; round < config->refit_rounds; round++) {
-        if (collect_outline(&c, &outline->support, &outline->ellipse, &band, x) != DROGUE_OK ||
-            collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, config)) {
+    int done = 0;
+    for (round = 0; round <= config->refit_rounds && !done; round++) {
+        drogue_ellipse ellipse;
+        const drogue_q16 width = band.half_width_px_q16;
+        if (collect_outline(&c, &outline->support, &outline->ellipse, &band, x) != DROGUE_OK) {
+            return;
+        }
+        drogue_support_judge(&outline->support, &outline->ellipse, config->polarity, 1);
+        outline->band_px_q16 = width;
+        if (round == config->refit_rounds || collection_fit(&ellipse, &c) != DROGUE_OK ||
+            !plausible(&ellipse, x->mask, config)) {
             break;
         }
+        narrow(&band, &outline->support, &ellipse, config);
+        done = band.half_width_px_q16 == width && settled(&ellipse, &outline->ellipse);
         outline->ellipse = ellipse;
         outline->refit_points = (uint32_t)c.moments.n;
-        narrow(&band, &outline->support, &ellipse, config);
     }
-    if (collect_outline(&c, &outline->support, &outline->ellipse, &band, x) == DROGUE_OK) {
-        outline->band_px_q16 = band.half_width_px_q16;
-        outline->cover_q16 = drogue_support_cover(&outline->support);
-        outline->polarity = outline->support.bright_bins == 0            ? DROGUE_POLARITY_DARK
-                            : outline->support.bright_bins == UINT32_MAX ? DROGUE_POLARITY_BRIGHT
-                                                                         : DROGUE_POLARITY_BOTH;
-    }
+    outline->cover_q16 = drogue_support_cover(&outline->support);
+    outline->polarity = outline->support.bright_bins == 0            ? DROGUE_POLARITY_DARK
+                        : outline->support.bright_bins == UINT32_MAX ? DROGUE_POLARITY_BRIGHT
+                                                                     : DROGUE_POLARITY_BOTH;
 }
 
 /* Describe and refine a candidate. */
@@ -302,6 +324,7 @@ static void refine(drogue_outline *out, const drogue_candidate *candidate, const
     }
     (void)try_arcs(&again, &out->quality, set, chosen, c); /* once more, for its quality */
     out->ellipse = candidate->ellipse;
+    out->support.bright_bins = candidate->polarity;
     refit(out, c);
 }
 

@@ -39,12 +39,13 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
 int drogue_support_add(drogue_support *support, const drogue_band_point *p, const drogue_edge *edge)
 {
     const uint32_t k = drogue_support_bin_of(p->u_q24, p->v_q24);
-    const int64_t offset_q16 = drogue_shr_round_s64(p->f_q24, 9);
+    const int32_t offset_q16 = (p->f_q24 + 256) >> 9;
+    support->bin[k].count[p->polarity]++;
     if (((support->bright_bins >> k) & 1u) != (uint32_t)p->polarity) {
         return 0;
     }
-    support->bin[k].sum_q16 += (int32_t)offset_q16;
-    support->squares_q32 += offset_q16 * offset_q16;
+    support->bin[k].sum_q16 += offset_q16;
+    support->squares_q32 += (int64_t)offset_q16 * offset_q16;
     support->gradient +=
         (uint64_t)(edge->gx < 0 ? -edge->gx : edge->gx) + (uint64_t)(edge->gy < 0 ? -edge->gy : edge->gy);
     support->points++;
