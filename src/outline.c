@@ -92,12 +92,12 @@ typedef struct context {
 } context;
 
 /* Fit and score the union of the arcs chosen[k] - 1 of each quadrant k (0: none); 0 when it is no candidate. */
-static int try_arcs(drogue_candidate *out, drogue_quality *quality, const arc_set *set, const uint8_t chosen[4],
-                    const context *c)
+static int try_arcs(drogue_candidate *out, const arc_set *set, const uint8_t chosen[4], const context *c)
 {
     const uint32_t stride = c->list->edge_count / LOOKS + 1;
     drogue_moments sum;
     drogue_ellipse_frame frame;
+    drogue_quality quality;
     drogue_support support;
     drogue_band band;
     drogue_q16 threshold;
@@ -131,11 +131,13 @@ static int try_arcs(drogue_candidate *out, drogue_quality *quality, const arc_se
     }
     drogue_support_count(&support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);
     drogue_support_judge(&support, &out->ellipse, c->config->polarity, stride);
-    drogue_quality_of_cover(quality, &out->ellipse, near_count, (uint32_t)sum.n, drogue_support_cover(&support),
+    drogue_quality_of_cover(&quality, &out->ellipse, near_count, (uint32_t)sum.n, drogue_support_cover(&support),
                             &c->config->quality);
-    out->reliability_q16 = quality->reliability_q16;
+    out->reliability_q16 = quality.reliability_q16;
+    out->fit_ratio_q16 = quality.fit_ratio_q16;
+    out->cover_q16 = quality.length_ratio_q16;
     out->polarity = support.bright_bins;
-    return quality->fit_ratio_q16 >= c->config->min_fit_ratio_q16;
+    return quality.fit_ratio_q16 >= c->config->min_fit_ratio_q16;
 }
 
 /* The first arcs of all quadrants together; unless they cover enough, all pairs of arcs from two quadrants too. Returns
@@ -143,7 +145,6 @@ static int try_arcs(drogue_candidate *out, drogue_quality *quality, const arc_se
 static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const arc_set *set,
                                const context *c)
 {
-    drogue_quality quality;
     uint8_t chosen[4];
     uint32_t count;
     int k;
@@ -152,8 +153,8 @@ static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES
     for (k = 0; k < 4; k++) {
         chosen[k] = set->arc[k][0] != NULL;
     }
-    count = (uint32_t)try_arcs(&candidates[0], &quality, set, chosen, c);
-    if (count == 1 && quality.length_ratio_q16 >= ENOUGH_COVER_Q16) {
+    count = (uint32_t)try_arcs(&candidates[0], set, chosen, c);
+    if (count == 1 && candidates[0].cover_q16 >= ENOUGH_COVER_Q16) {
         return 1;
     }
     for (k = 0; k < 4; k++) {
@@ -163,7 +164,7 @@ static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES
                 chosen[k] = (uint8_t)(1 + i / DROGUE_ARC_CHOICES);
                 chosen[l] = (uint8_t)(1 + i % DROGUE_ARC_CHOICES);
                 if (set->arc[k][chosen[k] - 1] != NULL && set->arc[l][chosen[l] - 1] != NULL) {
-                    count += (uint32_t)try_arcs(&candidates[count], &quality, set, chosen, c);
+                    count += (uint32_t)try_arcs(&candidates[count], set, chosen, c);
                 }
             }
         }
@@ -314,15 +315,14 @@ static void refit(drogue_outline *outline, const context *x)
 /* Describe and refine a candidate. */
 static void refine(drogue_outline *out, const drogue_candidate *candidate, const arc_set *set, const context *c)
 {
-    drogue_candidate again;
-    uint8_t chosen[4];
     int k;
     memset(out, 0, sizeof *out);
     for (k = 0; k < 4; k++) {
-        chosen[k] = (candidate->arcs >> (4 * k)) & 15u;
-        out->arcs[k] = chosen[k] != 0 ? (uint32_t)(set->arc[k][chosen[k] - 1] - c->workspace->arcs) : DROGUE_NO_ARC;
+        const uint32_t chosen = (candidate->arcs >> (4 * k)) & 15u;
+        out->arcs[k] = chosen != 0 ? (uint32_t)(set->arc[k][chosen - 1] - c->workspace->arcs) : DROGUE_NO_ARC;
     }
-    (void)try_arcs(&again, &out->quality, set, chosen, c); /* once more, for its quality */
+    drogue_quality_of_cover(&out->quality, &candidate->ellipse, (uint32_t)candidate->fit_ratio_q16, DROGUE_Q16_ONE,
+                            candidate->cover_q16, &c->config->quality);
     out->ellipse = candidate->ellipse;
     out->support.bright_bins = candidate->polarity;
     refit(out, c);

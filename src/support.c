@@ -11,11 +11,12 @@
 
 uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24)
 {
-    const int64_t x = u_q24 < 0 ? -(int64_t)u_q24 : u_q24;
-    const int64_t y = v_q24 < 0 ? -(int64_t)v_q24 : v_q24;
-    const int64_t most = x > y ? x : y;
-    const int64_t least = (x > y ? y : x) * DROGUE_Q16_ONE;
-    uint32_t bin = (least >= most * TAN_1) + (uint32_t)(least >= most * TAN_2) + (uint32_t)(least >= most * TAN_3);
+    const int32_t x = u_q24 < 0 ? -u_q24 : u_q24;
+    const int32_t y = v_q24 < 0 ? -v_q24 : v_q24;
+    const int32_t most = x > y ? x : y;
+    const int64_t least = (int64_t)(x > y ? y : x) * DROGUE_Q16_ONE;
+    uint32_t bin = (uint32_t)(least >= (int64_t)most * TAN_1) + (uint32_t)(least >= (int64_t)most * TAN_2) +
+                   (uint32_t)(least >= (int64_t)most * TAN_3);
     bin = most == 0 ? 0 : bin;
     bin = y > x ? 7 - bin : bin;      /* first quadrant */
     bin = u_q24 < 0 ? 15 - bin : bin; /* upper half */
