@@ -248,8 +248,8 @@ static drogue_status solve_both(drogue_joint joint[2], uint32_t *best, const dro
                                 const drogue_camera *camera, const drogue_model *model, uint32_t nearer)
 {
     const int with_inner = inner->std_px_q16 > 0;
-    drogue_status status = drogue_joint_solve(&joint[nearer], &poses[nearer], outline, inner, camera, model,
-                                              with_inner ? STEPS : 0);
+    drogue_status status =
+        drogue_joint_solve(&joint[nearer], &poses[nearer], outline, inner, camera, model, with_inner ? STEPS : 0);
     *best = nearer;
     if (status == DROGUE_OK) {
         status = drogue_joint_solve(&joint[1 - nearer], &poses[1 - nearer], outline, inner, camera, model, with_inner);
@@ -278,8 +278,8 @@ static drogue_status solve(drogue_result *out, const drogue_pose poses[2], const
                                              config->optics_blur_std_px2_q16);
     if (status == DROGUE_OK && trusted) {
         status = solve_both(joint, &best, poses, &outline, inner, camera, model, nearer);
-        trusted = status == DROGUE_OK &&
-                  drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
+        trusted =
+            status == DROGUE_OK && drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
     }
     if (status == DROGUE_OK && !trusted) {
         status = solve_both(joint, &best, poses, &outline, &none, camera, model, nearer);
