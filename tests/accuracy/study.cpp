@@ -76,6 +76,9 @@ bool study(const Arguments &a)
     section_conditions(report, options);
     section_extraction(report, options);
     section_boards(report, options);
+    if (a.options.cache.empty()) {
+        std::filesystem::remove_all(options.cache);
+    }
     return report.finish();
 }
 
