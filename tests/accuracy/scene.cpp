@@ -20,6 +20,16 @@ struct Lattice {
 constexpr Lattice outline_lattice = {233, 89}; /* pixels that hold background and drogue */
 constexpr Lattice detail_lattice = {89, 34};   /* edges within the drogue */
 
+std::vector<cv::Point2d> points_of(const Lattice &lattice)
+{
+    std::vector<cv::Point2d> points;
+    for (int i = -(lattice.points / 2); i <= lattice.points / 2; i++) {
+        const double dx = static_cast<double>(i) / lattice.points;
+        points.emplace_back(dx, std::remainder(dx * lattice.step, 1.0));
+    }
+    return points;
+}
+
 constexpr int64_t stream_noise = 2; /* 1 is the background's */
 
 /* Rays and light in the drogue's frame, where the axis is z and the end plane z = 0. */
@@ -64,6 +74,12 @@ private:
         const cv::Point2d to = p - probe.tip_px;
         const double t = std::clamp(to.dot(along) / along.dot(along), 0.0, 1.0);
         return cv::norm(to - t * along) <= probe.half_width_px;
+    }
+
+    double scallop_at(double part) const
+    {
+        const double half = std::sin(CV_PI * part);
+        return d_.scallop_m * half * half;
     }
 
     bool on_spoke(const cv::Vec3d &p) const
@@ -140,8 +156,7 @@ private:
             }
             const double turn = std::atan2(p[1], p[0]) / (2 * CV_PI) * d_.ribs + d_.rib_phase;
             const double part = turn - std::floor(turn + 0.5); /* [-0.5, 0.5), 0 in the middle of a rib */
-            const double half = std::sin(CV_PI * part);
-            if (p[2] < d_.scallop_m * half * half) {
+            if (d_.scallop_m > 0 && p[2] < scallop_at(part)) {
                 continue;
             }
             const bool rib = d_.ribs > 0 && std::fabs(part) < d_.rib_share / 2;
@@ -199,6 +214,8 @@ private:
 cv::Mat trace_area(const Scene &scene, const cv::Rect &area)
 {
     const Tracer tracer(scene);
+    const std::vector<cv::Point2d> outline_points = points_of(outline_lattice);
+    const std::vector<cv::Point2d> detail_points = points_of(detail_lattice);
     const auto background = static_cast<uint8_t>(Surface::background);
     cv::Mat surface(area.height + 2, area.width + 2, CV_8U);
     cv::Mat grey(area.height + 2, area.width + 2, CV_64F);
@@ -212,25 +229,26 @@ cv::Mat trace_area(const Scene &scene, const cv::Rect &area)
     cv::Mat out(area.size(), CV_64F);
     for (int y = 0; y < area.height; y++) {
         for (int x = 0; x < area.width; x++) {
-            const cv::Mat near = surface(cv::Rect(x, y, 3, 3));
-            const uint8_t own = near.at<uint8_t>(1, 1);
-            const bool plain = cv::countNonZero(near == own) == 9;
-            const bool outline = cv::countNonZero(near == background) > 0;
+            const uint8_t own = surface.at<uint8_t>(y + 1, x + 1);
+            bool plain = true;
+            bool outline = false;
+            for (int k = 0; k < 9; k++) {
+                const uint8_t near = surface.at<uint8_t>(y + k / 3, x + k % 3);
+                plain = plain && near == own;
+                outline = outline || near == background;
+            }
             const double behind = outline ? background_grey(scene, area.x + x, area.y + y) : 0;
             double &result = out.at<double>(y, x);
             if (plain) {
                 result = own == background ? behind : grey.at<double>(y + 1, x + 1);
                 continue;
             }
-            const Lattice lattice = outline ? outline_lattice : detail_lattice;
             double sum = 0;
-            for (int i = -(lattice.points / 2); i <= lattice.points / 2; i++) {
-                const double dx = static_cast<double>(i) / lattice.points;
-                const double dy = std::remainder(dx * lattice.step, 1.0);
-                const Hit hit = tracer(cv::Point2d(area.x + x + dx, area.y + y + dy));
+            for (const cv::Point2d &d : outline ? outline_points : detail_points) {
+                const Hit hit = tracer(cv::Point2d(area.x + x + d.x, area.y + y + d.y));
                 sum += hit.surface == Surface::background ? behind : hit.grey;
             }
-            result = sum / lattice.points;
+            result = sum / (outline ? outline_lattice : detail_lattice).points;
         }
     }
     return out;
