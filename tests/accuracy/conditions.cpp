@@ -261,6 +261,17 @@ Trial trial(uint64_t seed, Condition condition, int index)
     return trial_at(seed, condition, index, nearest_m * std::pow(farthest_m / nearest_m, at));
 }
 
+Trial trial_of(const PlainScene &plain, int index)
+{
+    Trial t;
+    t.condition = Condition::plain;
+    t.index = index;
+    t.scene = plain.scene;
+    t.region = plain.region;
+    set_truth(t);
+    return t;
+}
+
 uint64_t fingerprint(const Trial &t)
 {
     uint64_t sum = t.scene.seed;
