@@ -178,26 +178,58 @@ void drogue_judge_arc(drogue_arc_verdict *out, drogue_point *hull, const drogue_
     }
 }
 
-drogue_status drogue_select_farthest(drogue_farthest *out, drogue_point *hull, const drogue_edge *edges,
-                                     const drogue_arc *arcs, uint32_t arc_count, const drogue_mask *mask,
-                                     drogue_q16 min_short_px_q16)
+/* The best of one quadrant so far, kept while the arcs go by. */
+typedef struct leaders {
+    uint32_t longest[2]; /* indices of the two longest arcs */
+    uint32_t points[2];
+} leaders;
+
+static void keep_longest(leaders *l, uint32_t index, uint32_t points)
 {
-    int64_t farthest[2][4];
+    if (points > l->points[0]) {
+        l->longest[1] = l->longest[0];
+        l->points[1] = l->points[0];
+        l->longest[0] = index;
+        l->points[0] = points;
+    } else if (points > l->points[1]) {
+        l->longest[1] = index;
+        l->points[1] = points;
+    }
+}
+
+drogue_status drogue_select_arcs(drogue_arc_choices *out, drogue_point *hull, const drogue_edge *edges,
+                                 const drogue_arc *arcs, uint32_t arc_count, const drogue_mask *mask,
+                                 drogue_q16 min_short_px_q16, drogue_polarity polarity)
+{
+    leaders lead[4];
+    int64_t farthest[4];
     drogue_status status = DROGUE_E_NO_ARCS;
-    uint32_t i;
+    int pass;
     int k;
     for (k = 0; k < 4; k++) {
-        out->arc[0][k] = out->arc[1][k] = DROGUE_NO_ARC;
-        farthest[0][k] = farthest[1][k] = -1;
+        lead[k].longest[0] = lead[k].longest[1] = out->arc[k][0] = out->arc[k][1] = DROGUE_NO_ARC;
+        lead[k].points[0] = lead[k].points[1] = 0;
+        farthest[k] = -1;
     }
-    for (i = 0; i < arc_count; i++) {
-        drogue_arc_verdict v;
-        drogue_judge_arc(&v, hull, edges, &arcs[i], mask, min_short_px_q16);
-        if (v.quadrant >= 0 && v.distance2_q32 > farthest[v.polarity][v.quadrant]) {
-            farthest[v.polarity][v.quadrant] = v.distance2_q32;
-            out->arc[v.polarity][v.quadrant] = i;
-            status = DROGUE_OK;
+    for (pass = 0; pass < 2; pass++) {
+        uint32_t i;
+        for (i = 0; i < arc_count; i++) {
+            drogue_arc_verdict v;
+            drogue_judge_arc(&v, hull, edges, &arcs[i], mask, min_short_px_q16);
+            if (v.quadrant < 0 || (polarity != DROGUE_POLARITY_BOTH && v.polarity != polarity)) {
+                continue;
+            }
+            if (pass == 0) {
+                keep_longest(&lead[v.quadrant], i, arcs[i].count);
+            } else if (arcs[i].count * 2 >= lead[v.quadrant].points[0] && v.distance2_q32 > farthest[v.quadrant]) {
+                farthest[v.quadrant] = v.distance2_q32;
+                out->arc[v.quadrant][0] = i;
+                status = DROGUE_OK;
+            }
         }
+    }
+    for (k = 0; k < 4; k++) {
+        out->arc[k][1] = lead[k].longest[out->arc[k][0] == lead[k].longest[0] ? 1 : 0];
     }
     return status;
 }

@@ -38,6 +38,23 @@ typedef struct drogue_dark_part {
 drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *workspace, const drogue_image *image,
                                     const drogue_mask *disc, uint32_t min_area);
 
+/* Find the dark disc where it is expected: the components whose centroids lie within one of the expected discs, taken
+ * together (bright ribs may cut it), then the centroid of darkness in a window about it, which counts the pixels at its
+ * edge by their grey.
+ *
+ *  out         centroid, area (sum of darkness, rounded), Otsu's threshold
+ *  which       out: index of the expected disc that fits better in place and area
+ *  image, disc, min_area, return  as drogue_dark_part_find()
+ *  expected    count (1 or 2) discs, region coordinates: centre and semi-axes
+ *  error       centroid <= 1 LSB of the exact sums' quotient
+ */
+drogue_status drogue_dark_disc_find(drogue_dark_part *out, uint32_t *which, drogue_workspace *workspace,
+                                    const drogue_image *image, const drogue_mask *disc, uint32_t min_area,
+                                    const drogue_ellipse *expected, uint32_t count);
+
+/* Area of a dark part over that of an expected disc, Q16, saturated. */
+drogue_q16 drogue_dark_fill(const drogue_dark_part *part, const drogue_ellipse *expected);
+
 #ifdef __cplusplus
 }
 #endif
