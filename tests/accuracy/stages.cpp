@@ -130,7 +130,9 @@ bool same_solution(const drogue_joint &p, const drogue_joint &q)
 {
     const double yaw = from_q16(p.pose.yaw_rad_q16 - q.pose.yaw_rad_q16);
     const double pitch = from_q16(p.pose.pitch_rad_q16 - q.pose.pitch_rad_q16);
-    const auto variance = [&](int k) { return std::ldexp(drogue_wide_to_s64(p.covariance[DROGUE_PACKED(k, k)], 48), -48); };
+    const auto variance = [&](int k) {
+        return std::ldexp(drogue_wide_to_s64(p.covariance[DROGUE_PACKED(k, k)], 48), -48);
+    };
     return yaw * yaw <= variance(3) && pitch * pitch <= variance(4);
 }
 
@@ -142,8 +144,8 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
               const drogue_support &support, const Camera &camera, const drogue_model &model)
 {
     CV_Assert(!camera.distorts());
-    const drogue_camera q_camera = {to_q16(camera.fx_px), to_q16(camera.fy_px), to_q16(camera.cx_px),
-                                    to_q16(camera.cy_px), 0, 0, 0, 0, 0};
+    const drogue_camera q_camera = {
+        to_q16(camera.fx_px), to_q16(camera.fy_px), to_q16(camera.cx_px), to_q16(camera.cy_px), 0, 0, 0, 0, 0};
     drogue_joint_outline outline;
     drogue_joint joint[2];
     drogue_pose poses[2];

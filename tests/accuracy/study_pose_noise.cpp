@@ -126,7 +126,8 @@ void angle_table(Report &report, const Experiment &e, const std::vector<NoiseCel
     rows.push_back(row_of(std::string("paper, ") + e.table, {nan, e.pitch.max, e.pitch.mean, e.pitch.std},
                           {nan, e.yaw.max, e.yaw.mean, e.yaw.std}, "-", "-"));
     report.text(std::string("Absolute errors of pitch and yaw under noise on the ") + e.title + ", degrees (" +
-                e.table + "), all distances together; the share of poses where the choice fell on the other one, %; "
+                e.table +
+                "), all distances together; the share of poses where the choice fell on the other one, %; "
                 "ellipses refused.");
     report.table({"noise", "pitch: min", "max", "mean", "std", "yaw: min", "max", "mean", "std", "other, %", "refused"},
                  rows);
@@ -180,11 +181,12 @@ void section_pose_noise(Report &report, const StudyOptions &options)
     }
     report.text("What 1 px of noise costs, mean absolute error in % of the distance, over all distances:");
     report.table({"noise on", "x", "y", "z"}, summary);
-    report.text("Noise of 3 px on the centre gives " + significant(centre_25m * 100, 2) +
-                " cm across at 25 m, the paper's figure says less than 4.5 cm: its strongest noise was about as much. "
-                "As in the paper, x and y grow linearly with the distance under noise on the centre and z hardly feels "
-                "it, and the angles feel the semi-axes alone. Unlike the paper's remark, noise on the semi-major axis "
-                "costs z more than noise on the semi-minor axis: the depth is the rim's radius over the semi-major one.");
+    report.text(
+        "Noise of 3 px on the centre gives " + significant(centre_25m * 100, 2) +
+        " cm across at 25 m, the paper's figure says less than 4.5 cm: its strongest noise was about as much. "
+        "As in the paper, x and y grow linearly with the distance under noise on the centre and z hardly feels "
+        "it, and the angles feel the semi-axes alone. Unlike the paper's remark, noise on the semi-major axis "
+        "costs z more than noise on the semi-minor axis: the depth is the rim's radius over the semi-major one.");
 }
 
 } // namespace accuracy
