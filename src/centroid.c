@@ -332,8 +332,8 @@ drogue_q16 drogue_dark_fill(const drogue_dark_part *part, const drogue_ellipse *
 static drogue_q16 misfit(const drogue_dark_part *part, const drogue_ellipse *expected)
 {
     const drogue_q16 away = drogue_q16_div(
-        drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)distance2_q32(part->x_px_q16, part->y_px_q16, expected))),
-        expected->a_px_q16);
+        drogue_sat_s32((int64_t)drogue_isqrt_u64(
+            (uint64_t)distance2_q32(part->x_px_q16, part->y_px_q16, expected))), expected->a_px_q16);
     const int64_t fill = (int64_t)drogue_dark_fill(part, expected) - DROGUE_Q16_ONE;
     return drogue_sat_s32(away + (fill < 0 ? -fill : fill));
 }

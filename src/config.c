@@ -55,11 +55,11 @@ int drogue_config_valid(const drogue_config *c)
            within(c->min_size_q16, 0, c->max_size_q16) && within(c->cluster.centre_px_q16, 0, INT32_MAX) &&
            within(c->cluster.a_px_q16, 0, INT32_MAX) && within(c->cluster.b_px_q16, 0, INT32_MAX) &&
            within(c->cluster.angle_rad_q16, 0, INT32_MAX) && within(c->cluster.round_q16, 0, DROGUE_Q16_ONE) &&
-           within(c->search_band_q16, 0, DROGUE_Q16_ONE) && within(c->refit_band_px_q16, 1, DROGUE_Q16(8, 1)) &&
-           within(c->refit_cos_q16, 0, DROGUE_Q16_ONE) && c->refit_rounds <= 16 &&
-           within(c->min_cover_q16, 0, DROGUE_Q16_ONE) && within(c->recentre_cover_q16, 0, DROGUE_Q16_ONE) &&
-           within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) && within(c->inner_gate_q16, 0, INT32_MAX) &&
-           within(c->min_fill_q16, 0, c->max_fill_q16) && within(c->outline_std_px_q16, 1, DROGUE_Q16(16, 1)) &&
+           within(c->search_band_q16, 0, DROGUE_Q16_ONE) && within(c->refit_band_px_q16, 1, DROGUE_Q16(8, 1)) && within(c->refit_cos_q16, 0, DROGUE_Q16_ONE) &&
+           c->refit_rounds <= 16 && within(c->min_cover_q16, 0, DROGUE_Q16_ONE) && within(c->recentre_cover_q16, 0, DROGUE_Q16_ONE) &&
+           within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) &&
+           within(c->inner_gate_q16, 0, INT32_MAX) && within(c->min_fill_q16, 0, c->max_fill_q16) &&
+           within(c->outline_std_px_q16, 1, DROGUE_Q16(16, 1)) &&
            within(c->optics_blur_std_px2_q16, 0, DROGUE_Q16(16, 1)) &&
            within(c->inner_std_px_q16, 1, DROGUE_Q16(16, 1)) && within(c->inner_std_share_q16, 0, DROGUE_Q16_ONE) &&
            within(c->max_chi2_q16, 0, INT32_MAX) && within(c->min_chi2_gap_q16, 0, INT32_MAX);

@@ -192,8 +192,7 @@ static int trust_inner(const drogue_result *out, const drogue_ellipse *expected,
         return 0;
     }
     drogue_ellipse_frame_point(&u_q24, &v_q24, &rim, out->inner.x_px_q16, out->inner.y_px_q16);
-    room_q24 =
-        (INT64_C(1) << 24) - drogue_div_round_s64((int64_t)expected->a_px_q16 << 24, f->outline.ellipse.b_px_q16);
+    room_q24 = (INT64_C(1) << 24) - drogue_div_round_s64((int64_t)expected->a_px_q16 << 24, f->outline.ellipse.b_px_q16);
     return room_q24 > 0 && (int64_t)u_q24 * u_q24 + (int64_t)v_q24 * v_q24 <= room_q24 * room_q24;
 }
 
@@ -259,10 +258,12 @@ static drogue_status solve(drogue_result *out, const drogue_pose poses[2], const
         return DROGUE_E_DOMAIN;
     }
     best = drogue_wide_cmp(joint[1].chi2, joint[0].chi2) < 0;
-    if (inner->std_px_q16 > 0 && drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0) {
-        out->orientation_resolved = same_solution(&joint[best], &joint[1 - best]) ||
-                                    drogue_wide_cmp(drogue_wide_sub(joint[1 - best].chi2, joint[best].chi2),
-                                                    drogue_wide_from_q16(config->min_chi2_gap_q16)) >= 0;
+    if (inner->std_px_q16 > 0 &&
+        drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0) {
+        out->orientation_resolved =
+            same_solution(&joint[best], &joint[1 - best]) ||
+            drogue_wide_cmp(drogue_wide_sub(joint[1 - best].chi2, joint[best].chi2),
+                            drogue_wide_from_q16(config->min_chi2_gap_q16)) >= 0;
     }
     out->pose = joint[best].pose;
     out->alternative = joint[1 - best].pose;

@@ -7,9 +7,9 @@
 #include "drogue/ellipse.h"
 #include "drogue/undistort.h"
 
-#define EDGE_FRAC 5                     /* edge points are Q5 */
-#define LOOKS 512                       /* a candidate is scored by so many edge points, evenly taken */
-#define TRIES 3                         /* candidates refined before the best of them is taken */
+#define EDGE_FRAC 5              /* edge points are Q5 */
+#define LOOKS 512                /* a candidate is scored by so many edge points, evenly taken */
+#define TRIES 3                  /* candidates refined before the best of them is taken */
 #define GOOD_COVER_Q16 DROGUE_Q16(3, 4) /* no further try */
 
 /* The candidates' arcs, and what each of them sums to. */
@@ -99,7 +99,6 @@ static int try_arcs(drogue_candidate *out, drogue_quality *quality, const arc_se
     drogue_support support;
     drogue_band band;
     drogue_q16 threshold;
-    drogue_q16 fit_error;
     uint32_t near_count = 0;
     int k;
     drogue_moments_clear(&sum);
@@ -118,15 +117,13 @@ static int try_arcs(drogue_candidate *out, drogue_quality *quality, const arc_se
     if (!plausible(&out->ellipse, c->mask, c->config) || drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
         return 0;
     }
-    band = band_about(&out->ellipse, c->config->search_band_q16, c->config);
-    fit_error = drogue_q16_mul(out->ellipse.a_px_q16, c->config->search_band_q16);
-    fit_error = fit_error > c->config->quality.fit_error_px_q16 ? fit_error : c->config->quality.fit_error_px_q16;
-    threshold = drogue_quality_threshold(&out->ellipse, fit_error);
+    threshold = drogue_quality_threshold(&out->ellipse, c->config->quality.fit_error_px_q16);
     for (k = 0; k < 4; k++) {
         if (chosen[k] != 0) {
             near_count += count_near(&frame, threshold, c->workspace->edges, set->arc[k][chosen[k] - 1]);
         }
     }
+    band = band_about(&out->ellipse, c->config->search_band_q16, c->config);
     drogue_support_count(&support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);
     drogue_support_judge(&support, &out->ellipse, c->config->polarity, stride);
     drogue_quality_of_cover(quality, &out->ellipse, near_count, (uint32_t)sum.n, drogue_support_cover(&support),
@@ -137,7 +134,8 @@ static int try_arcs(drogue_candidate *out, drogue_quality *quality, const arc_se
 }
 
 /* All pairs of arcs from two quadrants, and the first arcs of all quadrants together; returns how many. */
-static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const arc_set *set, const context *c)
+static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const arc_set *set,
+                               const context *c)
 {
     drogue_quality quality;
     uint8_t chosen[4] = {0, 0, 0, 0};
@@ -253,8 +251,8 @@ static void narrow(drogue_band *band, const drogue_support *support, const drogu
                    const drogue_config *config)
 {
     const int64_t variance_q32 = support->points > 0 ? support->squares_q32 / (int64_t)support->points : 0;
-    const int64_t spread_px_q16 =
-        drogue_shr_round_s64(3 * (int64_t)drogue_isqrt_u64((uint64_t)variance_q32) * e->a_px_q16, 16);
+    const int64_t spread_px_q16 = drogue_shr_round_s64(
+        3 * (int64_t)drogue_isqrt_u64((uint64_t)variance_q32) * e->a_px_q16, 16);
     if (spread_px_q16 < band->half_width_px_q16) {
         band->half_width_px_q16 =
             spread_px_q16 < config->refit_band_px_q16 ? config->refit_band_px_q16 : (drogue_q16)spread_px_q16;

@@ -17,8 +17,8 @@ extern "C" {
 /* The outline as a measurement. A neighbouring ellipse lies off it by
  * r(t) = m0 + m1 cos t + m2 sin t + m3 cos 2t + m4 sin 2t in units of the semi-axes, t the eccentric angle. */
 typedef struct drogue_joint_outline {
-    drogue_ellipse ellipse;                    /* undistorted, px of the whole image */
-    drogue_wide covariance[DROGUE_PACKED_MAX]; /* of m0 .. m4, packed */
+    drogue_ellipse ellipse;                     /* undistorted, px of the whole image */
+    drogue_wide covariance[DROGUE_PACKED_MAX];  /* of m0 .. m4, packed */
 } drogue_joint_outline;
 
 /* The inner part as a measurement. */
