@@ -192,16 +192,18 @@ static int trust_inner(const drogue_result *out, const drogue_ellipse *expected,
         return 0;
     }
     drogue_ellipse_frame_point(&u_q24, &v_q24, &rim, out->inner.x_px_q16, out->inner.y_px_q16);
-    room_q24 = (INT64_C(1) << 24) - drogue_div_round_s64((int64_t)expected->a_px_q16 << 24, f->outline.ellipse.b_px_q16);
+    room_q24 =
+        (INT64_C(1) << 24) - drogue_div_round_s64((int64_t)expected->a_px_q16 << 24, f->outline.ellipse.b_px_q16);
     return room_q24 > 0 && (int64_t)u_q24 * u_q24 + (int64_t)v_q24 * v_q24 <= room_q24 * room_q24;
 }
 
-/* Standard deviation of the inner centroid: a floor and a share of the disc's size. */
-static drogue_q16 inner_std(const drogue_ellipse *expected, const drogue_config *config)
+/* Standard deviation of the inner centroid: a floor, a share of the disc's size, and what the threshold moves it. */
+static drogue_q16 inner_std(const drogue_result *out, const drogue_ellipse *expected, const drogue_config *config)
 {
     const int64_t share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
     const int64_t least = config->inner_std_px_q16;
-    return (drogue_q16)drogue_isqrt_u64((uint64_t)(share * share + least * least));
+    const int64_t spread = drogue_q16_mul(out->inner.spread_px_q16, config->inner_std_spread_q16);
+    return drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)(share * share + least * least + spread * spread)));
 }
 
 static int64_t q48_of(drogue_wide v) { return drogue_wide_to_s64(v, 48); }
@@ -238,33 +240,48 @@ static int same_solution(const drogue_joint *p, const drogue_joint *q)
            drogue_wide_cmp(drogue_wide_mul(pitch, pitch), p->covariance[DROGUE_PACKED(4, 4)]) <= 0;
 }
 
-/* Solve from both poses, take the one that explains outline and inner part better, and say whether that decides. */
+/* Solve from both poses; 'best' is the one that explains outline and inner part better. */
+static drogue_status solve_both(drogue_joint joint[2], uint32_t *best, const drogue_pose poses[2],
+                                const drogue_joint_outline *outline, const drogue_joint_inner *inner,
+                                const drogue_camera *camera, const drogue_model *model)
+{
+    drogue_status status = drogue_joint_solve(&joint[0], &poses[0], outline, inner, camera, model);
+    if (status == DROGUE_OK) {
+        status = drogue_joint_solve(&joint[1], &poses[1], outline, inner, camera, model);
+    }
+    *best = status == DROGUE_OK && drogue_wide_cmp(joint[1].chi2, joint[0].chi2) < 0;
+    return status;
+}
+
+/* The pose from outline and inner part; from the outline alone when they contradict each other. Says whether the inner
+ * part decided between the two. */
 static drogue_status solve(drogue_result *out, const drogue_pose poses[2], const frame *f,
                            const drogue_joint_inner *inner, const drogue_config *config, const drogue_camera *camera,
                            const drogue_model *model)
 {
+    const drogue_joint_inner none = {0, 0, 0};
     drogue_joint_outline outline;
     drogue_joint joint[2];
     drogue_status status;
-    uint32_t best;
-    int i;
+    uint32_t best = 0;
+    int trusted = inner->std_px_q16 > 0;
     outline.ellipse = out->ideal;
-    status = drogue_joint_outline_covariance(&outline, &f->outline.support, config->outline_std_px_q16,
+    status = drogue_joint_outline_covariance(&outline, &f->outline.support, config->outline_shading_q16,
                                              config->optics_blur_std_px2_q16);
-    for (i = 0; i < 2 && status == DROGUE_OK; i++) {
-        status = drogue_joint_solve(&joint[i], &poses[i], &outline, inner, camera, model);
+    if (status == DROGUE_OK && trusted) {
+        status = solve_both(joint, &best, poses, &outline, inner, camera, model);
+        trusted =
+            status == DROGUE_OK && drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
+    }
+    if (status == DROGUE_OK && !trusted) {
+        status = solve_both(joint, &best, poses, &outline, &none, camera, model);
     }
     if (status != DROGUE_OK) {
         return DROGUE_E_DOMAIN;
     }
-    best = drogue_wide_cmp(joint[1].chi2, joint[0].chi2) < 0;
-    if (inner->std_px_q16 > 0 &&
-        drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0) {
-        out->orientation_resolved =
-            same_solution(&joint[best], &joint[1 - best]) ||
-            drogue_wide_cmp(drogue_wide_sub(joint[1 - best].chi2, joint[best].chi2),
-                            drogue_wide_from_q16(config->min_chi2_gap_q16)) >= 0;
-    }
+    out->orientation_resolved = trusted && (same_solution(&joint[best], &joint[1 - best]) ||
+                                            drogue_wide_cmp(drogue_wide_sub(joint[1 - best].chi2, joint[best].chi2),
+                                                            drogue_wide_from_q16(config->min_chi2_gap_q16)) >= 0);
     out->pose = joint[best].pose;
     out->alternative = joint[1 - best].pose;
     put_covariance(out, &joint[best]);
@@ -314,7 +331,7 @@ static drogue_status measure(drogue_result *out, drogue_workspace *workspace, co
         status = find_inner(out, &expected, &f, poses, workspace, config, camera, model);
         if (status == DROGUE_OK) {
             out->has_inner = 1;
-            inner.std_px_q16 = trust_inner(out, &expected, &f, config) ? inner_std(&expected, config) : 0;
+            inner.std_px_q16 = trust_inner(out, &expected, &f, config) ? inner_std(out, &expected, config) : 0;
             inner.x_px_q16 = out->inner.x_px_q16 = shifted(out->inner.x_px_q16, out->region.x_px);
             inner.y_px_q16 = out->inner.y_px_q16 = shifted(out->inner.y_px_q16, out->region.y_px);
             status = drogue_undistort_point(&inner.x_px_q16, &inner.y_px_q16, camera);

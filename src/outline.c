@@ -7,9 +7,9 @@
 #include "drogue/ellipse.h"
 #include "drogue/undistort.h"
 
-#define EDGE_FRAC 5              /* edge points are Q5 */
-#define LOOKS 512                /* a candidate is scored by so many edge points, evenly taken */
-#define TRIES 3                  /* candidates refined before the best of them is taken */
+#define EDGE_FRAC 5                     /* edge points are Q5 */
+#define LOOKS 512                       /* a candidate is scored by so many edge points, evenly taken */
+#define TRIES 3                         /* candidates refined before the best of them is taken */
 #define GOOD_COVER_Q16 DROGUE_Q16(3, 4) /* no further try */
 
 /* The candidates' arcs, and what each of them sums to. */
@@ -134,8 +134,7 @@ static int try_arcs(drogue_candidate *out, drogue_quality *quality, const arc_se
 }
 
 /* All pairs of arcs from two quadrants, and the first arcs of all quadrants together; returns how many. */
-static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const arc_set *set,
-                               const context *c)
+static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const arc_set *set, const context *c)
 {
     drogue_quality quality;
     uint8_t chosen[4] = {0, 0, 0, 0};
@@ -238,24 +237,24 @@ static drogue_status collect_outline(collection *c, drogue_support *support, con
         const drogue_edge *e = &x->workspace->edges[i];
         drogue_band_point p;
         if (drogue_ellipse_band_holds(&p, &frame, band, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy) &&
-            drogue_support_add(support, &p)) {
+            drogue_support_add(support, &p, e)) {
             collect_point(c, drogue_edge_x_q16(e), drogue_edge_y_q16(e));
         }
     }
     return DROGUE_OK;
 }
 
-/* Band for the next round: three times the spread of the points about the ellipse, from the configured width to the
- * last one. */
+/* Band for the next round: three times the spread of the points about the ellipse, from a third of the configured width
+ * to the last one: what stands out of the outline, as a hose or a fitting behind the rim, drops out. */
 static void narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
                    const drogue_config *config)
 {
     const int64_t variance_q32 = support->points > 0 ? support->squares_q32 / (int64_t)support->points : 0;
-    const int64_t spread_px_q16 = drogue_shr_round_s64(
-        3 * (int64_t)drogue_isqrt_u64((uint64_t)variance_q32) * e->a_px_q16, 16);
+    const int64_t spread_px_q16 =
+        drogue_shr_round_s64(3 * (int64_t)drogue_isqrt_u64((uint64_t)variance_q32) * e->a_px_q16, 16);
+    const drogue_q16 least = config->refit_band_px_q16 / 3 + 1;
     if (spread_px_q16 < band->half_width_px_q16) {
-        band->half_width_px_q16 =
-            spread_px_q16 < config->refit_band_px_q16 ? config->refit_band_px_q16 : (drogue_q16)spread_px_q16;
+        band->half_width_px_q16 = spread_px_q16 < least ? least : (drogue_q16)spread_px_q16;
     }
 }
 
@@ -279,6 +278,7 @@ static void refit(drogue_outline *outline, const context *x)
         narrow(&band, &outline->support, &ellipse, config);
     }
     if (collect_outline(&c, &outline->support, &outline->ellipse, &band, x) == DROGUE_OK) {
+        outline->band_px_q16 = band.half_width_px_q16;
         outline->cover_q16 = drogue_support_cover(&outline->support);
         outline->polarity = outline->support.bright_bins == 0            ? DROGUE_POLARITY_DARK
                             : outline->support.bright_bins == UINT32_MAX ? DROGUE_POLARITY_BRIGHT
@@ -371,7 +371,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
                                          const drogue_config *config, const drogue_camera *camera, int32_t x_px,
                                          int32_t y_px)
 {
-    const drogue_band band = band_about(&outline->ellipse, 0, config);
+    const drogue_band band = {outline->band_px_q16, config->refit_cos_q16};
     drogue_support support = outline->support;
     drogue_ellipse_frame frame;
     drogue_ellipse centre = outline->ellipse;
@@ -392,7 +392,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         drogue_q16 x = drogue_edge_x_q16(e);
         drogue_q16 y = drogue_edge_y_q16(e);
         drogue_band_point p;
-        if (drogue_ellipse_band_holds(&p, &frame, &band, x, y, e->gx, e->gy) && drogue_support_add(&support, &p)) {
+        if (drogue_ellipse_band_holds(&p, &frame, &band, x, y, e->gx, e->gy) && drogue_support_add(&support, &p, e)) {
             members++;
             x = drogue_q16_add(x, drogue_q16_from_int(x_px));
             y = drogue_q16_add(y, drogue_q16_from_int(y_px));

@@ -17,8 +17,8 @@ extern "C" {
 /* The outline as a measurement. A neighbouring ellipse lies off it by
  * r(t) = m0 + m1 cos t + m2 sin t + m3 cos 2t + m4 sin 2t in units of the semi-axes, t the eccentric angle. */
 typedef struct drogue_joint_outline {
-    drogue_ellipse ellipse;                     /* undistorted, px of the whole image */
-    drogue_wide covariance[DROGUE_PACKED_MAX];  /* of m0 .. m4, packed */
+    drogue_ellipse ellipse;                    /* undistorted, px of the whole image */
+    drogue_wide covariance[DROGUE_PACKED_MAX]; /* of m0 .. m4, packed */
 } drogue_joint_outline;
 
 /* The inner part as a measurement. */
@@ -38,13 +38,14 @@ typedef struct drogue_joint {
  * and shape together however far they are correlated along the edge.
  *
  *  support  of the last fit
- *  floor    standard deviation of what the residuals cannot show, px, in every parameter
+ *  shading  what the residuals cannot show, as light that changes along the outline, moves an edge by this over its
+ *           gradient (|gx| + |gy|, grey levels * 8): px times that unit, standard deviation in every parameter
  *  blur     standard deviation of half the variance of the optics' blur, px^2 Q16: moves the whole outline in or out
  *  return   DROGUE_OK; DROGUE_E_DEGENERATE when too few bins hold points
  *  source   the fit's normal equations; (50) of the paper in closed form
  */
 drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
-                                              drogue_q16 floor_px_q16, drogue_q16 blur_px2_q16);
+                                              drogue_q16 shading_q16, drogue_q16 blur_px2_q16);
 
 /* Solve for the pose.
  *
