@@ -99,6 +99,7 @@ static int try_arcs(drogue_candidate *out, drogue_quality *quality, const arc_se
     drogue_support support;
     drogue_band band;
     drogue_q16 threshold;
+    drogue_q16 fit_error;
     uint32_t near_count = 0;
     int k;
     drogue_moments_clear(&sum);
@@ -117,13 +118,15 @@ static int try_arcs(drogue_candidate *out, drogue_quality *quality, const arc_se
     if (!plausible(&out->ellipse, c->mask, c->config) || drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
         return 0;
     }
-    threshold = drogue_quality_threshold(&out->ellipse, c->config->quality.fit_error_px_q16);
+    band = band_about(&out->ellipse, c->config->search_band_q16, c->config);
+    fit_error = drogue_q16_mul(out->ellipse.a_px_q16, c->config->search_band_q16);
+    fit_error = fit_error > c->config->quality.fit_error_px_q16 ? fit_error : c->config->quality.fit_error_px_q16;
+    threshold = drogue_quality_threshold(&out->ellipse, fit_error);
     for (k = 0; k < 4; k++) {
         if (chosen[k] != 0) {
             near_count += count_near(&frame, threshold, c->workspace->edges, set->arc[k][chosen[k] - 1]);
         }
     }
-    band = band_about(&out->ellipse, c->config->search_band_q16, c->config);
     drogue_support_count(&support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);
     drogue_support_judge(&support, &out->ellipse, c->config->polarity, stride);
     drogue_quality_of_cover(quality, &out->ellipse, near_count, (uint32_t)sum.n, drogue_support_cover(&support),
