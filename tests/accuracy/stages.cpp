@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "drogue/joint.h"
 #include "measure.hpp"
@@ -77,6 +79,7 @@ drogue_support support_of(const drogue_ellipse &ellipse, const std::vector<drogu
         sums[bin] += offset_q16;
         support.squares_q32 += offset_q16 * offset_q16;
         support.points++;
+        support.gradient += static_cast<uint64_t>(std::abs(e.gx) + std::abs(e.gy));
     }
     for (size_t k = 0; k < sums.size(); k++) {
         support.bin[k].sum_q16 = drogue_sat_s32(sums[k]);
@@ -120,7 +123,9 @@ drogue_joint_inner weigh_inner(const drogue_result &r, const RegionEdges &edges,
     if (room > 0 && std::hypot(std::ldexp(u_q24, -24), std::ldexp(v_q24, -24)) <= room) {
         const int64_t share = drogue_q16_mul(config.inner_std_share_q16, disc.a_px_q16);
         const int64_t least = config.inner_std_px_q16;
-        inner.std_px_q16 = (drogue_q16)drogue_isqrt_u64((uint64_t)(share * share + least * least));
+        const int64_t spread = drogue_q16_mul(r.inner.spread_px_q16, config.inner_std_spread_q16);
+        inner.std_px_q16 =
+            drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)(share * share + least * least + spread * spread)));
     }
     return inner;
 }
@@ -138,6 +143,23 @@ bool same_solution(const drogue_joint &p, const drogue_joint &q)
 
 double chi2_of(const drogue_joint &j) { return std::ldexp(drogue_wide_to_s64(j.chi2, 32), -32); }
 
+/* Solutions from both poses, the better one first. */
+drogue_status solve_both(std::array<drogue_joint, 2> &joint, const drogue_pose poses[2],
+                         const drogue_joint_outline &outline, const drogue_joint_inner &inner,
+                         const drogue_camera &camera, const drogue_model &model)
+{
+    for (size_t i = 0; i < 2; i++) {
+        const drogue_status status = drogue_joint_solve(&joint[i], &poses[i], &outline, &inner, &camera, &model);
+        if (status != DROGUE_OK) {
+            return status;
+        }
+    }
+    if (drogue_wide_cmp(joint[1].chi2, joint[0].chi2) < 0) {
+        std::swap(joint[0], joint[1]);
+    }
+    return DROGUE_OK;
+}
+
 } // namespace
 
 void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_ellipse &ellipse,
@@ -147,7 +169,7 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
     const drogue_camera q_camera = {
         to_q16(camera.fx_px), to_q16(camera.fy_px), to_q16(camera.cx_px), to_q16(camera.cy_px), 0, 0, 0, 0, 0};
     drogue_joint_outline outline;
-    drogue_joint joint[2];
+    std::array<drogue_joint, 2> joint;
     drogue_pose poses[2];
     result.ellipse = ellipse;
     result.ellipse.xc_px_q16 = drogue_q16_add(ellipse.xc_px_q16, drogue_q16_from_int(edges.origin_px.x));
@@ -159,25 +181,28 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
         return;
     }
     const drogue_joint_inner inner = weigh_inner(result, edges, ellipse, poses, q_camera, model);
-    result.status = drogue_joint_outline_covariance(&outline, &support, edges.config.outline_std_px_q16,
+    const drogue_joint_inner none = {0, 0, 0};
+    bool trusted = inner.std_px_q16 > 0;
+    result.status = drogue_joint_outline_covariance(&outline, &support, edges.config.outline_shading_q16,
                                                     edges.config.optics_blur_std_px2_q16);
-    for (int i = 0; i < 2 && result.status == DROGUE_OK; i++) {
-        result.status = drogue_joint_solve(&joint[i], &poses[i], &outline, &inner, &q_camera, &model);
+    if (result.status == DROGUE_OK && trusted) {
+        result.status = solve_both(joint, poses, outline, inner, q_camera, model);
+        trusted = result.status == DROGUE_OK && chi2_of(joint[0]) <= from_q16(edges.config.max_chi2_q16);
+    }
+    if (result.status == DROGUE_OK && !trusted) { /* they contradict each other: the outline alone */
+        result.status = solve_both(joint, poses, outline, none, q_camera, model);
     }
     if (result.status != DROGUE_OK) {
         return;
     }
-    const int best = drogue_wide_cmp(joint[1].chi2, joint[0].chi2) < 0 ? 1 : 0;
-    if (inner.std_px_q16 > 0 && chi2_of(joint[best]) <= from_q16(edges.config.max_chi2_q16)) {
-        result.orientation_resolved =
-            same_solution(joint[best], joint[1 - best]) ||
-            chi2_of(joint[1 - best]) - chi2_of(joint[best]) >= from_q16(edges.config.min_chi2_gap_q16);
-    }
-    result.pose = joint[best].pose;
-    result.alternative = joint[1 - best].pose;
+    result.orientation_resolved =
+        trusted && (same_solution(joint[0], joint[1]) ||
+                    chi2_of(joint[1]) - chi2_of(joint[0]) >= from_q16(edges.config.min_chi2_gap_q16));
+    result.pose = joint[0].pose;
+    result.alternative = joint[1].pose;
     for (int i = 0; i < 5; i++) {
         for (int j = 0; j < 5; j++) {
-            result.covariance_q48[i][j] = drogue_wide_to_s64(joint[best].covariance[DROGUE_PACKED(i, j)], 48);
+            result.covariance_q48[i][j] = drogue_wide_to_s64(joint[0].covariance[DROGUE_PACKED(i, j)], 48);
         }
     }
 }
