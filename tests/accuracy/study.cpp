@@ -83,6 +83,9 @@ bool study(const Arguments &a)
     section_distances(report, options);
     section_conditions(report, options);
     section_extraction(report, options);
+    section_pose_noise(report, options);
+    section_approach(report, options);
+    section_table5(report, options);
     section_boards(report, options);
     if (a.options.cache.empty()) {
         std::filesystem::remove_all(options.cache);
