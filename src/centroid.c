@@ -298,16 +298,14 @@ drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *wor
     return DROGUE_OK;
 }
 
-static int64_t distance2_q32(const drogue_dark_part *part, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+static uint64_t distance2_q32(const drogue_dark_part *part, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
-    const int64_t dx = (int64_t)part->x_px_q16 - x_px_q16;
-    const int64_t dy = (int64_t)part->y_px_q16 - y_px_q16;
-    return dx * dx + dy * dy;
+    return drogue_square_sum(drogue_q16_sub(part->x_px_q16, x_px_q16), drogue_q16_sub(part->y_px_q16, y_px_q16));
 }
 
-static drogue_q16 distance_q16(const drogue_dark_part *p, const drogue_dark_part *q)
+static drogue_q16 distance_q16(const drogue_dark_part *part, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
-    return drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)distance2_q32(p, q->x_px_q16, q->y_px_q16)));
+    return drogue_sat_s32((int64_t)drogue_isqrt_u64(distance2_q32(part, x_px_q16, y_px_q16)));
 }
 
 /* Components whose centroids lie within an expected disc, together; area 0 when there are none. */
@@ -315,7 +313,7 @@ static void components_within(drogue_dark_part *out, const dark_pass *p, const d
                               uint32_t min_area)
 {
     const drogue_workspace *w = p->workspace;
-    const int64_t reach2_q32 = (int64_t)expected->a_px_q16 * expected->a_px_q16;
+    const uint64_t reach2_q32 = drogue_square_sum(expected->a_px_q16, 0);
     int64_t x = 0;
     int64_t y = 0;
     uint32_t i;
@@ -342,16 +340,17 @@ static void components_within(drogue_dark_part *out, const dark_pass *p, const d
 
 drogue_q16 drogue_dark_fill(const drogue_dark_part *part, const drogue_ellipse *expected)
 {
-    const drogue_q16 box = drogue_q16_mul(expected->a_px_q16, expected->b_px_q16);
-    return drogue_q16_div(drogue_sat_s32((int64_t)part->area_px * DROGUE_Q16_ONE), drogue_q16_mul(box, DROGUE_Q16_PI));
+    const drogue_wide box =
+        drogue_wide_mul(drogue_wide_from_q16(expected->a_px_q16), drogue_wide_from_q16(expected->b_px_q16));
+    return drogue_wide_to_q16(drogue_wide_div(drogue_wide_from_s64(part->area_px, 0),
+                                              drogue_wide_mul(box, drogue_wide_from_q16(DROGUE_Q16_PI))));
 }
 
 /* How badly a part fits an expected disc: distance in its semi-axes plus the share by which the areas differ, Q16. */
 static drogue_q16 misfit(const drogue_dark_part *part, const drogue_ellipse *expected)
 {
-    const drogue_q16 away = drogue_q16_div(drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)distance2_q32(
-                                               part, expected->xc_px_q16, expected->yc_px_q16))),
-                                           expected->a_px_q16);
+    const drogue_q16 away =
+        drogue_q16_div(distance_q16(part, expected->xc_px_q16, expected->yc_px_q16), expected->a_px_q16);
     const int64_t fill = (int64_t)drogue_dark_fill(part, expected) - DROGUE_Q16_ONE;
     return drogue_sat_s32(away + (fill < 0 ? -fill : fill));
 }
@@ -445,7 +444,7 @@ static void weigh_about(drogue_dark_part *part, uint32_t *histogram, const drogu
     weigh(&lower, image, &window, &r);
     r.full += 2 * half;
     weigh(&upper, image, &window, &r);
-    part->spread_px_q16 = distance_q16(&lower, &upper);
+    part->spread_px_q16 = distance_q16(&lower, upper.x_px_q16, upper.y_px_q16);
 }
 
 drogue_status drogue_dark_disc_find(drogue_dark_part *out, uint32_t *which, drogue_workspace *workspace,
