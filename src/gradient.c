@@ -30,6 +30,39 @@ void drogue_gradient_row(int16_t *gx, int16_t *gy, uint16_t *magnitude, const ui
     }
 }
 
+uint32_t drogue_gradient_padded_row(drogue_slope *slopes, uint16_t *magnitude, const uint8_t *const rows[3],
+                                    int32_t width_px, int32_t low)
+{
+    const uint8_t *t = rows[0] - 1;
+    const uint8_t *c = rows[1] - 1;
+    const uint8_t *b = rows[2] - 1;
+    drogue_slope *next = slopes;
+    int32_t sum0 = (int32_t)drogue_sobel_121(t[0], c[0], b[0]);
+    int32_t sum1 = (int32_t)drogue_sobel_121(t[1], c[1], b[1]);
+    int32_t step0 = b[0] - t[0];
+    int32_t step1 = b[1] - t[1];
+    int32_t x;
+    for (x = 0; x < width_px; x++) {
+        int32_t sum2 = (int32_t)drogue_sobel_121(t[x + 2], c[x + 2], b[x + 2]);
+        int32_t step2 = b[x + 2] - t[x + 2];
+        int32_t dx = sum2 - sum0;
+        int32_t dy = (int32_t)drogue_sobel_121((uint32_t)step0, (uint32_t)step1, (uint32_t)step2);
+        int32_t m = (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy);
+        *magnitude++ = (uint16_t)m;
+        if (m > low) {
+            next->x = (uint16_t)x;
+            next->gx = (int16_t)dx;
+            next->gy = (int16_t)dy;
+            next++;
+        }
+        sum0 = sum1;
+        sum1 = sum2;
+        step0 = step1;
+        step1 = step2;
+    }
+    return (uint32_t)(next - slopes);
+}
+
 drogue_status drogue_gradient_image(int16_t *gx, int16_t *gy, uint16_t *magnitude, const drogue_image *image)
 {
     int32_t y;

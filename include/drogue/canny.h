@@ -65,6 +65,17 @@ static inline int drogue_canny_is_maximum(drogue_sector sector, int32_t before, 
     return m > before && m > after;
 }
 
+/* Is column x of the middle row a maximum across its edge? */
+static inline int drogue_canny_survives(const uint16_t *const magnitude[3], int16_t gx, int16_t gy, int32_t x,
+                                        int32_t width_px)
+{
+    drogue_sector sector = drogue_canny_sector(gx, gy);
+    int32_t before;
+    int32_t after;
+    drogue_canny_neighbours(&before, &after, sector, magnitude, x, width_px);
+    return drogue_canny_is_maximum(sector, before, magnitude[1][x], after);
+}
+
 /* Vertex of the parabola through (-1, before), (0, m), (1, after), where m is the maximum.
  *
  *  return  offset Q5 in [-15, 15], rounded to nearest, towards 'after' positive; 0 when all three are equal

@@ -44,7 +44,10 @@ typedef struct drogue_point {
 #define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                             \
     ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels)*16u + \
      DROGUE_HULL_MAX * sizeof(drogue_point) + 256u * 4u +                                                 \
-     (size_t)(width_px) * (sizeof(drogue_merge) + 16u + 18u + 10u))
+     8u * DROGUE_ROW_BYTES(width_px) + (size_t)(width_px) * (sizeof(drogue_merge) + 26u + 2u * sizeof(drogue_slope)))
+
+/* A row of pixels in words of four, with two pixels of border or more on each side. */
+#define DROGUE_ROW_BYTES(width_px) (((size_t)(width_px) + 11u) / 4u * 4u)
 
 /* The same for a region of the given longest side with the capacity that suits it. */
 #define DROGUE_WORKSPACE_BYTES_FOR(side_px) \
@@ -65,12 +68,10 @@ typedef struct drogue_workspace {
     drogue_merge *merges;       /* width */
     uint32_t *component_rows;   /* 2 x width */
     uint32_t *arc_rows;         /* 2 x width */
-    uint16_t *column;           /* width */
     uint16_t *magnitude_rows;   /* 4 x width; the fourth stays 0 and stands for rows outside the image */
-    int16_t *gx_rows;           /* 2 x width */
-    int16_t *gy_rows;           /* 2 x width */
-    uint8_t *raw_rows;          /* 5 x width, ring of input rows */
-    uint8_t *smooth_rows;       /* 3 x width */
+    drogue_slope *slope_rows;   /* 2 x width */
+    uint8_t *raw_rows;          /* 5 x DROGUE_ROW_BYTES(width), ring of input rows; aligned for uint32_t, like the next */
+    uint8_t *smooth_rows;       /* 3 x DROGUE_ROW_BYTES(width) */
     uint8_t *code_rows;         /* 2 x width: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1 in the ring */
 } drogue_workspace;
 
@@ -107,6 +108,7 @@ typedef struct drogue_frontend {
     drogue_labels arc_labels;
     uint32_t edge_count;
     uint32_t edges_full;
+    uint32_t slope_count[2]; /* slopes in the even and in the odd row */
 } drogue_frontend;
 
 /* The lists a frame leaves in the workspace. */
