@@ -22,11 +22,16 @@ void drogue_canny_row(uint8_t *out, const uint16_t *const magnitude[3], const in
     int32_t x;
     for (x = 0; x < width_px; x++) {
         int32_t m = magnitude[1][x];
+        int32_t before;
+        int32_t after;
+        drogue_sector sector;
         out[x] = DROGUE_CANNY_NONE;
         if (m <= low) {
             continue;
         }
-        if (drogue_canny_survives(magnitude, gx[x], gy[x], x, width_px)) {
+        sector = drogue_canny_sector(gx[x], gy[x]);
+        drogue_canny_neighbours(&before, &after, sector, magnitude, x, width_px);
+        if (drogue_canny_is_maximum(sector, before, m, after)) {
             out[x] = m > high ? DROGUE_CANNY_STRONG : DROGUE_CANNY_WEAK;
         }
     }

@@ -10,6 +10,7 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
                                     const drogue_frontend_config *config, int32_t width_px, int32_t height_px)
 {
     size_t width;
+    size_t fours;
     if (config->canny_low < 0 || config->canny_high < config->canny_low ||
         (config->use_ring && !drogue_mask_valid(&config->ring))) {
         return DROGUE_E_ARGUMENT;
@@ -30,8 +31,11 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
     drogue_labels_reset(&frontend->components, workspace->component_parent, workspace->capacity.labels);
     drogue_labels_reset(&frontend->arc_labels, workspace->arc_parent, workspace->capacity.labels);
     width = (size_t)width_px;
+    fours = DROGUE_FOURS(width_px);
     memset(workspace->component_strong, 0, workspace->capacity.labels * sizeof(uint32_t));
-    memset(workspace->magnitude_rows + 3 * width, 0, width * sizeof(uint16_t));
+    memset(workspace->raw_rows, 0, 5 * (fours + 1) * sizeof(uint32_t));
+    memset(workspace->smooth_rows, 0, 3 * 2 * (fours + 2) * sizeof(uint32_t));
+    memset(workspace->magnitude_rows + 3 * 4 * (fours + 1), 0, 4 * (fours + 1) * sizeof(uint16_t));
     memset(workspace->code_rows, 0, 2 * width);
     return DROGUE_OK;
 }
@@ -51,7 +55,7 @@ static void append_edge(drogue_frontend *f, const uint16_t *const magnitude[3], 
         return;
     }
     e = &f->workspace->edges[f->edge_count++];
-    drogue_canny_neighbours(&before, &after, sector, magnitude, x, f->width_px);
+    drogue_canny_padded_neighbours(&before, &after, sector, magnitude, x);
     offset_q5 = drogue_canny_offset_q5(before, magnitude[1][x], after);
     /* Magnitudes outside are 0, so at a border the offset points inward and the sums stay in [0, 65535]. */
     DROGUE_NOTE("frontend: edge x, Q5", 32 * x + drogue_canny_step_x(sector) * offset_q5, 16);
@@ -67,22 +71,50 @@ static void append_edge(drogue_frontend *f, const uint16_t *const magnitude[3], 
 static uint32_t suppress(drogue_frontend *f, uint8_t *code, drogue_slope *slopes, const uint16_t *const magnitude[3],
                          int32_t y)
 {
-    uint32_t count = f->slope_count[y & 1];
-    uint32_t kept = 0;
-    uint32_t i;
+    const drogue_ring_row ring = drogue_mask_ring_row(&f->config.ring, y);
+    const drogue_slope *end = slopes + f->slope_count[y & 1];
+    const drogue_slope *s;
+    drogue_slope *kept = slopes;
     memset(code, 0, (size_t)f->width_px);
-    for (i = 0; i < count; i++) {
-        drogue_slope s = slopes[i];
-        if (drogue_canny_survives(magnitude, s.gx, s.gy, s.x, f->width_px)) {
-            uint8_t c = magnitude[1][s.x] > f->config.canny_high ? CODE_CANDIDATE | CODE_STRONG : CODE_CANDIDATE;
-            if (!f->config.use_ring || drogue_mask_in_ring(&f->config.ring, s.x, y)) {
-                c = (uint8_t)(c | ((drogue_direction_class(s.gx, s.gy) + 1u) << CODE_CLASS_SHIFT));
+    for (s = slopes; s < end; s++) {
+        drogue_sector sector = drogue_canny_sector(s->gx, s->gy);
+        int32_t m = magnitude[1][s->x];
+        int32_t before;
+        int32_t after;
+        drogue_canny_padded_neighbours(&before, &after, sector, magnitude, s->x);
+        if (drogue_canny_is_maximum(sector, before, m, after)) {
+            uint32_t c = m > f->config.canny_high ? CODE_CANDIDATE | CODE_STRONG : CODE_CANDIDATE;
+            if (!f->config.use_ring || drogue_ring_row_holds(&ring, s->x)) {
+                c |= (drogue_direction_class(s->gx, s->gy) + 1u) << CODE_CLASS_SHIFT;
             }
-            code[s.x] = c;
-            slopes[kept++] = s;
+            code[s->x] = (uint8_t)c;
+            *kept++ = *s;
         }
     }
-    return kept;
+    return (uint32_t)(kept - slopes);
+}
+
+/* Pixel 0 of a row in the ring buffers; row 3 of the magnitude stays 0. */
+static uint8_t *raw_row(const drogue_frontend *f, int32_t y)
+{
+    return f->workspace->raw_rows + (size_t)(y % 5) * (DROGUE_FOURS(f->width_px) + 1) * 4 + 2;
+}
+
+static uint32_t *smooth_row(const drogue_frontend *f, int32_t y)
+{
+    uint32_t *rows = (uint32_t *)(void *)f->workspace->smooth_rows;
+    return rows + (size_t)(y % 3) * (DROGUE_FOURS(f->width_px) + 2) * 2 + 2;
+}
+
+static uint16_t *magnitude_row(const drogue_frontend *f, int32_t y)
+{
+    size_t row = y >= 0 && y < f->height_px ? (size_t)(y % 3) : 3;
+    return f->workspace->magnitude_rows + row * (DROGUE_FOURS(f->width_px) + 1) * 4 + 2;
+}
+
+static drogue_slope *slope_row(const drogue_frontend *f, int32_t y)
+{
+    return f->workspace->slope_rows + (size_t)(y & 1) * DROGUE_FOURS(f->width_px) * 4;
 }
 
 /* Suppress, threshold, label and list row y, whose magnitude is complete above and below. */
@@ -91,16 +123,16 @@ static void canny_step(drogue_frontend *f, int32_t y)
     drogue_workspace *w = f->workspace;
     size_t width = (size_t)f->width_px;
     const uint16_t *magnitude[3];
-    drogue_slope *points = w->slope_rows + (size_t)(y & 1) * width;
+    drogue_slope *points = slope_row(f, y);
     uint8_t *code = w->code_rows + (size_t)(y & 1) * width;
     const uint8_t *code_above = w->code_rows + (size_t)(~y & 1) * width;
     uint32_t *component = w->component_rows + (size_t)(y & 1) * width;
     uint32_t *arc = w->arc_rows + (size_t)(y & 1) * width;
     uint32_t count;
     uint32_t i;
-    magnitude[0] = w->magnitude_rows + (y > 0 ? (size_t)((y - 1) % 3) : 3u) * width;
-    magnitude[1] = w->magnitude_rows + (size_t)(y % 3) * width;
-    magnitude[2] = w->magnitude_rows + (y + 1 < f->height_px ? (size_t)((y + 1) % 3) : 3u) * width;
+    magnitude[0] = magnitude_row(f, y - 1);
+    magnitude[1] = magnitude_row(f, y);
+    magnitude[2] = magnitude_row(f, y + 1);
     count = suppress(f, code, points, magnitude, y);
     drogue_label_points(component, &f->components, w->merges, w->component_rows + (size_t)(~y & 1) * width, code,
                         code_above, CODE_CANDIDATE, f->width_px, points, count);
@@ -116,41 +148,30 @@ static void canny_step(drogue_frontend *f, int32_t y)
     }
 }
 
-/* Pixel 0 of a row in the ring buffers: 'raw' rows have two pixels of border before it, smoothed ones a word. */
-static uint8_t *raw_row(const drogue_frontend *f, int32_t y)
-{
-    return f->workspace->raw_rows + (size_t)(y % 5) * DROGUE_ROW_BYTES(f->width_px) + 2;
-}
-
-static uint8_t *smooth_row(const drogue_frontend *f, int32_t y)
-{
-    return f->workspace->smooth_rows + (size_t)(y % 3) * DROGUE_ROW_BYTES(f->width_px) + 4;
-}
-
 /* Smoothed row y is there: the gradient of row y - 1 is complete above and below. */
 static void gradient_step(drogue_frontend *f, int32_t y)
 {
-    drogue_workspace *w = f->workspace;
-    size_t width = (size_t)f->width_px;
-    const uint8_t *rows[3];
+    const uint32_t *rows[3];
+    uint16_t *magnitude = magnitude_row(f, y);
     int32_t below = y + 1 < f->height_px ? y + 1 : y;
     rows[0] = smooth_row(f, y > 0 ? y - 1 : 0);
     rows[1] = smooth_row(f, y);
     rows[2] = smooth_row(f, below);
     f->slope_count[y & 1] =
-        drogue_gradient_padded_row(w->slope_rows + (size_t)(y & 1) * width, w->magnitude_rows + (size_t)(y % 3) * width,
-                                   rows, f->width_px, f->config.canny_low);
+        drogue_gradient_lanes_row(slope_row(f, y), magnitude, rows, f->width_px, f->config.canny_low);
+    magnitude[-1] = 0;
+    magnitude[f->width_px] = 0;
     if (y > 0) {
         canny_step(f, y - 1);
     }
 }
 
-/* Smoothed row y is complete but for its border; let it through. */
+/* Smoothed row y is complete but for its border, which is replicated. */
 static void smoothed(drogue_frontend *f, int32_t y)
 {
-    uint8_t *row = smooth_row(f, y);
-    row[-1] = row[0];
-    row[f->width_px] = row[f->width_px - 1];
+    uint32_t *row = smooth_row(f, y);
+    drogue_lanes_set(row, -1, drogue_lanes_get(row, 0));
+    drogue_lanes_set(row, f->width_px, drogue_lanes_get(row, f->width_px - 1));
     if (y > 0) {
         gradient_step(f, y - 1);
     }
@@ -163,13 +184,22 @@ static void smooth_step(drogue_frontend *f, int32_t y)
     for (k = 0; k < 5; k++) {
         rows[k] = (const uint32_t *)(const void *)(raw_row(f, drogue_reflect_101(y + k - 2, f->height_px)) - 2);
     }
-    drogue_smooth_words((uint32_t *)(void *)smooth_row(f, y), rows, (f->width_px + 3) / 4);
+    drogue_smooth_lanes_row(smooth_row(f, y), rows, (f->width_px + 3) / 4);
     smoothed(f, y);
+}
+
+/* Put the border of a raw row in its place, reflected. */
+static void reflect_border(uint8_t *row, int32_t width_px)
+{
+    int32_t k;
+    for (k = 1; k <= 2; k++) {
+        row[-k] = row[drogue_reflect_101(-k, width_px)];
+        row[width_px - 1 + k] = row[drogue_reflect_101(width_px - 1 + k, width_px)];
+    }
 }
 
 void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
 {
-    size_t width = (size_t)frontend->width_px;
     int32_t y = frontend->rows_in;
     if (y >= frontend->height_px) {
         return;
@@ -177,18 +207,15 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
     frontend->rows_in++;
     if (frontend->config.smooth) {
         uint8_t *raw = raw_row(frontend, y);
-        int32_t k;
-        memcpy(raw, row, width);
-        for (k = 1; k <= 2; k++) {
-            raw[-k] = raw[drogue_reflect_101(-k, frontend->width_px)];
-            raw[frontend->width_px - 1 + k] =
-                raw[drogue_reflect_101(frontend->width_px - 1 + k, frontend->width_px)];
-        }
+        memcpy(raw, row, (size_t)frontend->width_px);
+        reflect_border(raw, frontend->width_px);
         if (y >= 2) {
             smooth_step(frontend, y - 2);
         }
     } else {
-        memcpy(smooth_row(frontend, y), row, width);
+        uint8_t *raw = raw_row(frontend, 0) - 2;
+        memcpy(raw, row, (size_t)frontend->width_px);
+        drogue_lanes_row(smooth_row(frontend, y), (const uint32_t *)(const void *)raw, (frontend->width_px + 3) / 4);
         smoothed(frontend, y);
     }
 }

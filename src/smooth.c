@@ -25,7 +25,7 @@ void drogue_smooth_row(uint8_t *out, uint16_t *column, const uint8_t *const rows
     }
 }
 
-void drogue_smooth_words(uint32_t *out, const uint32_t *const rows[5], int32_t words)
+void drogue_smooth_lanes_row(uint32_t *out, const uint32_t *const rows[5], int32_t fours)
 {
     const uint32_t *r0 = rows[0];
     const uint32_t *r1 = rows[1];
@@ -35,7 +35,7 @@ void drogue_smooth_words(uint32_t *out, const uint32_t *const rows[5], int32_t w
     uint32_t even = 0; /* column sums x - 2 and x */
     uint32_t odd = 0;  /* column sums x - 1 and x + 1 */
     int32_t i;
-    for (i = 0; i <= words; i++) { /* the first round fills the window */
+    for (i = 0; i <= fours; i++) { /* the first round fills the window */
         uint32_t p0 = drogue_first_lowest(r0[i]);
         uint32_t p1 = drogue_first_lowest(r1[i]);
         uint32_t p2 = drogue_first_lowest(r2[i]);
@@ -48,10 +48,9 @@ void drogue_smooth_words(uint32_t *out, const uint32_t *const rows[5], int32_t w
             drogue_binomial5(p0 >> 8, p1 >> 8, p2 >> 8, p3 >> 8, p4 >> 8) - ((next_even >> 16) << 8);
         uint32_t mid_even = drogue_lanes_between(even, next_even);
         uint32_t mid_odd = drogue_lanes_between(odd, next_odd);
-        uint32_t grey = drogue_smooth_normalise_lanes(drogue_binomial5(even, odd, mid_even, mid_odd, next_even));
-        grey |= drogue_smooth_normalise_lanes(drogue_binomial5(odd, mid_even, mid_odd, next_even, next_odd)) << 8;
         if (i > 0) {
-            out[i - 1] = drogue_first_lowest(grey);
+            *out++ = drogue_smooth_normalise_lanes(drogue_binomial5(even, odd, mid_even, mid_odd, next_even));
+            *out++ = drogue_smooth_normalise_lanes(drogue_binomial5(odd, mid_even, mid_odd, next_even, next_odd));
         }
         even = next_even;
         odd = next_odd;

@@ -51,13 +51,13 @@ static inline int32_t drogue_reflect_101(int32_t i, int32_t n)
  */
 void drogue_smooth_row(uint8_t *out, uint16_t *column, const uint8_t *const rows[5], int32_t width_px);
 
-/* The same in words of four pixels, for rows that bring their border with them.
+/* The same four pixels at a time, for rows that bring their border with them.
  *
- *  out    'words' words: pixels 0 .. 4 * words - 1; those beyond the row's width mean nothing
- *  rows   the rows y-2 .. y+2, border already reflected; words + 1 words each: pixels -2 .. 4 * words + 1
- *  words  number of words, pixels / 4 rounded up
+ *  out    2 * fours words: grey levels 0 .. 4 * fours - 1 as a row of lanes; those beyond the row's width mean nothing
+ *  rows   the rows y-2 .. y+2, border already reflected; bytes in fours + 1 words each: pixels -2 .. 4 * fours + 1
+ *  fours  pixels / 4 rounded up
  */
-void drogue_smooth_words(uint32_t *out, const uint32_t *const rows[5], int32_t words);
+void drogue_smooth_lanes_row(uint32_t *out, const uint32_t *const rows[5], int32_t fours);
 
 /* Smooth a whole image.
  *
