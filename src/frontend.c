@@ -41,33 +41,26 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
 }
 
 /* Append a candidate of row y to the edge list. */
-static void append_edge(drogue_frontend *f, const uint16_t *const magnitude[3], const drogue_slope *point, int32_t y,
-                        uint32_t label)
+static void append_edge(drogue_frontend *f, const drogue_slope *point, int32_t y, uint32_t label)
 {
-    drogue_sector sector = drogue_canny_sector(point->gx, point->gy);
-    int32_t x = point->x;
     drogue_edge *e;
-    int32_t before;
-    int32_t after;
-    int32_t offset_q5;
     if (f->edge_count >= f->workspace->capacity.edges) {
         f->edges_full = 1;
         return;
     }
     e = &f->workspace->edges[f->edge_count++];
-    drogue_canny_padded_neighbours(&before, &after, sector, magnitude, x);
-    offset_q5 = drogue_canny_offset_q5(before, magnitude[1][x], after);
     /* Magnitudes outside are 0, so at a border the offset points inward and the sums stay in [0, 65535]. */
-    DROGUE_NOTE("frontend: edge x, Q5", 32 * x + drogue_canny_step_x(sector) * offset_q5, 16);
-    DROGUE_NOTE("frontend: edge y, Q5", 32 * y + drogue_canny_step_y(sector) * offset_q5, 16);
-    e->x_q5 = (uint16_t)(32 * x + drogue_canny_step_x(sector) * offset_q5);
-    e->y_q5 = (uint16_t)(32 * y + drogue_canny_step_y(sector) * offset_q5);
+    DROGUE_NOTE("frontend: edge x, Q5", 32 * point->x + point->dx_q5, 16);
+    DROGUE_NOTE("frontend: edge y, Q5", 32 * y + point->dy_q5, 16);
+    e->x_q5 = (uint16_t)(32 * point->x + point->dx_q5);
+    e->y_q5 = (uint16_t)(32 * y + point->dy_q5);
     e->gx = point->gx;
     e->gy = point->gy;
     e->arc = label;
 }
 
-/* Keep of the slopes of row y the maxima across their edge, and note their codes. Returns the number kept. */
+/* Keep of the slopes of row y the maxima across their edge, and note their codes; those in the ring get their offset.
+ * Returns the number kept. */
 static uint32_t suppress(drogue_frontend *f, uint8_t *code, drogue_slope *slopes, const uint16_t *const magnitude[3],
                          int32_t y)
 {
@@ -81,15 +74,21 @@ static uint32_t suppress(drogue_frontend *f, uint8_t *code, drogue_slope *slopes
         int32_t m = magnitude[1][s->x];
         int32_t before;
         int32_t after;
+        uint32_t c;
         drogue_canny_padded_neighbours(&before, &after, sector, magnitude, s->x);
-        if (drogue_canny_is_maximum(sector, before, m, after)) {
-            uint32_t c = m > f->config.canny_high ? CODE_CANDIDATE | CODE_STRONG : CODE_CANDIDATE;
-            if (!f->config.use_ring || drogue_ring_row_holds(&ring, s->x)) {
-                c |= (drogue_direction_class(s->gx, s->gy) + 1u) << CODE_CLASS_SHIFT;
-            }
-            code[s->x] = (uint8_t)c;
-            *kept++ = *s;
+        if (!drogue_canny_is_maximum(sector, before, m, after)) {
+            continue;
         }
+        *kept = *s;
+        c = m > f->config.canny_high ? CODE_CANDIDATE | CODE_STRONG : CODE_CANDIDATE;
+        if (!f->config.use_ring || drogue_ring_row_holds(&ring, s->x)) {
+            int32_t offset_q5 = drogue_canny_offset_q5(before, m, after);
+            kept->dx_q5 = (int8_t)(drogue_canny_step_x(sector) * offset_q5);
+            kept->dy_q5 = (int8_t)(drogue_canny_step_y(sector) * offset_q5);
+            c |= (drogue_direction_class(s->gx, s->gy) + 1u) << CODE_CLASS_SHIFT;
+        }
+        code[s->x] = (uint8_t)c;
+        kept++;
     }
     return (uint32_t)(kept - slopes);
 }
@@ -143,7 +142,7 @@ static void canny_step(drogue_frontend *f, int32_t y)
         w->component_strong[component[x]] |= code[x] & CODE_STRONG;
         if (arc[x] != 0) {
             w->arc_component[arc[x]] = component[x];
-            append_edge(f, magnitude, &points[i], y, arc[x]);
+            append_edge(f, &points[i], y, arc[x]);
         }
     }
 }

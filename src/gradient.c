@@ -35,6 +35,8 @@ static inline drogue_slope *note_slope(drogue_slope *next, uint32_t x, uint32_t 
     next->x = (uint16_t)x;
     next->gx = drogue_sobel_unbias(dx);
     next->gy = drogue_sobel_unbias(dy);
+    next->dx_q5 = 0;
+    next->dy_q5 = 0;
     return next + 1;
 }
 
@@ -57,7 +59,7 @@ uint32_t drogue_gradient_lanes_row(drogue_slope *slopes, uint16_t *magnitude, co
         uint32_t step = drogue_sobel_step(t[1], b[1]);
         uint32_t dx_even = drogue_sobel_dx(drogue_lanes_between(odd_sum, sum), sum);
         uint32_t dy_even = drogue_sobel_121(drogue_lanes_between(odd_step, step), even_step, step);
-        uint32_t m_even = drogue_sobel_l1(dx_even, dy_even);
+        uint32_t m_even = drogue_sobel_l1(dx_even, drogue_sobel_mask(dx_even), dy_even, drogue_sobel_mask(dy_even));
         uint32_t dx_odd;
         uint32_t dy_odd;
         uint32_t m_odd;
@@ -67,7 +69,7 @@ uint32_t drogue_gradient_lanes_row(drogue_slope *slopes, uint16_t *magnitude, co
         step = drogue_sobel_step(t[2], b[2]);
         dx_odd = drogue_sobel_dx(even_sum, drogue_lanes_between(even_sum, sum));
         dy_odd = drogue_sobel_121(even_step, odd_step, drogue_lanes_between(even_step, step));
-        m_odd = drogue_sobel_l1(dx_odd, dy_odd);
+        m_odd = drogue_sobel_l1(dx_odd, drogue_sobel_mask(dx_odd), dy_odd, drogue_sobel_mask(dy_odd));
         even_sum = sum;
         even_step = step;
         t += 2;

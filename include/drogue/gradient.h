@@ -34,15 +34,17 @@ static inline int16_t drogue_sobel_unbias(uint32_t lanes)
     return (int16_t)((int32_t)(lanes & 0xFFFFu) - (int32_t)DROGUE_SOBEL_BIAS);
 }
 
-/* Sum of the absolute values of two derivatives in lanes, which come with the bias. */
-static inline uint32_t drogue_sobel_l1(uint32_t dx, uint32_t dy)
+/* 1023 in the lanes that are not negative, 0 in the others. */
+static inline uint32_t drogue_sobel_mask(uint32_t derivative)
 {
-    uint32_t not_negative_x = dx & DROGUE_LANES(DROGUE_SOBEL_BIAS);
-    uint32_t not_negative_y = dy & DROGUE_LANES(DROGUE_SOBEL_BIAS);
-    /* bias + v loses the bias; bias - v becomes v - 1 */
-    uint32_t x = dx ^ (DROGUE_LANES(DROGUE_SOBEL_BIAS - 1u) + (not_negative_x >> 10));
-    uint32_t y = dy ^ (DROGUE_LANES(DROGUE_SOBEL_BIAS - 1u) + (not_negative_y >> 10));
-    return x + y + DROGUE_LANES(2u) - ((not_negative_x + not_negative_y) >> 10);
+    uint32_t signs = derivative & DROGUE_LANES(DROGUE_SOBEL_BIAS);
+    return signs - (signs >> 10);
+}
+
+/* L1 magnitudes in lanes, of derivatives with their bias and their masks: |v| = bias + mask - ((bias + v) ^ mask). */
+static inline uint32_t drogue_sobel_l1(uint32_t dx, uint32_t mask_x, uint32_t dy, uint32_t mask_y)
+{
+    return DROGUE_LANES(2u * DROGUE_SOBEL_BIAS) + mask_x + mask_y - (dx ^ mask_x) - (dy ^ mask_y);
 }
 
 /* Horizontal derivative of a 3x3 window given by its left and right columns, top to bottom. */
@@ -63,8 +65,9 @@ static inline int16_t drogue_sobel_gy(int32_t t0, int32_t t1, int32_t t2, int32_
 /* L1 magnitude, [0, 2040]. */
 static inline uint16_t drogue_magnitude_l1(int16_t gx, int16_t gy)
 {
-    return (uint16_t)drogue_sobel_l1((uint32_t)(gx + (int32_t)DROGUE_SOBEL_BIAS),
-                                     (uint32_t)(gy + (int32_t)DROGUE_SOBEL_BIAS));
+    uint32_t dx = (uint32_t)(gx + (int32_t)DROGUE_SOBEL_BIAS);
+    uint32_t dy = (uint32_t)(gy + (int32_t)DROGUE_SOBEL_BIAS);
+    return (uint16_t)drogue_sobel_l1(dx, drogue_sobel_mask(dx), dy, drogue_sobel_mask(dy));
 }
 
 /* Gradient of one row.

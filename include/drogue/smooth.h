@@ -53,7 +53,8 @@ void drogue_smooth_row(uint8_t *out, uint16_t *column, const uint8_t *const rows
 
 /* The same four pixels at a time, for rows that bring their border with them.
  *
- *  out    2 * fours words: grey levels 0 .. 4 * fours - 1 as a row of lanes; those beyond the row's width mean nothing
+ *  out    at pixel 0: grey levels 0 .. 4 * fours - 1 as a row of lanes, of which those beyond the width mean nothing;
+ *         pixels -4 .. -1 are overwritten
  *  rows   the rows y-2 .. y+2, border already reflected; bytes in fours + 1 words each: pixels -2 .. 4 * fours + 1
  *  fours  pixels / 4 rounded up
  */
