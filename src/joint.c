@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define STEPS 4 /* Gauss-Newton steps: each squares the error, the start is within a degree or two */
+#define SETTLED_BITS 20 /* a step that turns by less than 2^-20 rad and moves by less of the distance is the last */
 #define FIT_PARAMETERS 5
 
 typedef drogue_wide wide;
@@ -36,14 +36,14 @@ static void bin_direction(int32_t *c_q30, int32_t *s_q30, uint32_t k)
 }
 
 drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
-                                              drogue_q16 floor_px_q16, drogue_q16 blur_px2_q16)
+                                              drogue_q16 shading_q16, drogue_q16 blur_px2_q16)
 {
     const wide a = drogue_wide_from_q16(outline->ellipse.a_px_q16);
     const wide b = drogue_wide_from_q16(outline->ellipse.b_px_q16);
     int64_t sum_q30[DROGUE_PACKED_MAX]; /* information: points times products of the basis functions */
     wide information[DROGUE_PACKED_MAX];
     wide scatter = {0, 0};
-    wide floor_share;
+    wide shading_share;
     wide blur_share;
     uint32_t bins = 0;
     uint32_t k;
@@ -73,7 +73,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
             }
         }
     }
-    if (bins <= FIT_PARAMETERS) {
+    if (bins <= FIT_PARAMETERS || support->gradient == 0) {
         return DROGUE_E_DEGENERATE;
     }
     scatter = drogue_wide_div(scatter, integer((int64_t)bins - FIT_PARAMETERS));
@@ -84,14 +84,15 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
         return DROGUE_E_DEGENERATE;
     }
     drogue_cholesky_invert(outline->covariance, information, FIT_PARAMETERS);
-    floor_share = drogue_wide_div(drogue_wide_from_q16(floor_px_q16), a);
+    shading_share = drogue_wide_div(mul(drogue_wide_from_q16(shading_q16), integer(support->points)),
+                                    mul(a, integer((int64_t)support->gradient)));
     blur_share = drogue_wide_div(drogue_wide_from_q16(blur_px2_q16), mul(a, b));
     for (i = 0; i < FIT_PARAMETERS; i++) {
         for (j = 0; j <= i; j++) {
             outline->covariance[DROGUE_PACKED(i, j)] = mul(outline->covariance[DROGUE_PACKED(i, j)], scatter);
         }
         outline->covariance[DROGUE_PACKED(i, i)] =
-            add(outline->covariance[DROGUE_PACKED(i, i)], mul(floor_share, floor_share));
+            add(outline->covariance[DROGUE_PACKED(i, i)], mul(shading_share, shading_share));
     }
     outline->covariance[0] = add(outline->covariance[0], mul(blur_share, blur_share));
     return DROGUE_OK;
@@ -151,8 +152,7 @@ typedef struct ray_frame {
     wide radius2;
 } ray_frame;
 
-static void ray_frame_of(ray_frame *out, const drogue_ellipse *e, const drogue_camera *camera,
-                         drogue_q16 radius_m_q16)
+static void ray_frame_of(ray_frame *out, const drogue_ellipse *e, const drogue_camera *camera, drogue_q16 radius_m_q16)
 {
     const wide fx = drogue_wide_from_q16(camera->fx_px_q16);
     const wide fy = drogue_wide_from_q16(camera->fy_px_q16);
@@ -174,10 +174,8 @@ static void ray_frame_of(ray_frame *out, const drogue_ellipse *e, const drogue_c
     out->column[1][0] = drogue_wide_neg(drogue_wide_div(mul(b, s), fx));
     out->column[1][1] = drogue_wide_div(mul(b, c), fy);
     out->column[1][2] = integer(0);
-    out->column[2][0] =
-        drogue_wide_div(drogue_wide_from_s64((int64_t)e->xc_px_q16 - camera->cx_px_q16, -16), fx);
-    out->column[2][1] =
-        drogue_wide_div(drogue_wide_from_s64((int64_t)e->yc_px_q16 - camera->cy_px_q16, -16), fy);
+    out->column[2][0] = drogue_wide_div(drogue_wide_from_s64((int64_t)e->xc_px_q16 - camera->cx_px_q16, -16), fx);
+    out->column[2][1] = drogue_wide_div(drogue_wide_from_s64((int64_t)e->yc_px_q16 - camera->cy_px_q16, -16), fy);
     out->column[2][2] = integer(1);
     for (i = 0; i < 3; i++) {
         for (j = 0; j <= i; j++) {
@@ -255,8 +253,7 @@ static void outline_rows(equations *out, const state *s, const ray_frame *frame)
         dradial = add(dq[0], dq[2]);
         harmonics(dh, dq);
         for (i = 0; i < FIT_PARAMETERS; i++) {
-            out->slope[i][p] =
-                drogue_wide_neg(drogue_wide_div(add(dh[i], mul(out->residual[i], dradial)), radial));
+            out->slope[i][p] = drogue_wide_neg(drogue_wide_div(add(dh[i], mul(out->residual[i], dradial)), radial));
         }
     }
     out->rows = FIT_PARAMETERS;
@@ -307,8 +304,8 @@ static drogue_status disc_centre(wide centre[2], wide middle[3], const state *s,
     for (i = 0; i < 3; i++) {
         for (j = 0; j <= i; j++) {
             const wide *n = s->axis;
-            q[DROGUE_PACKED(i, j)] = sub(mul(k, mul(n[i], n[j])),
-                                         mul(d, add(mul(n[i], middle[j]), mul(middle[i], n[j]))));
+            q[DROGUE_PACKED(i, j)] =
+                sub(mul(k, mul(n[i], n[j])), mul(d, add(mul(n[i], middle[j]), mul(middle[i], n[j]))));
         }
         q[DROGUE_PACKED(i, i)] = add(q[DROGUE_PACKED(i, i)], mul(d, d));
     }
@@ -340,8 +337,8 @@ static drogue_status inner_rows(equations *out, const state *s, const drogue_joi
     for (i = 0; i < 2; i++) {
         const wide scale = drogue_wide_div(drogue_wide_from_q16(i == 0 ? camera->fx_px_q16 : camera->fy_px_q16), std);
         const int row = FIT_PARAMETERS + i;
-        out->residual[row] = sub(mul(scale, centre[i]),
-                                 drogue_wide_div(drogue_wide_from_s64(measured_q16[i], -16), std));
+        out->residual[row] =
+            sub(mul(scale, centre[i]), drogue_wide_div(drogue_wide_from_s64(measured_q16[i], -16), std));
         for (p = 0; p < FIT_PARAMETERS; p++) {
             wide across = integer(p == i); /* change of the disc's centre along x or y, and along z */
             wide along = integer(p == 2);
@@ -359,8 +356,7 @@ static drogue_status inner_rows(equations *out, const state *s, const drogue_joi
 /* ---- the solver */
 
 /* Normal equations; angles get the information 1 / rad^2, which only matters where nothing else says anything. */
-static drogue_status normal_equations(wide normal[DROGUE_PACKED_MAX], wide right[FIT_PARAMETERS],
-                                      const equations *e)
+static drogue_status normal_equations(wide normal[DROGUE_PACKED_MAX], wide right[FIT_PARAMETERS], const equations *e)
 {
     int i;
     int j;
@@ -397,6 +393,42 @@ static wide limited(wide v, wide most)
                                                            : v;
 }
 
+/* One step, at most half a radian in each angle, and never past the plane of the camera. */
+static void move(state *s, const wide step[FIT_PARAMETERS])
+{
+    const wide most_turn = drogue_wide_from_s64(1, -1);
+    const wide most_angle = drogue_wide_from_q16(DROGUE_Q16_HALF_PI);
+    int i;
+    for (i = 0; i < 3; i++) {
+        s->position[i] = add(s->position[i], step[i]);
+    }
+    for (i = 0; i < 2; i++) {
+        s->angle[i] = limited(add(s->angle[i], limited(step[3 + i], most_turn)), most_angle);
+    }
+}
+
+static int small(const wide step[FIT_PARAMETERS], const state *s)
+{
+    int i;
+    for (i = 0; i < FIT_PARAMETERS; i++) {
+        const wide most = drogue_wide_scale(i < 3 ? s->position[2] : integer(1), -SETTLED_BITS);
+        if (drogue_wide_cmp(limited(step[i], most), step[i]) != 0) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static wide square_sum(const wide *v, int count)
+{
+    wide sum = integer(0);
+    int i;
+    for (i = 0; i < count; i++) {
+        sum = add(sum, mul(v[i], v[i]));
+    }
+    return sum;
+}
+
 static void start_from(state *s, const drogue_pose *pose)
 {
     int k;
@@ -424,9 +456,8 @@ static drogue_status finish(drogue_pose *out, const state *s)
 
 drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,
                                  const drogue_joint_inner *inner, const drogue_camera *camera,
-                                 const drogue_model *model)
+                                 const drogue_model *model, int steps)
 {
-    const wide most_turn = drogue_wide_from_s64(1, -1); /* rad in one step */
     wide root[DROGUE_PACKED_MAX];
     wide normal[DROGUE_PACKED_MAX];
     wide right[FIT_PARAMETERS];
@@ -434,35 +465,33 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
     equations e;
     state s;
     drogue_status status;
+    int last = 0;
     int step;
-    int i;
     memcpy(root, outline->covariance, sizeof root);
     status = drogue_cholesky_factor(root, FIT_PARAMETERS);
     ray_frame_of(&frame, &outline->ellipse, camera, model->rim_radius_m_q16);
     start_from(&s, start);
-    for (step = 0; step <= STEPS && status == DROGUE_OK; step++) {
+    for (step = 0; !last && status == DROGUE_OK; step++) {
         status = all_rows(&e, &s, &frame, root, inner, camera, model);
         if (status == DROGUE_OK) {
             status = normal_equations(normal, right, &e);
         }
-        if (status == DROGUE_OK && step < STEPS) {
+        if (status != DROGUE_OK) {
+            return status;
+        }
+        last = step == steps;
+        if (steps > 0) {
             drogue_cholesky_solve(right, normal, FIT_PARAMETERS);
-            for (i = 0; i < 3; i++) {
-                s.position[i] = add(s.position[i], right[i]);
-            }
-            for (i = 0; i < 2; i++) {
-                s.angle[i] = limited(add(s.angle[i], limited(right[3 + i], most_turn)), drogue_wide_from_q16(DROGUE_Q16_HALF_PI));
-            }
+            last = last || small(right, &s);
+            move(&s, right);
         }
     }
     if (status != DROGUE_OK) {
         return status;
     }
     drogue_cholesky_invert(out->covariance, normal, FIT_PARAMETERS);
-    out->chi2 = integer(0);
-    for (i = 0; i < e.rows; i++) {
-        out->chi2 = add(out->chi2, mul(e.residual[i], e.residual[i]));
-    }
+    out->chi2 = square_sum(e.residual, e.rows);
+    turn_axis(&s);
     return finish(&out->pose, &s);
 }
 

@@ -22,7 +22,8 @@ typedef struct drogue_dark_part {
     drogue_q16 x_px_q16; /* centroid, region coordinates */
     drogue_q16 y_px_q16;
     uint32_t area_px;
-    uint8_t threshold; /* Otsu's, grey level */
+    drogue_q16 spread_px_q16; /* drogue_dark_disc_find(): between the centroids at a lower and a higher threshold */
+    uint8_t threshold;        /* Otsu's, grey level */
 } drogue_dark_part;
 
 /* Find the largest dark component inside a disc.

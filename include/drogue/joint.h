@@ -17,8 +17,8 @@ extern "C" {
 /* The outline as a measurement. A neighbouring ellipse lies off it by
  * r(t) = m0 + m1 cos t + m2 sin t + m3 cos 2t + m4 sin 2t in units of the semi-axes, t the eccentric angle. */
 typedef struct drogue_joint_outline {
-    drogue_ellipse ellipse;                     /* undistorted, px of the whole image */
-    drogue_wide covariance[DROGUE_PACKED_MAX];  /* of m0 .. m4, packed */
+    drogue_ellipse ellipse;                    /* undistorted, px of the whole image */
+    drogue_wide covariance[DROGUE_PACKED_MAX]; /* of m0 .. m4, packed */
 } drogue_joint_outline;
 
 /* The inner part as a measurement. */
@@ -38,24 +38,28 @@ typedef struct drogue_joint {
  * and shape together however far they are correlated along the edge.
  *
  *  support  of the last fit
- *  floor    standard deviation of what the residuals cannot show, px, in every parameter
+ *  shading  what the residuals cannot show, as light that changes along the outline, moves an edge by this over its
+ *           gradient (|gx| + |gy|, grey levels * 8): px times that unit, standard deviation in every parameter
  *  blur     standard deviation of half the variance of the optics' blur, px^2 Q16: moves the whole outline in or out
  *  return   DROGUE_OK; DROGUE_E_DEGENERATE when too few bins hold points
  *  source   the fit's normal equations; (50) of the paper in closed form
  */
 drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
-                                              drogue_q16 floor_px_q16, drogue_q16 blur_px2_q16);
+                                              drogue_q16 shading_q16, drogue_q16 blur_px2_q16);
 
 /* Solve for the pose.
  *
  *  out      pose, covariance, chi2; undefined on failure
  *  start    a pose from drogue_pose_from_ellipse()
+ *  steps    most Gauss-Newton steps after the first, [0, 16], each about squares what is left of the error; a step of
+ *           less than 2^-20 rad and of the distance is the last one. 0: none at all, the start itself. Covariance and
+ *           chi2 are those of the point before the last step
  *  return   DROGUE_OK; DROGUE_E_DEGENERATE, DROGUE_E_DOMAIN, DROGUE_E_BEHIND_CAMERA
  *  scaling  62-bit mantissas throughout; no overflow
  */
 drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,
                                  const drogue_joint_inner *inner, const drogue_camera *camera,
-                                 const drogue_model *model);
+                                 const drogue_model *model, int steps);
 
 /* Image of the inner disc of a pose.
  *

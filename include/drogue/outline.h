@@ -23,6 +23,7 @@ typedef struct drogue_outline {
     uint32_t cluster_members; /* candidates that agree with the winner, itself included */
     uint32_t refit_points;    /* points in the last fit; 0 when the fit of the arcs was kept */
     drogue_q16 cover_q16;     /* share of the circumference that edge points cover */
+    drogue_q16 band_px_q16;   /* half width of the band about the ellipse that they lie in */
     drogue_support support;   /* of the last fit, before the blur was put back */
 } drogue_outline;
 

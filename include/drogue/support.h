@@ -22,6 +22,7 @@ typedef struct drogue_support_bin {
 typedef struct drogue_support {
     drogue_support_bin bin[DROGUE_SUPPORT_BINS];
     int64_t squares_q32;  /* of the same offsets, over all bins */
+    uint64_t gradient;    /* sum of |gx| + |gy| over them, grey levels * 8 */
     uint32_t points;      /* in these sums */
     uint32_t bright_bins; /* bit k: bin k is brighter inside; all 0 or all 1 for an outline of one polarity */
     uint32_t covered;     /* bins that hold enough points, less the changes of polarity round the outline beyond none */
@@ -42,8 +43,8 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
 void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse, drogue_polarity polarity,
                           uint32_t stride);
 
-/* Add a point that belongs to the sums; 0 when its polarity is not that of its bin. */
-int drogue_support_add(drogue_support *support, const drogue_band_point *point);
+/* Count a point that belongs; when its polarity is that of its bin also add it to the sums, and return 1. */
+int drogue_support_add(drogue_support *support, const drogue_band_point *point, const drogue_edge *edge);
 
 /* Covered share of the circumference, Q16. */
 static inline drogue_q16 drogue_support_cover(const drogue_support *support)
