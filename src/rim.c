@@ -105,14 +105,16 @@ static void follow_rays(rays *r, const drogue_search_level *level, const drogue_
 /* Keep the points within tolerance of the circle; returns their number. */
 static int32_t keep_near(rays *r, const drogue_rim *c, int64_t tolerance_q8)
 {
+    const int64_t room = 16 + ((c->radius_q4 * tolerance_q8) >> 8);
+    const int64_t most = c->radius_q4 + room;
+    const int64_t least = c->radius_q4 > room ? c->radius_q4 - room : 0;
     int32_t count = 0;
     int i;
     for (i = 0; i < RAYS; i++) {
         const int64_t dx = r->x_q4[i] - c->x_q4;
         const int64_t dy = r->y_q4[i] - c->y_q4;
-        const int64_t off = (int64_t)drogue_isqrt_u64((uint64_t)(dx * dx + dy * dy)) - c->radius_q4;
-        const int64_t most = 16 + ((c->radius_q4 * tolerance_q8) >> 8);
-        r->used[i] = r->step[i] > 0 && off <= most && off >= -most;
+        const int64_t distance2 = dx * dx + dy * dy;
+        r->used[i] = r->step[i] > 0 && distance2 >= least * least && distance2 <= most * most;
         count += r->used[i];
     }
     return count;
