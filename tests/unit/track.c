@@ -47,6 +47,7 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.depth_std_q16, q16_of(0.002));
     ck_assert_int_eq(c.angle_std_rad_q16, q16_of(0.02));
     ck_assert_uint_eq(c.agree_frames, 4);
+    ck_assert_uint_eq(c.reconsider_frames, 50);
     ck_assert_int_eq(c.gate_q16, q16_of(20.515));
     ck_assert_int_eq(c.position_gate_q16, q16_of(16.266));
     ck_assert_int_eq(c.region_sigmas_q16, q16_of(3));
