@@ -291,19 +291,23 @@ static void refit(drogue_outline *outline, const context *x)
     for (round = 0; round <= config->refit_rounds && !done; round++) {
         drogue_ellipse ellipse;
         const drogue_q16 width = band.half_width_px_q16;
+        const uint32_t bright_bins = outline->support.bright_bins;
         if (collect_outline(&c, &outline->support, &outline->ellipse, &band, x) != DROGUE_OK) {
             return;
         }
         drogue_support_judge(&outline->support, &outline->ellipse, config->polarity, 1);
         outline->band_px_q16 = width;
-        if (round == config->refit_rounds || collection_fit(&ellipse, &c) != DROGUE_OK ||
-            !plausible(&ellipse, x->mask, config)) {
-            break;
-        }
-        narrow(&band, &outline->support, &ellipse, config);
-        done = band.half_width_px_q16 == width && settled(&ellipse, &outline->ellipse);
-        outline->ellipse = ellipse;
-        outline->refit_points = (uint32_t)c.moments.n;
+        if (round == config->refit_rounds) {
+            outline->support.bright_bins = bright_bins; /* that of the sums */
+        } else if (outline->support.bright_bins == bright_bins) {
+            if (collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, config)) {
+                break;
+            }
+            narrow(&band, &outline->support, &ellipse, config);
+            done = band.half_width_px_q16 == width && settled(&ellipse, &outline->ellipse);
+            outline->ellipse = ellipse;
+            outline->refit_points = (uint32_t)c.moments.n;
+        } /* else collect again with the polarities that the counts show */
     }
     outline->cover_q16 = drogue_support_cover(&outline->support);
     outline->polarity = outline->support.bright_bins == 0            ? DROGUE_POLARITY_DARK
