@@ -21,7 +21,7 @@ static long milli(drogue_q16 value) { return (long)drogue_shr_round_s64((int64_t
 /* The camera's next picture: a view that moves to the left by a pixel a frame. */
 static drogue_image capture(int number)
 {
-    drogue_image image = frame_frame_demo->image;
+    drogue_image image = frame_demo->image;
     image.width_px -= FRAMES;
     image.data = number >= 6 && number <= 8 ? cloud : image.data + FRAMES - number;
     return image;
