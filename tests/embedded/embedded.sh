@@ -64,7 +64,8 @@ configure() {
 # install_library TARGET
 install_library() {
     configure . "$work/$1/library" "$1" -DDROGUE_BUILD_CLI=OFF -DDROGUE_BUILD_TESTS=OFF \
-        -DCMAKE_INSTALL_PREFIX="$work/$1/installed" && cmake --build "$work/$1/library" --target install
+        -DCMAKE_INSTALL_PREFIX="$work/$1/installed" &&
+        cmake --build "$work/$1/library" && cmake --install "$work/$1/library"
 }
 
 # build_images TARGET

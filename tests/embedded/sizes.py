@@ -155,8 +155,8 @@ def compiler():
 
 def tables(library, ram):
     measure = library.exported['drogue_measure']
-    lines = [f'Cortex-M7, `-Os`, {compiler()}. Flash is code and constants; the library has no static RAM. Worst-case',
-             'stack includes what is called, the compiler\'s helpers too.', '',
+    lines = [f'Cortex-M7, `-Os`, {compiler()}.',
+             'Flash is code and constants; worst-case stack includes what is called, the compiler\'s helpers too.', '',
              '| stage | flash, bytes | static RAM | worst-case stack, bytes |', '| --- | --- | --- | --- |']
     for stage in sorted(library.stage_flash):
         deepest = max((library.stack(k) for k in library.exported.values() if k[0] == stage), default=0)
