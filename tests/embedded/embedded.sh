@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # For each target: installs the static library, builds the images of this folder from it by find_package, runs them in
-# QEMU. Prints one table. Exit status 0 when every image succeeds, every digest and every example's output is the host's,
-# and the instructions on the Cortex-M7 keep their budgets.
+# QEMU. Prints one table. Exit status 0 when every image succeeds, every digest and every example's output is the
+# host's, and the instructions on the Cortex-M7 keep their budgets.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit
 . tests/matrix/machine.sh

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# embedded.sh must bite: each case spoils one thing by a tool found first in PATH, and expects exit status 1 and a message.
+# embedded.sh must bite: each case spoils one thing by a tool found first in PATH, and expects exit status 1 and a
+# message.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit
 work=$(mktemp -d)

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tables of flash, RAM and worst-case stack from the objects and .su files of a build; called by sizes.sh.
 
-Stack: frame sizes from gcc's -fstack-usage, calls from the disassembly with relocations (one section a function), frames
-of the compiler's helpers and of memcpy and memset from their pushes in a linked image. The graph has no cycle and no call
-through a pointer, or this fails."""
+Stack: frame sizes from gcc's -fstack-usage, calls from the disassembly with relocations (one section a function),
+frames of the compiler's helpers and of memcpy and memset from their pushes in a linked image. The graph has no cycle and
+no call through a pointer, or this fails."""
 import pathlib
 import re
 import subprocess
@@ -181,7 +181,8 @@ def tables(library, ram):
 
 
 def check_budgets(library, ram, folder):
-    limits = dict(line.split() for line in (ROOT / 'tests/embedded/budgets').read_text().splitlines() if not line.startswith('#'))
+    lines = (ROOT / 'tests/embedded/budgets').read_text().splitlines()
+    limits = dict(line.split() for line in lines if not line.startswith('#'))
     state = ram['drogue_workspace'] + ram['drogue_config'] + ram['drogue_result']
     stack = max(library.stack(k) for k in library.exported.values())
     text, data, *_ = tool('size', folder / 'images' / 'only_ellipse').splitlines()[1].split()

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Every form in which the library is handed over, tried by a consumer and by the form's own tools. Tools that Debian has
-# not are installed by pip into build/packaging; what cannot be tried here is listed as NOT TRIED with the reason.
+# Every form in which the library is handed over, tried by a consumer and by the form's own tools. Tools that are not in
+# Debian are installed by pip into build/packaging; what cannot be tried here is listed as NOT TRIED with the reason.
 # find_package, add_subdirectory and pkg-config are tried by tests/checks/install.sh.
 # usage: packaging.sh      DROGUE_PACK_XSD=FILE names PACK.xsd of Open-CMSIS-Pack-Spec where it cannot be downloaded
 set -uo pipefail
@@ -49,10 +49,14 @@ same() {
 
 install_tools() {
     timeout 240 python3 -m venv "$work/tools" && timeout 240 "$work/tools/bin/pip" install -q --retries 1 --timeout 20 \
-        platformio==6.2.0 idf-component-manager==3.1.2 kconfiglib==14.1.0 lxml
+        platformio==6.2.0 idf-component-manager==3.1.2
 }
 
 tool() { [ -x "$work/tools/bin/$1" ]; }
+
+# Debian's python3 has the modules of Debian's packages, whichever python3 comes first in PATH.
+debian_python=/usr/bin/python3
+has_module() { "$debian_python" -c "import $1" 2>/dev/null; }
 
 # use_two_files FOLDER: a consumer of drogue.h and drogue.c in FOLDER
 use_two_files() {
@@ -85,7 +89,7 @@ two_files_symbols() {
 # The shipped frames by the two files and by the installed library, on the host and on a Cortex-M7
 two_files_digest() {
     local images=tests/embedded built=$work/embedded sources
-    sources=($images/measure.c $images/digest.c $images/counter.c "$built/frames.c" "$work/two/drogue.c")
+    sources=("$images"/{measure,digest,counter}.c "$built/frames.c" "$work/two/drogue.c")
     . tests/matrix/machine.sh
     DROGUE_EMBEDDED_DIR=build/packaging/embedded DROGUE_EMBEDDED_OPTIMISATION=-O1 $images/embedded.sh cortex-m7
     gcc -std=c99 -O2 -I "$work/shim" -I "$work/two" -I $images "${sources[@]}" -o "$work/measure"
@@ -109,8 +113,16 @@ two_files() {
     try 'two files: digests of the shipped frames, host and Cortex-M7' two_files_digest
 }
 
+# download URL FILE
+download() {
+    python3 - "$1" "$2" <<'END'
+import pathlib, sys, urllib.request
+pathlib.Path(sys.argv[2]).write_bytes(urllib.request.urlopen(sys.argv[1], timeout=20).read())
+END
+}
+
 valid_pack() {
-    "$work/tools/bin/python" - "$1" src/packaging/Drogue.drogue.pdsc <<'END'
+    "$debian_python" - "$1" src/packaging/Drogue.drogue.pdsc <<'END'
 import sys
 from lxml import etree
 schema = etree.XMLSchema(etree.parse(sys.argv[1]))
@@ -136,14 +148,11 @@ cmsis_pack() {
     same Drogue.drogue.pdsc "$(sed -nE 's/.*<release version="([^"]*)".*/\1/p' src/packaging/Drogue.drogue.pdsc)"
     same 'Drogue.drogue.pdsc, component' "$(sed -nE 's/.*Cversion="([^"]*)".*/\1/p' src/packaging/Drogue.drogue.pdsc)"
     try 'CMSIS-Pack: put together, opened, its files used by a program' use_pack
-    if [ ! -e "$xsd" ]; then
-        python3 -c 'import sys, urllib.request as u; open(sys.argv[2], "wb").write(u.urlopen(sys.argv[1], timeout=20).read())' \
-            "$schema_url" "$xsd" 2>/dev/null || rm -f "$xsd"
-    fi
+    [ -e "$xsd" ] || download "$schema_url" "$xsd" 2>/dev/null
     if [ ! -e "$xsd" ]; then
         not_tried 'CMSIS-Pack: PACK.xsd' 'the schema cannot be downloaded; DROGUE_PACK_XSD can name it'
-    elif ! "$work/tools/bin/python" -c 'import lxml' 2>/dev/null; then
-        not_tried 'CMSIS-Pack: PACK.xsd' 'pip cannot install lxml'
+    elif ! has_module lxml; then
+        not_tried 'CMSIS-Pack: PACK.xsd' 'python3-lxml is missing'
     else
         try 'CMSIS-Pack: valid by PACK.xsd' valid_pack "$xsd"
     fi
@@ -173,8 +182,7 @@ pack_platformio() {
     if ! "$work/tools/bin/pio" pkg pack -o "$pio/drogue.tar.gz" "$pio/source" >"$pio/log" 2>&1; then
         cat "$pio/log"
         # The licence's name is looked up in a list on the net. Nothing else may be wrong.
-        [ "$(grep -o "fields: .*" "$pio/log")" = "fields: {'license': ['Could not load SPDX licenses for validation']}. " ] ||
-            return 1
+        grep -qF "fields: {'license': ['Could not load SPDX licenses for validation']}." "$pio/log" || return 1
         touch "$pio/no_licence"
         sed -i '/"license"/d' "$pio/source/library.json"
         "$work/tools/bin/pio" pkg pack -o "$pio/drogue.tar.gz" "$pio/source"
@@ -196,9 +204,9 @@ platformio() {
     not_tried 'PlatformIO: pio run' 'its platforms come from its own registry'
 }
 
-# use_stand_in FRAMEWORK
+# use_stand_in FRAMEWORK FOLDER
 use_stand_in() {
-    cmake -S tests/packaging/stand_in -B "$work/$1" -G Ninja -DFRAMEWORK="$1" -DDROGUE_ROOT="$root"
+    cmake -S tests/packaging/stand_in -B "$work/$1" -G Ninja -DFRAMEWORK="$1" -DDROGUE_ROOT="$2"
     cmake --build "$work/$1"
     "$work/$1/consumer" "$version"
 }
@@ -207,16 +215,26 @@ esp_idf() {
     same idf_component.yml "$(sed -nE 's/^version: "(.*)"/\1/p' idf_component.yml)"
     if tool compote; then
         try 'ESP-IDF: idf_component.yml valid' "$work/tools/bin/compote" manifest lint idf_component.yml
+        try 'ESP-IDF: packed, the package used by a program with a stand-in' pack_esp_idf
     else
         not_tried 'ESP-IDF: idf_component.yml by its own tool' 'pip cannot install idf-component-manager'
     fi
-    try 'ESP-IDF: the component with a stand-in for idf_component_register, used by a program' use_stand_in esp-idf
+    try 'ESP-IDF: the component with a stand-in for idf_component_register, used by a program' \
+        use_stand_in esp-idf "$root"
     not_tried 'ESP-IDF: idf.py build' 'ESP-IDF is in neither Debian nor PyPI'
+}
+
+# pack_esp_idf: into $work/component, used from there
+pack_esp_idf() {
+    mkdir "$work/component"
+    cp -R CMakeLists.txt idf_component.yml include src README.md CHANGELOG.md LICENSE "$work/component"
+    "$work/tools/bin/compote" component pack --name drogue --project-dir "$work/component"
+    use_stand_in esp-idf "$work/component/dist/drogue_$version"
 }
 
 # Kconfig read, and DROGUE can be switched on
 use_kconfig() {
-    "$work/tools/bin/python" - <<'END'
+    "$debian_python" - <<'END'
 import kconfiglib
 tree = kconfiglib.Kconfig('zephyr/Kconfig', warn_to_stderr=True)
 symbol = tree.syms['DROGUE']
@@ -225,24 +243,24 @@ END
 }
 
 zephyr() {
-    if tool genconfig; then
+    if has_module kconfiglib; then
         try 'Zephyr: Kconfig' use_kconfig
     else
-        not_tried 'Zephyr: Kconfig' 'pip cannot install kconfiglib'
+        not_tried 'Zephyr: Kconfig' 'python3-kconfiglib is missing'
     fi
     try 'Zephyr: files named by module.yml are there' test -e "$(sed -n 's/^  kconfig: //p' zephyr/module.yml)" -a \
         -e "$(sed -n 's/^  cmake: //p' zephyr/module.yml)/CMakeLists.txt"
-    try 'Zephyr: the module with stand-ins for zephyr_library_..., used by a program' use_stand_in zephyr
+    try 'Zephyr: the module with stand-ins for zephyr_library_..., used by a program' use_stand_in zephyr \
+        "$root"
     not_tried 'Zephyr: west build' 'Zephyr is in neither Debian nor PyPI'
 }
 
 rm -rf "$work"
 mkdir -p "$work"
-if ! install_tools >"$work/tools.log" 2>&1; then
-    tail -n 1 "$work/tools.log"
-fi
+install_tools >"$work/tools.log" 2>&1 &
 two_files
 cmsis_pack
+wait $! || tail -n 1 "$work/tools.log"
 platformio
 esp_idf
 zephyr
