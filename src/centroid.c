@@ -203,11 +203,10 @@ static void open_and_label(dark_pass *p)
     label_opened_row(p, p->image->height_px - 1);
 }
 
-/* Join the sums of merged labels; returns the label of the largest component, 0 when there is none. */
-static uint32_t largest(dark_pass *p)
+/* Join the sums of merged labels: afterwards roots alone have an area. */
+static void join_components(dark_pass *p)
 {
     drogue_workspace *w = p->workspace;
-    uint32_t best = 0;
     uint32_t i;
     drogue_labels_flatten(&p->labels);
     for (i = 1; i < p->labels.count; i++) {
@@ -219,19 +218,25 @@ static uint32_t largest(dark_pass *p)
             w->component_strong[i] = 0;
         }
     }
-    for (i = 1; i < p->labels.count; i++) {
-        if (w->component_strong[i] > (best == 0 ? 0 : w->component_strong[best])) {
-            best = i;
-        }
-    }
-    return best;
+}
+
+/* Rows that a disc can reach, within the image. */
+static void disc_rows(int32_t *first, int32_t *last, const drogue_mask *disc, int32_t height_px)
+{
+    const int64_t low = ((int64_t)disc->centre2_y - disc->longest_px) / 2;
+    const int64_t high = ((int64_t)disc->centre2_y + disc->longest_px) / 2;
+    *first = (int32_t)(low < 0 ? 0 : low);
+    *last = (int32_t)(high > height_px - 1 ? height_px - 1 : high);
 }
 
 static uint8_t disc_threshold(uint32_t *histogram, const drogue_image *image, const drogue_mask *disc)
 {
     int32_t y;
+    int32_t low;
+    int32_t high;
     memset(histogram, 0, 256 * sizeof(uint32_t));
-    for (y = 0; y < image->height_px; y++) {
+    disc_rows(&low, &high, disc, image->height_px);
+    for (y = low; y <= high; y++) {
         const uint8_t *row = drogue_image_row(image, y);
         int32_t first;
         int32_t last;
@@ -245,11 +250,10 @@ static uint8_t disc_threshold(uint32_t *histogram, const drogue_image *image, co
     return drogue_otsu(histogram);
 }
 
-drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *workspace, const drogue_image *image,
-                                    const drogue_mask *disc, uint32_t min_area)
+/* Threshold, open and label the disc. */
+static drogue_status dark_components(dark_pass *pass, drogue_dark_part *out, drogue_workspace *workspace,
+                                     const drogue_image *image, const drogue_mask *disc)
 {
-    dark_pass pass;
-    uint32_t best;
     memset(out, 0, sizeof *out);
     if (!drogue_image_valid(image) || !drogue_mask_valid(disc)) {
         return DROGUE_E_ARGUMENT;
@@ -257,22 +261,218 @@ drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *wor
     if ((uint32_t)image->width_px > workspace->capacity.width_px) {
         return DROGUE_E_WORKSPACE;
     }
-    pass.workspace = workspace;
-    pass.image = image;
-    pass.disc = disc;
-    pass.threshold = disc_threshold(workspace->histogram, image, disc);
-    out->threshold = pass.threshold;
-    open_and_label(&pass);
-    best = largest(&pass);
-    if (pass.labels.full) {
-        return DROGUE_E_LABELS_FULL;
+    pass->workspace = workspace;
+    pass->image = image;
+    pass->disc = disc;
+    pass->threshold = disc_threshold(workspace->histogram, image, disc);
+    out->threshold = pass->threshold;
+    open_and_label(pass);
+    join_components(pass);
+    return pass->labels.full ? DROGUE_E_LABELS_FULL : DROGUE_OK;
+}
+
+static drogue_q16 mean_q16(int64_t sum, int64_t count) { return (drogue_q16)drogue_div_round_s64(sum * 65536, count); }
+
+drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *workspace, const drogue_image *image,
+                                    const drogue_mask *disc, uint32_t min_area)
+{
+    dark_pass pass;
+    uint32_t best = 0;
+    uint32_t i;
+    drogue_status status = dark_components(&pass, out, workspace, image, disc);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    for (i = 1; i < pass.labels.count; i++) {
+        if (workspace->component_strong[i] > (best == 0 ? 0 : workspace->component_strong[best])) {
+            best = i;
+        }
     }
     if (best == 0 || workspace->component_strong[best] < min_area) {
         return DROGUE_E_NO_DARK_PART;
     }
     DROGUE_NOTE("centroid: coordinate sum", workspace->arc_parent[best], 32);
     out->area_px = workspace->component_strong[best];
-    out->x_px_q16 = (drogue_q16)drogue_div_round_s64((int64_t)workspace->arc_parent[best] << 16, out->area_px);
-    out->y_px_q16 = (drogue_q16)drogue_div_round_s64((int64_t)workspace->arc_component[best] << 16, out->area_px);
+    out->x_px_q16 = mean_q16(workspace->arc_parent[best], out->area_px);
+    out->y_px_q16 = mean_q16(workspace->arc_component[best], out->area_px);
+    return DROGUE_OK;
+}
+
+static int64_t distance2_q32(const drogue_dark_part *part, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+{
+    const int64_t dx = (int64_t)part->x_px_q16 - x_px_q16;
+    const int64_t dy = (int64_t)part->y_px_q16 - y_px_q16;
+    return dx * dx + dy * dy;
+}
+
+static drogue_q16 distance_q16(const drogue_dark_part *p, const drogue_dark_part *q)
+{
+    return drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)distance2_q32(p, q->x_px_q16, q->y_px_q16)));
+}
+
+/* Components whose centroids lie within an expected disc, together; area 0 when there are none. */
+static void components_within(drogue_dark_part *out, const dark_pass *p, const drogue_ellipse *expected,
+                              uint32_t min_area)
+{
+    const drogue_workspace *w = p->workspace;
+    const int64_t reach2_q32 = (int64_t)expected->a_px_q16 * expected->a_px_q16;
+    int64_t x = 0;
+    int64_t y = 0;
+    uint32_t i;
+    out->area_px = 0;
+    for (i = 1; i < p->labels.count; i++) {
+        const uint32_t area = w->component_strong[i];
+        drogue_dark_part one;
+        if (area < min_area || area == 0) {
+            continue;
+        }
+        one.x_px_q16 = mean_q16(w->arc_parent[i], area);
+        one.y_px_q16 = mean_q16(w->arc_component[i], area);
+        if (distance2_q32(&one, expected->xc_px_q16, expected->yc_px_q16) <= reach2_q32) {
+            out->area_px += area;
+            x += w->arc_parent[i];
+            y += w->arc_component[i];
+        }
+    }
+    if (out->area_px > 0) {
+        out->x_px_q16 = mean_q16(x, out->area_px);
+        out->y_px_q16 = mean_q16(y, out->area_px);
+    }
+}
+
+drogue_q16 drogue_dark_fill(const drogue_dark_part *part, const drogue_ellipse *expected)
+{
+    const drogue_q16 box = drogue_q16_mul(expected->a_px_q16, expected->b_px_q16);
+    return drogue_q16_div(drogue_sat_s32((int64_t)part->area_px * DROGUE_Q16_ONE), drogue_q16_mul(box, DROGUE_Q16_PI));
+}
+
+/* How badly a part fits an expected disc: distance in its semi-axes plus the share by which the areas differ, Q16. */
+static drogue_q16 misfit(const drogue_dark_part *part, const drogue_ellipse *expected)
+{
+    const drogue_q16 away = drogue_q16_div(drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)distance2_q32(
+                                               part, expected->xc_px_q16, expected->yc_px_q16))),
+                                           expected->a_px_q16);
+    const int64_t fill = (int64_t)drogue_dark_fill(part, expected) - DROGUE_Q16_ONE;
+    return drogue_sat_s32(away + (fill < 0 ? -fill : fill));
+}
+
+/* Mean grey of the pixels at or below the threshold, rounded down; the histogram is the disc's. */
+static int32_t dark_level(const uint32_t *histogram, uint8_t threshold)
+{
+    uint64_t count = 0;
+    uint64_t sum = 0;
+    uint32_t level;
+    for (level = 0; level <= threshold; level++) {
+        count += histogram[level];
+        sum += (uint64_t)histogram[level] * level;
+    }
+    return count > 0 ? (int32_t)(sum / count) : 0;
+}
+
+/* Disc about the part of a multiple of the expected semi-axis, and a pixel. */
+static drogue_mask window_about(const drogue_dark_part *part, const drogue_ellipse *expected, drogue_q16 factor_q16)
+{
+    drogue_mask window; /* radius longest / 3 */
+    window.centre2_x = (int32_t)drogue_shr_round_s64(part->x_px_q16, 15);
+    window.centre2_y = (int32_t)drogue_shr_round_s64(part->y_px_q16, 15);
+    window.longest_px = (int32_t)drogue_shr_round_s64(3 * (int64_t)expected->a_px_q16 * factor_q16, 32) + 3;
+    return window;
+}
+
+/* Darkness falls from 1 to 0 between two grey levels: a pixel at the edge counts by its grey, one of the surround not at
+ * all. */
+typedef struct ramp {
+    int32_t full;  /* level of darkness 'range' and more */
+    int32_t range; /* levels to darkness 0 */
+} ramp;
+
+/* Centroid of darkness in a window; the part's place and area. */
+static void weigh(drogue_dark_part *part, const drogue_image *image, const drogue_mask *window, const ramp *r)
+{
+    int64_t sum = 0;
+    int64_t x_sum = 0;
+    int64_t y_sum = 0;
+    int32_t y;
+    int32_t low;
+    int32_t high;
+    disc_rows(&low, &high, window, image->height_px);
+    for (y = low; y <= high; y++) {
+        const uint8_t *row = drogue_image_row(image, y);
+        int32_t row_sum = 0;
+        int32_t first;
+        int32_t last;
+        int32_t x;
+        if (!disc_span(&first, &last, window, y, image->width_px)) {
+            continue;
+        }
+        for (x = first; x <= last; x++) {
+            const int32_t level = row[x] - r->full;
+            const int32_t darkness = level < 0 ? r->range : level > r->range ? 0 : r->range - level;
+            row_sum += darkness;
+            x_sum += darkness * x;
+        }
+        sum += row_sum;
+        y_sum += (int64_t)row_sum * y;
+    }
+    if (sum > 0) {
+        part->x_px_q16 = mean_q16(x_sum, sum);
+        part->y_px_q16 = mean_q16(y_sum, sum);
+        part->area_px = (uint32_t)drogue_div_round_s64(sum, r->range);
+    }
+}
+
+/* Weigh the part about its own threshold, that of a window about it, then at a third of the way to the dark level below
+ * and above: the middle of the two, and how far apart they are. */
+static void weigh_about(drogue_dark_part *part, uint32_t *histogram, const drogue_image *image,
+                        const drogue_ellipse *expected)
+{
+    const drogue_mask around = window_about(part, expected, DROGUE_Q16(16, 10));
+    drogue_mask window = window_about(part, expected, DROGUE_Q16(12, 10));
+    drogue_dark_part lower;
+    drogue_dark_part upper;
+    ramp r;
+    int32_t half;
+    part->threshold = disc_threshold(histogram, image, &around);
+    half = (part->threshold - dark_level(histogram, part->threshold)) / 3;
+    r.range = 2 * half + 1;
+    r.full = part->threshold - half;
+    weigh(part, image, &window, &r);
+    window = window_about(part, expected, DROGUE_Q16(12, 10));
+    weigh(part, image, &window, &r);
+    lower = *part;
+    upper = *part;
+    r.full -= half;
+    weigh(&lower, image, &window, &r);
+    r.full += 2 * half;
+    weigh(&upper, image, &window, &r);
+    part->spread_px_q16 = distance_q16(&lower, &upper);
+}
+
+drogue_status drogue_dark_disc_find(drogue_dark_part *out, uint32_t *which, drogue_workspace *workspace,
+                                    const drogue_image *image, const drogue_mask *disc, uint32_t min_area,
+                                    const drogue_ellipse *expected, uint32_t count)
+{
+    drogue_dark_part part;
+    dark_pass pass;
+    drogue_q16 least = DROGUE_Q16_MAX;
+    uint32_t i;
+    drogue_status status = dark_components(&pass, out, workspace, image, disc);
+    *which = 0;
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    part = *out;
+    for (i = 0; i < count; i++) {
+        components_within(&part, &pass, &expected[i], min_area);
+        if (part.area_px > 0 && misfit(&part, &expected[i]) < least) {
+            least = misfit(&part, &expected[i]);
+            *out = part;
+            *which = i;
+        }
+    }
+    if (least == DROGUE_Q16_MAX) {
+        return DROGUE_E_NO_DARK_PART;
+    }
+    weigh_about(out, workspace->histogram, image, &expected[*which]);
     return DROGUE_OK;
 }

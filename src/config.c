@@ -4,8 +4,8 @@
 
 void drogue_config_default(drogue_config *config)
 {
-    config->canny_low = 40;
-    config->canny_high = 100;
+    config->canny_low = 30;
+    config->canny_high = 80;
     config->smooth = 1;
     config->min_arc_px = 10;
     config->min_arc_share_q16 = DROGUE_Q16(1, 8);
@@ -23,14 +23,24 @@ void drogue_config_default(drogue_config *config)
     config->cluster.b_px_q16 = DROGUE_Q16(3, 1);
     config->cluster.angle_rad_q16 = DROGUE_Q16(2, 10);
     config->cluster.round_q16 = DROGUE_Q16(9, 10);
+    config->search_band_q16 = DROGUE_Q16(3, 100);
     config->refit_band_px_q16 = DROGUE_Q16(3, 2);
     config->refit_cos_q16 = DROGUE_Q16(87, 100);
-    config->refit_rounds = 3;
+    config->refit_rounds = 4;
     config->min_cover_q16 = DROGUE_Q16(45, 100);
-    config->optics_blur_px_q16 = 0;
+    config->recentre_cover_q16 = DROGUE_Q16(85, 100);
+    config->optics_blur_px_q16 = DROGUE_Q16(6, 10);
     config->min_dark_area_px = 9;
-    config->max_ambiguity_q16 = DROGUE_Q16(1, 2);
     config->inner_gate_q16 = DROGUE_Q16(1, 4);
+    config->min_fill_q16 = DROGUE_Q16(75, 100);
+    config->max_fill_q16 = DROGUE_Q16(125, 100);
+    config->outline_shading_q16 = DROGUE_Q16(38, 10);
+    config->optics_blur_std_px2_q16 = DROGUE_Q16(12, 100);
+    config->inner_std_px_q16 = DROGUE_Q16(3, 100);
+    config->inner_std_share_q16 = DROGUE_Q16(2, 1000);
+    config->inner_std_spread_q16 = DROGUE_Q16(5, 10);
+    config->max_chi2_q16 = DROGUE_Q16(16, 1);
+    config->min_chi2_gap_q16 = DROGUE_Q16(9, 1);
 }
 
 static int within(int32_t v, int32_t low, int32_t high) { return v >= low && v <= high; }
@@ -46,8 +56,13 @@ int drogue_config_valid(const drogue_config *c)
            within(c->min_size_q16, 0, c->max_size_q16) && within(c->cluster.centre_px_q16, 0, INT32_MAX) &&
            within(c->cluster.a_px_q16, 0, INT32_MAX) && within(c->cluster.b_px_q16, 0, INT32_MAX) &&
            within(c->cluster.angle_rad_q16, 0, INT32_MAX) && within(c->cluster.round_q16, 0, DROGUE_Q16_ONE) &&
-           within(c->refit_band_px_q16, 1, DROGUE_Q16(8, 1)) && within(c->refit_cos_q16, 0, DROGUE_Q16_ONE) &&
-           c->refit_rounds <= 16 && within(c->min_cover_q16, 0, DROGUE_Q16_ONE) &&
-           within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) && within(c->max_ambiguity_q16, 0, DROGUE_Q16_ONE) &&
-           within(c->inner_gate_q16, 0, INT32_MAX);
+           within(c->search_band_q16, 0, DROGUE_Q16_ONE) && within(c->refit_band_px_q16, 1, DROGUE_Q16(8, 1)) &&
+           within(c->refit_cos_q16, 0, DROGUE_Q16_ONE) && c->refit_rounds <= 16 &&
+           within(c->min_cover_q16, 0, DROGUE_Q16_ONE) && within(c->recentre_cover_q16, 0, DROGUE_Q16_ONE) &&
+           within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) && within(c->inner_gate_q16, 0, INT32_MAX) &&
+           within(c->min_fill_q16, 0, c->max_fill_q16) && within(c->outline_shading_q16, 1, DROGUE_Q16(1024, 1)) &&
+           within(c->optics_blur_std_px2_q16, 0, DROGUE_Q16(16, 1)) &&
+           within(c->inner_std_px_q16, 1, DROGUE_Q16(16, 1)) && within(c->inner_std_share_q16, 0, DROGUE_Q16_ONE) &&
+           within(c->inner_std_spread_q16, 0, DROGUE_Q16(16, 1)) && within(c->max_chi2_q16, 0, INT32_MAX) &&
+           within(c->min_chi2_gap_q16, 0, INT32_MAX);
 }

@@ -178,26 +178,69 @@ void drogue_judge_arc(drogue_arc_verdict *out, drogue_point *hull, const drogue_
     }
 }
 
-drogue_status drogue_select_farthest(drogue_farthest *out, drogue_point *hull, const drogue_edge *edges,
-                                     const drogue_arc *arcs, uint32_t arc_count, const drogue_mask *mask,
-                                     drogue_q16 min_short_px_q16)
+#define LONGEST 4 /* arcs of a quadrant that are compared by distance */
+
+/* The longest arcs of one quadrant so far, longest first; of equals the first. */
+typedef struct leaders {
+    uint32_t arc[LONGEST];
+    uint32_t points[LONGEST]; /* 0: none */
+    int64_t distance2_q32[LONGEST];
+} leaders;
+
+static void keep_longest(leaders *l, uint32_t arc, uint32_t points, int64_t distance2_q32)
 {
-    int64_t farthest[2][4];
+    int i;
+    for (i = LONGEST - 1; i >= 0 && points > l->points[i]; i--) {
+        if (i + 1 < LONGEST) {
+            l->arc[i + 1] = l->arc[i];
+            l->points[i + 1] = l->points[i];
+            l->distance2_q32[i + 1] = l->distance2_q32[i];
+        }
+        l->arc[i] = arc;
+        l->points[i] = points;
+        l->distance2_q32[i] = distance2_q32;
+    }
+}
+
+/* The farthest of those with at least half the longest's points, then the longest of the others. */
+static void choose_arcs(uint32_t chosen[DROGUE_ARC_CHOICES], const leaders *l)
+{
+    int far = 0;
+    int i;
+    for (i = 1; i < LONGEST; i++) {
+        if (2 * l->points[i] >= l->points[0] && l->distance2_q32[i] > l->distance2_q32[far]) {
+            far = i;
+        }
+    }
+    chosen[0] = l->arc[far];
+    chosen[1] = l->arc[far == 0 ? 1 : 0];
+}
+
+drogue_status drogue_select_arcs(drogue_arc_choices *out, drogue_point *hull, const drogue_edge *edges,
+                                 const drogue_arc *arcs, uint32_t arc_count, const drogue_mask *mask,
+                                 drogue_q16 min_short_px_q16, drogue_polarity polarity)
+{
+    leaders lead[4];
     drogue_status status = DROGUE_E_NO_ARCS;
     uint32_t i;
     int k;
     for (k = 0; k < 4; k++) {
-        out->arc[0][k] = out->arc[1][k] = DROGUE_NO_ARC;
-        farthest[0][k] = farthest[1][k] = -1;
+        for (i = 0; i < LONGEST; i++) {
+            lead[k].arc[i] = DROGUE_NO_ARC;
+            lead[k].points[i] = 0;
+            lead[k].distance2_q32[i] = -1;
+        }
     }
     for (i = 0; i < arc_count; i++) {
         drogue_arc_verdict v;
         drogue_judge_arc(&v, hull, edges, &arcs[i], mask, min_short_px_q16);
-        if (v.quadrant >= 0 && v.distance2_q32 > farthest[v.polarity][v.quadrant]) {
-            farthest[v.polarity][v.quadrant] = v.distance2_q32;
-            out->arc[v.polarity][v.quadrant] = i;
+        if (v.quadrant >= 0 && (polarity == DROGUE_POLARITY_BOTH || v.polarity == polarity)) {
+            keep_longest(&lead[v.quadrant], i, arcs[i].count, v.distance2_q32);
             status = DROGUE_OK;
         }
+    }
+    for (k = 0; k < 4; k++) {
+        choose_arcs(out->arc[k], &lead[k]);
     }
     return status;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The outline of the end plane from edge points and arcs (paper III-A-2). */
+/* The outline of the end plane from edge points and arcs (paper III-A-2, with support over all edges). */
 #include "drogue/outline.h"
 
 #include <string.h>
@@ -7,10 +7,18 @@
 #include "drogue/ellipse.h"
 #include "drogue/undistort.h"
 
-#define MAX_CANDIDATES 30 /* 15 combinations of four arcs, two polarities */
-#define EDGE_FRAC 5       /* edge points are Q5 */
+#define EDGE_FRAC 5                     /* edge points are Q5 */
+#define LOOKS 512                       /* a candidate is scored by so many edge points, evenly taken */
+#define TRIES 3                         /* candidates refined before the best of them is taken */
+#define GOOD_COVER_Q16 DROGUE_Q16(3, 4)    /* no further try */
+#define ENOUGH_COVER_Q16 DROGUE_Q16(9, 10) /* no further candidate */
+#define SETTLED_Q16 DROGUE_Q16(1, 256)     /* px: an ellipse that a refit moves by less has settled */
 
-static drogue_q16 edge_q16(uint16_t q5) { return (drogue_q16)((int32_t)q5 * (1 << (16 - EDGE_FRAC))); }
+/* The candidates' arcs, and what each of them sums to. */
+typedef struct arc_set {
+    const drogue_arc *arc[4][DROGUE_ARC_CHOICES]; /* NULL: none */
+    drogue_moments moments[4][DROGUE_ARC_CHOICES];
+} arc_set;
 
 /* Moments of an arc about the region's centre, unit 1/32 px. */
 static void arc_moments(drogue_moments *out, const drogue_edge *edges, const drogue_arc *arc)
@@ -23,6 +31,22 @@ static void arc_moments(drogue_moments *out, const drogue_edge *edges, const dro
     }
 }
 
+static void gather(arc_set *set, const drogue_arc_choices *choices, const drogue_workspace *workspace)
+{
+    int k;
+    int i;
+    for (k = 0; k < 4; k++) {
+        for (i = 0; i < DROGUE_ARC_CHOICES; i++) {
+            const uint32_t index = choices->arc[k][i];
+            set->arc[k][i] = NULL;
+            if (index != DROGUE_NO_ARC && workspace->arcs[index].count <= DROGUE_MAX_FIT_POINTS / 4) {
+                set->arc[k][i] = &workspace->arcs[index];
+                arc_moments(&set->moments[k][i], workspace->edges, set->arc[k][i]);
+            }
+        }
+    }
+}
+
 /* Points of an arc within the threshold of (10). */
 static uint32_t count_near(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
                            const drogue_arc *arc)
@@ -30,7 +54,8 @@ static uint32_t count_near(const drogue_ellipse_frame *frame, drogue_q16 thresho
     uint32_t near_count = 0;
     uint32_t i;
     for (i = arc->first; i < arc->first + arc->count; i++) {
-        near_count += drogue_ellipse_deviation(frame, edge_q16(edges[i].x_q5), edge_q16(edges[i].y_q5)) < threshold;
+        near_count +=
+            drogue_ellipse_deviation(frame, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i])) < threshold;
     }
     return near_count;
 }
@@ -47,25 +72,44 @@ static int plausible(const drogue_ellipse *e, const drogue_mask *mask, const dro
            a <= (int64_t)config->max_size_q16 * mask->longest_px;
 }
 
-/* The farthest arcs of one polarity, with their moments. */
-typedef struct quadrants {
-    const drogue_arc *arc[4]; /* NULL: none */
-    drogue_moments moments[4];
-} quadrants;
-
-/* Fit and score one combination; 0 when it is no candidate. */
-static int try_combination(drogue_candidate *out, drogue_quality *quality, const quadrants *q, uint32_t combination,
-                           const drogue_edge *edges, const drogue_mask *mask, const drogue_config *config)
+/* Band about an ellipse: the configured one, or a share of the semi-axis where that is wider. */
+static drogue_band band_about(const drogue_ellipse *e, drogue_q16 share_q16, const drogue_config *config)
 {
+    const drogue_q16 wide = drogue_q16_mul(e->a_px_q16, share_q16);
+    const drogue_q16 most = DROGUE_Q16(8, 1);
+    drogue_band band;
+    band.half_width_px_q16 = config->refit_band_px_q16 > wide ? config->refit_band_px_q16 : wide > most ? most : wide;
+    band.cos_q16 = config->refit_cos_q16;
+    return band;
+}
+
+/* Everything that a candidate is made of and scored with. */
+typedef struct context {
+    const drogue_workspace *workspace;
+    const drogue_edge_list *list;
+    const drogue_mask *mask;
+    const drogue_config *config;
+} context;
+
+/* Fit and score the union of the arcs chosen[k] - 1 of each quadrant k (0: none); 0 when it is no candidate. */
+static int try_arcs(drogue_candidate *out, const arc_set *set, const uint8_t chosen[4], const context *c)
+{
+    const uint32_t stride = c->list->edge_count / LOOKS + 1;
     drogue_moments sum;
     drogue_ellipse_frame frame;
+    drogue_quality quality;
+    drogue_support support;
+    drogue_band band;
     drogue_q16 threshold;
+    drogue_q16 fit_error;
     uint32_t near_count = 0;
     int k;
     drogue_moments_clear(&sum);
+    out->arcs = 0;
     for (k = 0; k < 4; k++) {
-        if ((combination >> k) & 1u) {
-            drogue_moments_add(&sum, &q->moments[k]);
+        if (chosen[k] != 0) {
+            drogue_moments_add(&sum, &set->moments[k][chosen[k] - 1]);
+            out->arcs |= (uint32_t)chosen[k] << (4 * k);
         }
     }
     if (drogue_ellipse_fit(&out->ellipse, &sum, EDGE_FRAC) != DROGUE_OK) {
@@ -73,79 +117,59 @@ static int try_combination(drogue_candidate *out, drogue_quality *quality, const
     }
     out->ellipse.xc_px_q16 = drogue_q16_add(out->ellipse.xc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
     out->ellipse.yc_px_q16 = drogue_q16_add(out->ellipse.yc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
-    if (!plausible(&out->ellipse, mask, config) || drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
+    if (!plausible(&out->ellipse, c->mask, c->config) || drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
         return 0;
     }
-    threshold = drogue_quality_threshold(&out->ellipse, config->quality.fit_error_px_q16);
+    band = band_about(&out->ellipse, c->config->search_band_q16, c->config);
+    fit_error = drogue_q16_mul(out->ellipse.a_px_q16, c->config->search_band_q16);
+    fit_error = fit_error > c->config->quality.fit_error_px_q16 ? fit_error : c->config->quality.fit_error_px_q16;
+    threshold = drogue_quality_threshold(&out->ellipse, fit_error);
     for (k = 0; k < 4; k++) {
-        if ((combination >> k) & 1u) {
-            near_count += count_near(&frame, threshold, edges, q->arc[k]);
+        if (chosen[k] != 0) {
+            near_count += count_near(&frame, threshold, c->workspace->edges, set->arc[k][chosen[k] - 1]);
         }
     }
-    drogue_quality_score(quality, &out->ellipse, near_count, (uint32_t)sum.n, &config->quality);
-    out->reliability_q16 = quality->reliability_q16;
-    out->arcs = combination;
-    return quality->fit_ratio_q16 >= config->min_fit_ratio_q16;
+    drogue_support_count(&support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);
+    drogue_support_judge(&support, &out->ellipse, c->config->polarity, stride);
+    drogue_quality_of_cover(&quality, &out->ellipse, near_count, (uint32_t)sum.n, drogue_support_cover(&support),
+                            &c->config->quality);
+    out->reliability_q16 = quality.reliability_q16;
+    out->fit_ratio_q16 = quality.fit_ratio_q16;
+    out->cover_q16 = quality.length_ratio_q16;
+    out->polarity = support.bright_bins;
+    return quality.fit_ratio_q16 >= c->config->min_fit_ratio_q16;
 }
 
-/* Look up the farthest arcs of one polarity and sum their moments; returns the bit set of quadrants present. */
-static uint32_t gather(quadrants *q, const drogue_farthest *farthest, int polarity, const drogue_workspace *workspace)
+/* The first arcs of all quadrants together; unless they cover enough, all pairs of arcs from two quadrants too. Returns
+ * how many candidates there are. */
+static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const arc_set *set,
+                               const context *c)
 {
-    uint32_t present = 0;
+    uint8_t chosen[4];
+    uint32_t count;
     int k;
+    int l;
+    int i;
     for (k = 0; k < 4; k++) {
-        uint32_t index = farthest->arc[polarity][k];
-        q->arc[k] = NULL;
-        if (index != DROGUE_NO_ARC && workspace->arcs[index].count <= DROGUE_MAX_FIT_POINTS / 4) {
-            q->arc[k] = &workspace->arcs[index];
-            arc_moments(&q->moments[k], workspace->edges, q->arc[k]);
-            present |= 1u << k;
-        }
+        chosen[k] = set->arc[k][0] != NULL;
     }
-    return present;
-}
-
-/* The most reliable combination of arcs, both polarities considered. */
-static drogue_status best_combination(drogue_outline *out, const drogue_farthest *farthest,
-                                      const drogue_workspace *workspace, const drogue_mask *mask,
-                                      const drogue_config *config)
-{
-    drogue_candidate candidates[MAX_CANDIDATES];
-    quadrants q;
-    uint32_t count = 0;
-    int32_t best;
-    int polarity;
-    int k;
-    for (polarity = 0; polarity < 2; polarity++) {
-        uint32_t combination;
-        uint32_t present;
-        if (config->polarity != DROGUE_POLARITY_BOTH && (int)config->polarity != polarity) {
-            continue;
-        }
-        present = gather(&q, farthest, polarity, workspace);
-        for (combination = 1; combination < 16; combination++) {
-            if ((combination & ~present) == 0 &&
-                try_combination(&candidates[count], &out->quality, &q, combination, workspace->edges, mask, config)) {
-                candidates[count].polarity = (uint32_t)polarity;
-                count++;
+    count = (uint32_t)try_arcs(&candidates[0], set, chosen, c);
+    if (count == 1 && candidates[0].cover_q16 >= ENOUGH_COVER_Q16) {
+        return 1;
+    }
+    for (k = 0; k < 4; k++) {
+        for (l = k + 1; l < 4; l++) {
+            for (i = 0; i < DROGUE_ARC_CHOICES * DROGUE_ARC_CHOICES; i++) {
+                memset(chosen, 0, sizeof chosen);
+                chosen[k] = (uint8_t)(1 + i / DROGUE_ARC_CHOICES);
+                chosen[l] = (uint8_t)(1 + i % DROGUE_ARC_CHOICES);
+                if (set->arc[k][chosen[k] - 1] != NULL && set->arc[l][chosen[l] - 1] != NULL) {
+                    count += (uint32_t)try_arcs(&candidates[count], set, chosen, c);
+                }
             }
         }
     }
-    best = drogue_cluster_best(&out->cluster_members, candidates, count, &config->cluster);
-    if (best < 0) {
-        memset(&out->quality, 0, sizeof out->quality);
-        return DROGUE_E_NO_ELLIPSE;
-    }
-    out->polarity = (drogue_polarity)candidates[best].polarity;
-    (void)gather(&q, farthest, (int)out->polarity, workspace); /* once more, for the winner's quality */
-    (void)try_combination(&candidates[0], &out->quality, &q, candidates[best].arcs, workspace->edges, mask, config);
-    out->ellipse = candidates[0].ellipse;
-    for (k = 0; k < 4; k++) {
-        if ((candidates[0].arcs >> k) & 1u) {
-            out->arcs[k] = farthest->arc[out->polarity][k];
-        }
-    }
-    return DROGUE_OK;
+    return count;
 }
 
 /* Edge points that belong to an ellipse, the lens distortion removed where a camera is given. */
@@ -203,68 +227,146 @@ static void undo_blur(drogue_ellipse *e, const drogue_config *config)
         drogue_wide_to_q16(drogue_wide_add(b, drogue_wide_div(drogue_wide_mul(half, b), drogue_wide_mul(a, a))));
 }
 
-static drogue_band band_of(const drogue_config *config, drogue_polarity polarity)
+/* Collect the edge points that belong to an outline: counts by bin, residuals and moments. Bins have the polarity that
+ * the collection before gave them. */
+static drogue_status collect_outline(collection *c, drogue_support *support, const drogue_ellipse *ellipse,
+                                     const drogue_band *band, const context *x)
 {
-    drogue_band band;
-    band.half_width_px_q16 = config->refit_band_px_q16;
-    band.cos_q16 = config->refit_cos_q16;
-    band.polarity = polarity;
-    return band;
-}
-
-static int edge_in_band(const drogue_ellipse_frame *frame, const drogue_band *band, const drogue_edge *e)
-{
-    return drogue_ellipse_band_holds(frame, band, edge_q16(e->x_q5), edge_q16(e->y_q5), e->gx, e->gy);
-}
-
-/* Collect the edge points that belong to the outline. */
-static drogue_status collect_outline(collection *c, const drogue_outline *outline, const drogue_workspace *workspace,
-                                     const drogue_edge_list *list, const drogue_config *config)
-{
-    const drogue_band band = band_of(config, outline->polarity);
+    const uint32_t bright_bins = support->bright_bins;
     drogue_ellipse_frame frame;
-    drogue_status status = drogue_ellipse_frame_of(&frame, &outline->ellipse);
+    drogue_status status = drogue_ellipse_frame_of(&frame, ellipse);
     uint32_t i;
     if (status != DROGUE_OK) {
         return status;
     }
-    collection_begin(c, &outline->ellipse, (int64_t)outline->ellipse.a_px_q16 + 16 * DROGUE_Q16_ONE);
-    for (i = 0; i < list->edge_count; i++) {
-        const drogue_edge *e = &workspace->edges[i];
-        if (edge_in_band(&frame, &band, e)) {
-            collect_point(c, edge_q16(e->x_q5), edge_q16(e->y_q5));
+    memset(support, 0, sizeof *support);
+    support->bright_bins = bright_bins;
+    collection_begin(c, ellipse, (int64_t)ellipse->a_px_q16 + 16 * DROGUE_Q16_ONE);
+    for (i = 0; i < x->list->edge_count; i++) {
+        const drogue_edge *e = &x->workspace->edges[i];
+        drogue_band_point p;
+        if (drogue_ellipse_band_holds(&p, &frame, band, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy) &&
+            drogue_support_add(support, &p, e)) {
+            collect_point(c, drogue_edge_x_q16(e), drogue_edge_y_q16(e));
         }
     }
     return DROGUE_OK;
 }
 
-/* Refit on the points that belong to the outline, as often as configured; stops at the last good fit. Judges the
- * outline by the share of its circumference that they cover. */
-static drogue_status refit(drogue_outline *outline, const drogue_workspace *workspace, const drogue_edge_list *list,
-                           const drogue_mask *mask, const drogue_config *config)
+static int settled(const drogue_ellipse *p, const drogue_ellipse *q)
 {
-    uint32_t round;
+    const int64_t d[4] = {(int64_t)p->xc_px_q16 - q->xc_px_q16, (int64_t)p->yc_px_q16 - q->yc_px_q16,
+                          (int64_t)p->a_px_q16 - q->a_px_q16, (int64_t)p->b_px_q16 - q->b_px_q16};
+    int k;
+    for (k = 0; k < 4; k++) {
+        if (d[k] > SETTLED_Q16 || d[k] < -SETTLED_Q16) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Band for the next round: three times the spread of the points about the ellipse, from a third of the configured width
+ * to the last one: what stands out of the outline, as a hose or a fitting behind the rim, drops out. */
+static void narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
+                   const drogue_config *config)
+{
+    const int64_t variance_q32 = support->points > 0 ? support->squares_q32 / (int64_t)support->points : 0;
+    const int64_t spread_px_q16 =
+        drogue_shr_round_s64(3 * (int64_t)drogue_isqrt_u64((uint64_t)variance_q32) * e->a_px_q16, 16);
+    const drogue_q16 least = config->refit_band_px_q16 / 3 + 1;
+    if (spread_px_q16 < band->half_width_px_q16) {
+        band->half_width_px_q16 = spread_px_q16 < least ? least : (drogue_q16)spread_px_q16;
+    }
+}
+
+/* Refit on the points that belong to the outline until it settles, as often as configured; stops at the last good fit.
+ * Judges the outline by the share of its circumference that they cover. */
+static void refit(drogue_outline *outline, const context *x)
+{
+    const drogue_config *config = x->config;
+    drogue_band band = band_about(&outline->ellipse, config->search_band_q16, config);
     collection c;
-    for (round = 0; round < config->refit_rounds; round++) {
+    uint32_t round;
+    int done = 0;
+    for (round = 0; round <= config->refit_rounds && !done; round++) {
         drogue_ellipse ellipse;
-        if (collect_outline(&c, outline, workspace, list, config) != DROGUE_OK ||
-            collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, mask, config)) {
+        const drogue_q16 width = band.half_width_px_q16;
+        if (collect_outline(&c, &outline->support, &outline->ellipse, &band, x) != DROGUE_OK) {
+            return;
+        }
+        drogue_support_judge(&outline->support, &outline->ellipse, config->polarity, 1);
+        outline->band_px_q16 = width;
+        if (round == config->refit_rounds || collection_fit(&ellipse, &c) != DROGUE_OK ||
+            !plausible(&ellipse, x->mask, config)) {
             break;
         }
+        narrow(&band, &outline->support, &ellipse, config);
+        done = band.half_width_px_q16 == width && settled(&ellipse, &outline->ellipse);
         outline->ellipse = ellipse;
         outline->refit_points = (uint32_t)c.moments.n;
     }
-    if (collect_outline(&c, outline, workspace, list, config) != DROGUE_OK) {
-        return DROGUE_E_NO_ELLIPSE;
+    outline->cover_q16 = drogue_support_cover(&outline->support);
+    outline->polarity = outline->support.bright_bins == 0            ? DROGUE_POLARITY_DARK
+                        : outline->support.bright_bins == UINT32_MAX ? DROGUE_POLARITY_BRIGHT
+                                                                     : DROGUE_POLARITY_BOTH;
+}
+
+/* Describe and refine a candidate. */
+static void refine(drogue_outline *out, const drogue_candidate *candidate, const arc_set *set, const context *c)
+{
+    int k;
+    memset(out, 0, sizeof *out);
+    for (k = 0; k < 4; k++) {
+        const uint32_t chosen = (candidate->arcs >> (4 * k)) & 15u;
+        out->arcs[k] = chosen != 0 ? (uint32_t)(set->arc[k][chosen - 1] - c->workspace->arcs) : DROGUE_NO_ARC;
     }
-    outline->cover_q16 = drogue_length_ratio((uint32_t)c.moments.n, &outline->ellipse);
-    return outline->cover_q16 >= config->min_cover_q16 ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
+    drogue_quality_of_cover(&out->quality, &candidate->ellipse, (uint32_t)candidate->fit_ratio_q16, DROGUE_Q16_ONE,
+                            candidate->cover_q16, &c->config->quality);
+    out->ellipse = candidate->ellipse;
+    out->support.bright_bins = candidate->polarity;
+    refit(out, c);
+}
+
+/* The most reliable candidate, refined; when that covers little, the next that differ from it, and the one of them that
+ * covers most. */
+static drogue_status best_outline(drogue_outline *out, drogue_candidate candidates[DROGUE_MAX_CANDIDATES],
+                                  uint32_t count, const arc_set *set, const context *c)
+{
+    drogue_outline trial;
+    int tries;
+    for (tries = 0; tries < TRIES && out->cover_q16 < GOOD_COVER_Q16; tries++) {
+        uint32_t members;
+        uint32_t kept = 0;
+        uint32_t i;
+        const int32_t best = drogue_cluster_best(&members, candidates, count, &c->config->cluster);
+        drogue_candidate chosen;
+        if (best < 0) {
+            break;
+        }
+        chosen = candidates[best];
+        refine(&trial, &chosen, set, c);
+        trial.cluster_members = members;
+        if (tries == 0 || trial.cover_q16 > out->cover_q16) {
+            *out = trial;
+        }
+        for (i = 0; i < count; i++) {
+            if (!drogue_same_ellipse(&candidates[i], &chosen, &c->config->cluster)) {
+                candidates[kept++] = candidates[i];
+            }
+        }
+        count = kept;
+    }
+    return out->cover_q16 >= c->config->min_cover_q16 ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
 }
 
 drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                                   const drogue_mask *mask, const drogue_config *config)
 {
-    drogue_farthest farthest;
+    drogue_candidate candidates[DROGUE_MAX_CANDIDATES];
+    drogue_arc_choices choices;
+    arc_set set;
+    context c;
     drogue_status status;
     int k;
     memset(out, 0, sizeof *out);
@@ -274,14 +376,18 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
     if (list->edge_count == 0) {
         return DROGUE_E_NO_EDGES;
     }
-    status = drogue_select_farthest(&farthest, workspace->hull, workspace->edges, workspace->arcs, list->arc_count,
-                                    mask, config->min_short_px_q16);
+    c.workspace = workspace;
+    c.list = list;
+    c.mask = mask;
+    c.config = config;
+    status = drogue_select_arcs(&choices, workspace->hull, workspace->edges, workspace->arcs, list->arc_count, mask,
+                                config->min_short_px_q16, config->polarity);
     if (status == DROGUE_OK) {
-        status = best_combination(out, &farthest, workspace, mask, config);
-    }
-    if (status == DROGUE_OK) {
-        status = refit(out, workspace, list, mask, config);
-        undo_blur(&out->ellipse, config);
+        gather(&set, &choices, workspace);
+        status = best_outline(out, candidates, all_candidates(candidates, &set, &c), &set, &c);
+        if (out->ellipse.b_px_q16 > 0) {
+            undo_blur(&out->ellipse, config);
+        }
     }
     return status;
 }
@@ -291,7 +397,8 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
                                          const drogue_config *config, const drogue_camera *camera, int32_t x_px,
                                          int32_t y_px)
 {
-    const drogue_band band = band_of(config, outline->polarity);
+    const drogue_band band = {outline->band_px_q16, config->refit_cos_q16};
+    drogue_support support = outline->support;
     drogue_ellipse_frame frame;
     drogue_ellipse centre = outline->ellipse;
     collection c;
@@ -308,10 +415,13 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     collection_begin(&c, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
     for (i = 0, members = 0; i < list->edge_count; i++) {
         const drogue_edge *e = &workspace->edges[i];
-        drogue_q16 x = drogue_q16_add(edge_q16(e->x_q5), drogue_q16_from_int(x_px));
-        drogue_q16 y = drogue_q16_add(edge_q16(e->y_q5), drogue_q16_from_int(y_px));
-        if (edge_in_band(&frame, &band, e)) {
+        drogue_q16 x = drogue_edge_x_q16(e);
+        drogue_q16 y = drogue_edge_y_q16(e);
+        drogue_band_point p;
+        if (drogue_ellipse_band_holds(&p, &frame, &band, x, y, e->gx, e->gy) && drogue_support_add(&support, &p, e)) {
             members++;
+            x = drogue_q16_add(x, drogue_q16_from_int(x_px));
+            y = drogue_q16_add(y, drogue_q16_from_int(y_px));
             if (drogue_undistort_point(&x, &y, camera) == DROGUE_OK) {
                 collect_point(&c, x, y);
             }

@@ -43,10 +43,10 @@ static int32_t clamp_q24(int64_t v_q46)
 void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
                                 drogue_q16 y_px_q16)
 {
-    int64_t dx = (int64_t)x_px_q16 - frame->xc_px_q16;
-    int64_t dy = (int64_t)y_px_q16 - frame->yc_px_q16;
-    *u_q24 = clamp_q24(dx * frame->cos_over_a_q30 + dy * frame->sin_over_a_q30);
-    *v_q24 = clamp_q24(dy * frame->cos_over_b_q30 - dx * frame->sin_over_b_q30);
+    const int32_t dx = drogue_sat_s32((int64_t)x_px_q16 - frame->xc_px_q16);
+    const int32_t dy = drogue_sat_s32((int64_t)y_px_q16 - frame->yc_px_q16);
+    *u_q24 = clamp_q24((int64_t)dx * frame->cos_over_a_q30 + (int64_t)dy * frame->sin_over_a_q30);
+    *v_q24 = clamp_q24((int64_t)dy * frame->cos_over_b_q30 - (int64_t)dx * frame->sin_over_b_q30);
     DROGUE_NOTE("quality: u, Q24", *u_q24, 29);
     DROGUE_NOTE("quality: v, Q24", *v_q24, 29);
 }
@@ -67,52 +67,49 @@ drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q1
     return drogue_sat_s32(drogue_shr_round_s64(d_q48 < 0 ? -d_q48 : d_q48, 32));
 }
 
-int drogue_ellipse_band_holds(const drogue_ellipse_frame *frame, const drogue_band *band, drogue_q16 x_px_q16,
-                              drogue_q16 y_px_q16, int16_t gx, int16_t gy)
+int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
+                              drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy)
 {
-    int32_t u_q24;
-    int32_t v_q24;
     int64_t f_q24;
-    int64_t f_b_px_q16;
-    int64_t nx;
-    int64_t ny;
-    int64_t n2_q28;
-    int64_t g2;
-    int64_t along;
-    int64_t most2_q32;
-    int64_t cos2_q10;
-    drogue_ellipse_frame_point(&u_q24, &v_q24, frame, x_px_q16, y_px_q16);
-    f_q24 = drogue_shr_round_s64(conic_q48(u_q24, v_q24), 24);
+    int32_t f_b_px_q16;
+    int32_t nx_q14;
+    int32_t ny_q14;
+    int32_t n2_q28;
+    int32_t width2_q24;
+    int32_t along;
+    int32_t g2;
+    int32_t cos2_q10;
+    drogue_ellipse_frame_point(&out->u_q24, &out->v_q24, frame, x_px_q16, y_px_q16);
+    f_q24 = drogue_shr_round_s64(conic_q48(out->u_q24, out->v_q24), 24);
     if (f_q24 > (INT64_C(1) << 24) || f_q24 < -(INT64_C(3) << 22)) {
         return 0; /* inside half or outside 1.4 of the outline */
     }
+    out->f_q24 = (int32_t)f_q24;
+    f_b_px_q16 = (int32_t)drogue_shr_round_s64((int64_t)out->f_q24 * frame->b_px_q16, 24);
+    f_b_px_q16 = f_b_px_q16 < 0 ? -f_b_px_q16 : f_b_px_q16;
+    if (f_b_px_q16 > 4 * band->half_width_px_q16) {
+        return 0;
+    }
     /* Half the gradient of F times b: between b / a and about 1 in length. */
-    nx = drogue_shr_round_s64((int64_t)u_q24 * frame->cos_ratio_q14 - (int64_t)v_q24 * frame->sin_q14, 24);
-    ny = drogue_shr_round_s64((int64_t)u_q24 * frame->sin_ratio_q14 + (int64_t)v_q24 * frame->cos_q14, 24);
-    n2_q28 = nx * nx + ny * ny;
+    nx_q14 = (int32_t)drogue_shr_round_s64(
+        (int64_t)out->u_q24 * frame->cos_ratio_q14 - (int64_t)out->v_q24 * frame->sin_q14, 24);
+    ny_q14 = (int32_t)drogue_shr_round_s64(
+        (int64_t)out->u_q24 * frame->sin_ratio_q14 + (int64_t)out->v_q24 * frame->cos_q14, 24);
+    n2_q28 = nx_q14 * nx_q14 + ny_q14 * ny_q14;
     /* |F| / |grad F| <= t  <=>  (F b)^2 <= 4 t^2 n^2 */
     DROGUE_NOTE("quality: squared normal, Q28", n2_q28, 30);
-    f_b_px_q16 = drogue_shr_round_s64(f_q24 * frame->b_px_q16, 24);
-    if (f_b_px_q16 < 0) {
-        f_b_px_q16 = -f_b_px_q16;
-    }
-    if (f_b_px_q16 > 4 * (int64_t)band->half_width_px_q16) {
+    width2_q24 = (int32_t)drogue_shr_round_s64((int64_t)band->half_width_px_q16 * band->half_width_px_q16, 8);
+    if ((int64_t)f_b_px_q16 * f_b_px_q16 >
+        drogue_shr_round_s64((int64_t)width2_q24 * drogue_shr_round_s64(n2_q28, 8), 10)) {
         return 0;
     }
-    most2_q32 = drogue_shr_round_s64((int64_t)band->half_width_px_q16 * band->half_width_px_q16, 8) *
-                drogue_shr_round_s64(n2_q28, 8);
-    if (f_b_px_q16 * f_b_px_q16 > drogue_shr_round_s64(most2_q32, 10)) {
-        return 0;
-    }
-    along = gx * nx + gy * ny;
-    if (band->polarity == DROGUE_POLARITY_BRIGHT) {
-        along = -along;
-    }
-    g2 = (int64_t)gx * gx + (int64_t)gy * gy;
+    along = gx * nx_q14 + gy * ny_q14;
+    out->polarity = along > 0 ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
+    g2 = gx * gx + gy * gy;
     DROGUE_NOTE("quality: gradient along normal", along, 26);
-    DROGUE_NOTE("quality: squared gradient times squared normal", g2 * n2_q28, 52);
-    cos2_q10 = drogue_shr_round_s64((int64_t)band->cos_q16 * band->cos_q16, 22);
-    return along > 0 && along * along * 1024 >= cos2_q10 * (g2 * n2_q28);
+    DROGUE_NOTE("quality: squared gradient times squared normal", (int64_t)g2 * n2_q28, 52);
+    cos2_q10 = (int32_t)drogue_shr_round_s64((int64_t)band->cos_q16 * band->cos_q16, 22);
+    return along != 0 && (int64_t)along * along * 1024 >= cos2_q10 * ((int64_t)g2 * n2_q28);
 }
 
 drogue_q16 drogue_quality_threshold(const drogue_ellipse *ellipse, drogue_q16 fit_error_px_q16)
@@ -170,12 +167,18 @@ drogue_q16 drogue_length_ratio(uint32_t points, const drogue_ellipse *ellipse)
     return ratio_to_one(drogue_shl_s64(points > most ? most : points, 32), drogue_ellipse_circumference(ellipse));
 }
 
-void drogue_quality_score(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
-                          const drogue_quality_config *config)
+void drogue_quality_of_cover(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
+                             drogue_q16 cover_q16, const drogue_quality_config *config)
 {
     out->fit_ratio_q16 = ratio_to_one((int64_t)near_count * DROGUE_Q16_ONE, total);
-    out->length_ratio_q16 = drogue_length_ratio(total, ellipse);
+    out->length_ratio_q16 = cover_q16;
     out->axis_ratio_q16 = drogue_q16_div(ellipse->b_px_q16, ellipse->a_px_q16);
     out->score_q16 = (drogue_q16)drogue_shr_round_s64(out->length_ratio_q16, 1) + axis_ratio_score(ellipse, config);
     out->reliability_q16 = (drogue_q16)drogue_shr_round_s64((int64_t)out->score_q16 + out->fit_ratio_q16, 1);
+}
+
+void drogue_quality_score(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
+                          const drogue_quality_config *config)
+{
+    drogue_quality_of_cover(out, ellipse, near_count, total, drogue_length_ratio(total, ellipse), config);
 }

@@ -22,7 +22,8 @@ typedef struct drogue_dark_part {
     drogue_q16 x_px_q16; /* centroid, region coordinates */
     drogue_q16 y_px_q16;
     uint32_t area_px;
-    uint8_t threshold; /* Otsu's, grey level */
+    drogue_q16 spread_px_q16; /* drogue_dark_disc_find(): between the centroids at a lower and a higher threshold */
+    uint8_t threshold;        /* Otsu's, grey level */
 } drogue_dark_part;
 
 /* Find the largest dark component inside a disc.
@@ -37,6 +38,23 @@ typedef struct drogue_dark_part {
  */
 drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *workspace, const drogue_image *image,
                                     const drogue_mask *disc, uint32_t min_area);
+
+/* Find the dark disc where it is expected: the components whose centroids lie within one of the expected discs, taken
+ * together (bright ribs may cut it), then the centroid of darkness in a window about it, which counts the pixels at its
+ * edge by their grey.
+ *
+ *  out         centroid, area (sum of darkness, rounded), Otsu's threshold
+ *  which       out: index of the expected disc that fits better in place and area
+ *  image, disc, min_area, return  as drogue_dark_part_find()
+ *  expected    count (1 or 2) discs, region coordinates: centre and semi-axes
+ *  error       centroid <= 1 LSB of the exact sums' quotient
+ */
+drogue_status drogue_dark_disc_find(drogue_dark_part *out, uint32_t *which, drogue_workspace *workspace,
+                                    const drogue_image *image, const drogue_mask *disc, uint32_t min_area,
+                                    const drogue_ellipse *expected, uint32_t count);
+
+/* Area of a dark part over that of an expected disc, Q16, saturated. */
+drogue_q16 drogue_dark_fill(const drogue_dark_part *part, const drogue_ellipse *expected);
 
 #ifdef __cplusplus
 }

@@ -13,8 +13,8 @@ extern "C" {
 
 /* Thresholds; drogue_config_default() fills in the defaults given here. */
 typedef struct drogue_config {
-    int32_t canny_low;             /* 40, L1 Sobel magnitude (grey levels * 8): lower links weaker edges */
-    int32_t canny_high;            /* 100, same unit: an edge needs one pixel above it */
+    int32_t canny_low;             /* 30, L1 Sobel magnitude (grey levels * 8): lower links weaker edges */
+    int32_t canny_high;            /* 80, same unit: an edge needs one pixel above it */
     int32_t smooth;                /* 1: smooth before the gradient; 0 for images that are smooth already */
     uint32_t min_arc_px;           /* 10 edge points, Th_length: shorter arcs are not fitted */
     drogue_q16 min_arc_share_q16;  /* 1/8: the same as a share of the region's longest side; a quarter of an outline
@@ -27,18 +27,31 @@ typedef struct drogue_config {
     drogue_q16 min_size_q16;       /* 0.2: least semi-major axis, as a share of the region's longest side */
     drogue_q16 max_size_q16;       /* 0.75: largest semi-major axis, as a share of the region's longest side */
     drogue_cluster_config cluster; /* T_d 3 px, T_a 3 px, T_b 3 px, T_rho 0.2 rad, round 0.9 */
+    drogue_q16 search_band_q16;    /* 0.03: a candidate's edge points lie this near, as a share of its major semi-axis;
+                                      at least refit_band, at most 8 px */
     drogue_q16 refit_band_px_q16;  /* 1.5 px: the last fit takes all edge points this near with agreeing gradient */
     drogue_q16 refit_cos_q16;      /* 0.87 (30 degrees): least cosine between gradient and normal that agrees */
-    uint32_t refit_rounds;         /* 3: times the band is applied; 0 keeps the fit of the arcs */
+    uint32_t refit_rounds;         /* 4: times the band is applied; 0 keeps the fit of the arcs */
     drogue_q16 min_cover_q16;      /* 0.45: least number of edge points that belong to the outline, over its
                                       circumference; half an outline gives about 0.45 */
+    drogue_q16
+        recentre_cover_q16; /* 0.85: an outline covered less than this that the ring mask cuts is looked for again
+                                      in a region about it; 0: never */
     drogue_q16 optics_blur_px_q16; /* 0 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
                                       draws a curved edge inward, which is put back (outline.h) */
     uint32_t min_dark_area_px;     /* 9 px: smaller dark parts are noise */
-    drogue_q16 max_ambiguity_q16;  /* 0.5: the inner centre decides only when it is this many times nearer to one
-                                      projected centre than to the other, or less */
-    drogue_q16 inner_gate_q16;     /* 0.25: the inner centre decides only when it lies within this share of the
-                                      major semi-axis of a projected one */
+    drogue_q16 inner_gate_q16;     /* 0.25: the inner part is believed when it lies within this share of the major
+                                      semi-axis of where a pose expects it */
+    drogue_q16 min_fill_q16;       /* 0.7, 1.4: and when its area over the expected disc's is between these */
+    drogue_q16 max_fill_q16;
+    drogue_q16 outline_shading_q16; /* 3.8 px grey * 8: error of the outline that its own residuals cannot show, over
+                                       the gradient along it (joint.h) */
+    drogue_q16 optics_blur_std_px2_q16; /* 0.12 px^2: uncertainty of half the variance of the optics' blur */
+    drogue_q16 inner_std_px_q16;        /* 0.04 px: standard deviation of the inner centroid, */
+    drogue_q16 inner_std_share_q16;     /* 0.003: and what its size adds, as a share of the disc's semi-axis */
+    drogue_q16 inner_std_spread_q16;    /* 1: and what its spread over thresholds adds, as a factor */
+    drogue_q16 max_chi2_q16;            /* 16: outline and inner part contradict each other above this */
+    drogue_q16 min_chi2_gap_q16;        /* 9: the orientation is resolved when the other pose is worse by so much */
 } drogue_config;
 
 void drogue_config_default(drogue_config *config);

@@ -52,18 +52,23 @@ typedef struct drogue_arc_verdict {
 void drogue_judge_arc(drogue_arc_verdict *out, drogue_point *hull, const drogue_edge *edges, const drogue_arc *arc,
                       const drogue_mask *mask, drogue_q16 min_short_px_q16);
 
-/* The farthest arcs: index into the arc table per polarity and quadrant, or DROGUE_NO_ARC. */
-typedef struct drogue_farthest {
-    uint32_t arc[2][4];
-} drogue_farthest;
+#define DROGUE_ARC_CHOICES 2 /* arcs kept per quadrant */
 
-/* Select the farthest acceptable arc of each quadrant and polarity (Algorithm 1); the first of equals wins.
+/* Arcs that may be the outline's, by quadrant: indices into the arc table, or DROGUE_NO_ARC. */
+typedef struct drogue_arc_choices {
+    uint32_t arc[4][DROGUE_ARC_CHOICES];
+} drogue_arc_choices;
+
+/* Select arcs of each quadrant: first the farthest of those, among the four longest, with at least half as many points as the longest
+ * (Algorithm 1 takes the farthest whatever its length, so that stubs beyond the outline beat it), then the longest of
+ * the others. The first of equals wins.
  *
- *  return  DROGUE_OK; DROGUE_E_NO_ARCS when no arc is acceptable
+ *  polarity  DARK or BRIGHT: only arcs of that polarity; BOTH: of either
+ *  return    DROGUE_OK; DROGUE_E_NO_ARCS when no arc is acceptable
  */
-drogue_status drogue_select_farthest(drogue_farthest *out, drogue_point *hull, const drogue_edge *edges,
-                                     const drogue_arc *arcs, uint32_t arc_count, const drogue_mask *mask,
-                                     drogue_q16 min_short_px_q16);
+drogue_status drogue_select_arcs(drogue_arc_choices *out, drogue_point *hull, const drogue_edge *edges,
+                                 const drogue_arc *arcs, uint32_t arc_count, const drogue_mask *mask,
+                                 drogue_q16 min_short_px_q16, drogue_polarity polarity);
 
 #ifdef __cplusplus
 }

@@ -1,25 +1,30 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* From edge points and arcs to the outline of the end plane: farthest arcs, fits of all their combinations,
- * quality, clustering, and a last fit on every edge point that belongs to the winner. */
+/* From edge points and arcs to the outline of the end plane: fits of pairs of arcs, each scored by all edge points of
+ * the region, clustering, and a last fit on every edge point that belongs to the winner. */
 #ifndef DROGUE_OUTLINE_H
 #define DROGUE_OUTLINE_H
 
 #include "drogue/config.h"
 #include "drogue/constraints.h"
 #include "drogue/frontend.h"
+#include "drogue/support.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
+#define DROGUE_MAX_CANDIDATES 25 /* 6 pairs of quadrants with two arcs each, and the first arcs of all quadrants */
+
 typedef struct drogue_outline {
-    drogue_ellipse ellipse;   /* region coordinates, as seen */
-    drogue_quality quality;   /* of the winning combination of arcs */
-    drogue_polarity polarity; /* DARK or BRIGHT */
-    uint32_t arcs[4];         /* the winning combination by quadrant: index into the arc table, or DROGUE_NO_ARC */
+    drogue_ellipse ellipse;   /* region coordinates, as seen, what blur took put back */
+    drogue_quality quality;   /* of the winning candidate; l_r is the share of the circumference that is covered */
+    drogue_polarity polarity; /* DARK, BRIGHT, or BOTH where the background crosses the drogue's own grey */
+    uint32_t arcs[4];         /* the arcs of the winning candidate by quadrant: index, or DROGUE_NO_ARC */
     uint32_t cluster_members; /* candidates that agree with the winner, itself included */
     uint32_t refit_points;    /* points in the last fit; 0 when the fit of the arcs was kept */
-    drogue_q16 cover_q16;     /* edge points that belong to the outline over its circumference, at most 1 */
+    drogue_q16 cover_q16;     /* share of the circumference that edge points cover */
+    drogue_q16 band_px_q16;   /* half width of the band about the ellipse that they lie in */
+    drogue_support support;   /* of the last fit, before the blur was put back */
 } drogue_outline;
 
 /* Find the outline.

@@ -46,13 +46,21 @@ drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q1
 /* Which edge points belong to an outline: near it, with a gradient along its normal. */
 typedef struct drogue_band {
     drogue_q16 half_width_px_q16; /* (0, 8]: largest first-order distance |F| / |grad F| */
-    drogue_q16 cos_q16;           /* [0, 1]: least cosine of the angle between gradient and normal */
-    drogue_polarity polarity;     /* DARK: the gradient points outward; BRIGHT: inward */
+    drogue_q16 cos_q16;           /* [0, 1]: least cosine of the angle between gradient and normal, either way */
 } drogue_band;
 
-/* Does an edge point belong to the outline? Position px Q16 in the ellipse's coordinates, gradient y downward. */
-int drogue_ellipse_band_holds(const drogue_ellipse_frame *frame, const drogue_band *band, drogue_q16 x_px_q16,
-                              drogue_q16 y_px_q16, int16_t gx, int16_t gy);
+/* An edge point in an ellipse's frame. */
+typedef struct drogue_band_point {
+    int32_t u_q24;
+    int32_t v_q24;
+    int32_t f_q24;            /* u^2 + v^2 - 1 */
+    drogue_polarity polarity; /* DARK: the gradient points outward; BRIGHT: inward */
+} drogue_band_point;
+
+/* Does an edge point belong to the outline? Position px Q16 in the ellipse's coordinates, gradient y downward.
+ * 'out' is complete when it does. */
+int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
+                              drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy);
 
 /* Threshold Th_error of (10) that stands for a distance of fit_error pixels from the ellipse: 2 * fit_error / a, Q16. */
 drogue_q16 drogue_quality_threshold(const drogue_ellipse *ellipse, drogue_q16 fit_error_px_q16);
@@ -79,6 +87,10 @@ typedef struct drogue_quality {
  */
 void drogue_quality_score(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
                           const drogue_quality_config *config);
+
+/* The same with the share of the circumference that edge points cover in place of l_r (12). */
+void drogue_quality_of_cover(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
+                             drogue_q16 cover_q16, const drogue_quality_config *config);
 
 #ifdef __cplusplus
 }

@@ -85,6 +85,8 @@ typedef struct drogue_edge {
 
 #define DROGUE_NO_ARC UINT32_C(0xFFFFFFFF)
 
+static inline drogue_q16 drogue_edge_x_q16(const drogue_edge *e) { return (drogue_q16)((int32_t)e->x_q5 * 2048); }
+static inline drogue_q16 drogue_edge_y_q16(const drogue_edge *e) { return (drogue_q16)((int32_t)e->y_q5 * 2048); }
 static inline int32_t drogue_edge_x_px(const drogue_edge *e) { return ((int32_t)e->x_q5 + 16) >> 5; }
 static inline int32_t drogue_edge_y_px(const drogue_edge *e) { return ((int32_t)e->y_q5 + 16) >> 5; }
 

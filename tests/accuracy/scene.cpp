@@ -66,6 +66,30 @@ private:
         return cv::norm(to - t * along) <= probe.half_width_px;
     }
 
+    bool on_spoke(const cv::Vec3d &p) const
+    {
+        for (int i = 0; i < d_.spokes; i++) {
+            const double angle = d_.spoke_phase_rad + 2 * CV_PI * i / d_.spokes;
+            const double along = std::cos(angle) * p[0] + std::sin(angle) * p[1];
+            const double aside = std::cos(angle) * p[1] - std::sin(angle) * p[0];
+            if (along >= 0 && std::fabs(aside) <= d_.spoke_width_m / 2) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    bool on_patch(const cv::Vec3d &p) const
+    {
+        for (const Patch &patch : d_.patches) {
+            const double off = std::remainder(std::atan2(p[1], p[0]) - patch.angle_rad, 2 * CV_PI);
+            if (std::fabs(off) <= patch.half_angle_rad && p[2] >= patch.from_m && p[2] <= patch.to_m) {
+                return true;
+            }
+        }
+        return false;
+    }
+
     double lambert(double albedo, const cv::Vec3d &unit_normal) const
     {
         return albedo * (look_.ambient + (1 - look_.ambient) * std::max(0.0, unit_normal.dot(sun_)));
@@ -84,8 +108,12 @@ private:
             return;
         }
         nearest = t;
-        const bool black = r <= d_.inner_radius_m;
         const double facing = ray[2] > 0 ? -1 : 1;
+        if (r <= d_.inner_radius_m && on_spoke(p)) {
+            hit = {Surface::spoke, lambert(look_.spoke_grey, {0, 0, facing}), p};
+            return;
+        }
+        const bool black = r <= d_.inner_radius_m;
         hit = {black ? Surface::inner : Surface::coupling,
                black ? look_.inner_grey : lambert(look_.coupling_grey, {0, 0, facing}), p};
     }
@@ -126,6 +154,10 @@ private:
                 albedo *= 1 - look_.depth_loss * p[2] / d_.inner_depth_m;
             }
             nearest = t;
+            if (inside && on_patch(p)) {
+                hit = {Surface::patch, lambert(look_.patch_grey, normal), p};
+                continue;
+            }
             hit = {inside ? (rib ? Surface::inside_rib : Surface::inside)
                           : (rib ? Surface::outside_rib : Surface::outside),
                    lambert(albedo, normal), p};
@@ -218,6 +250,25 @@ cv::Mat trace_area(const Scene &scene, const cv::Rect &area)
     return out;
 }
 
+/* Share of a pixel that a thing covers. */
+double cover(const Clutter &c, double x_px, double y_px)
+{
+    const double dx = x_px - c.at_px.x;
+    const double dy = y_px - c.at_px.y;
+    const double u = std::cos(c.angle_rad) * dx + std::sin(c.angle_rad) * dy;
+    const double v = std::cos(c.angle_rad) * dy - std::sin(c.angle_rad) * dx;
+    double outside; /* distance from its outline, px */
+    if (c.round) {
+        const double k = std::hypot(u / c.half_length_px, v / c.half_width_px);
+        const double slope =
+            std::hypot(u / (c.half_length_px * c.half_length_px), v / (c.half_width_px * c.half_width_px));
+        outside = slope > 0 ? k * (k - 1) / slope : -c.half_width_px;
+    } else {
+        outside = std::max(std::fabs(u) - c.half_length_px, std::fabs(v) - c.half_width_px);
+    }
+    return std::clamp(0.5 - outside / c.soft_px, 0.0, 1.0);
+}
+
 /* Gaussian sampled out to four sigma, sum 1. */
 std::vector<double> gaussian(double sigma)
 {
@@ -303,7 +354,14 @@ double background_grey(const Scene &scene, int x_px, int y_px)
         sum += weight * value_noise(seed, x_px / size, y_px / size);
         weights += weight;
     }
-    return b.top_grey + (b.bottom_grey - b.top_grey) * down + (weights > 0 ? b.texture_grey * sum / weights : 0);
+    double grey = b.top_grey + (b.bottom_grey - b.top_grey) * down + (weights > 0 ? b.texture_grey * sum / weights : 0);
+    if (b.ramp_per_px != cv::Point2d(0, 0)) {
+        grey = std::clamp(grey + b.ramp_per_px.dot(cv::Point2d(x_px, y_px) - b.ramp_at_px), 0.0, 255.0);
+    }
+    for (const Clutter &c : b.clutter) {
+        grey += cover(c, x_px, y_px) * (c.grey - grey);
+    }
+    return grey;
 }
 
 cv::Mat render_light(const Scene &scene, const cv::Rect &region)

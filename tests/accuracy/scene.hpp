@@ -4,12 +4,21 @@
  * coordinates alone, so that any region of an image is the same as that part of the whole. */
 #pragma once
 
+#include <vector>
+
 #include <opencv2/core.hpp>
 
 #include "geometry.hpp"
 #include "random.hpp"
 
 namespace accuracy {
+
+/* A dark part of the canopy's inside: a sector of the funnel between two depths. */
+struct Patch {
+    double angle_rad;      /* of its middle about the axis, from first() to second() */
+    double half_angle_rad; /* below pi */
+    double from_m, to_m;   /* depths */
+};
 
 /* Shape, metres. The end plane is at depth 0, depths grow along the axis. */
 struct Drogue {
@@ -24,6 +33,10 @@ struct Drogue {
     double rib_share = 0.25; /* of the circumference */
     double rib_phase = 0;    /* [0, 1) of the distance between two ribs */
     double scallop_m = 0;    /* how far the canopy's edge recedes between two ribs */
+    int spokes = 0;          /* bars before the black disc, from the axis outwards */
+    double spoke_width_m = 0;
+    double spoke_phase_rad = 0;
+    std::vector<Patch> patches = {};
 };
 
 /* Grey levels and light. Lambert: grey = albedo * (ambient + (1 - ambient) * max(0, normal . sun)). */
@@ -34,6 +47,8 @@ struct Look {
     double inner_grey = 14;
     double coupling_grey = 85;
     double hose_grey = 45;
+    double spoke_grey = 110;
+    double patch_grey = 16;
     double ambient = 0.75;
     cv::Vec3d sun = {-0.48, -0.64, -0.6}; /* unit, towards the sun, camera frame */
 
@@ -41,13 +56,26 @@ struct Look {
     static Look bright(); /* for dark and mid-grey backgrounds */
 };
 
-/* Gradient over the image height plus fractal value noise. */
+/* A thing behind the drogue, drawn over the background: an ellipse or a bar. */
+struct Clutter {
+    cv::Point2d at_px;
+    double half_length_px, half_width_px;
+    double angle_rad; /* of the length, from +x towards +y */
+    double grey;
+    bool round;     /* ellipse, otherwise rectangle */
+    double soft_px; /* width of its edge, >= 1 */
+};
+
+/* Gradient over the image height plus fractal value noise, then a linear ramp, then things. */
 struct Background {
     double top_grey = 205;
     double bottom_grey = 225;
     double texture_grey = 6; /* amplitude: the texture stays within plus and minus this */
     double texture_px = 256; /* largest structure */
     int octaves = 3;         /* each half the size and amplitude of the one before */
+    cv::Point2d ramp_at_px = {0, 0};
+    cv::Point2d ramp_per_px = {0, 0}; /* grey levels a pixel along x and y, 0 at ramp_at; the sum stays in [0, 255] */
+    std::vector<Clutter> clutter = {};
 
     static Background sky();    /* bright */
     static Background cloud();  /* mid grey */
@@ -92,7 +120,20 @@ struct Scene {
 };
 
 /* Surfaces in the order in which the tracer knows them. */
-enum class Surface { background, inner, coupling, inside, inside_rib, outside, outside_rib, housing, hose, probe };
+enum class Surface {
+    background,
+    inner,
+    coupling,
+    inside,
+    inside_rib,
+    outside,
+    outside_rib,
+    housing,
+    hose,
+    probe,
+    spoke,
+    patch
+};
 
 /* What the ray of a pixel (as seen, subpixel) meets, and the light that it gives off. */
 struct Hit {

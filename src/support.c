@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Support of an ellipse by all edge points. */
+#include "drogue/support.h"
+
+#include <string.h>
+
+/* tan 11.25, 22.5, 33.75 degrees, Q16 */
+#define TAN_1 13036
+#define TAN_2 27146
+#define TAN_3 43790
+
+uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24)
+{
+    const int32_t x = u_q24 < 0 ? -u_q24 : u_q24;
+    const int32_t y = v_q24 < 0 ? -v_q24 : v_q24;
+    const int32_t most = x > y ? x : y;
+    const int64_t least = (int64_t)(x > y ? y : x) * DROGUE_Q16_ONE;
+    uint32_t bin = (uint32_t)(least >= (int64_t)most * TAN_1) + (uint32_t)(least >= (int64_t)most * TAN_2) +
+                   (uint32_t)(least >= (int64_t)most * TAN_3);
+    bin = most == 0 ? 0 : bin;
+    bin = y > x ? 7 - bin : bin;      /* first quadrant */
+    bin = u_q24 < 0 ? 15 - bin : bin; /* upper half */
+    return v_q24 < 0 ? 31 - bin : bin;
+}
+
+void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame, const drogue_band *band,
+                          const drogue_edge *edges, uint32_t edge_count, uint32_t stride)
+{
+    uint32_t i;
+    memset(out, 0, sizeof *out);
+    for (i = 0; i < edge_count; i += stride) {
+        drogue_band_point p;
+        if (drogue_ellipse_band_holds(&p, frame, band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
+                                      edges[i].gx, edges[i].gy)) {
+            out->bin[drogue_support_bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
+        }
+    }
+}
+
+int drogue_support_add(drogue_support *support, const drogue_band_point *p, const drogue_edge *edge)
+{
+    const uint32_t k = drogue_support_bin_of(p->u_q24, p->v_q24);
+    const int32_t offset_q16 = (p->f_q24 + 256) >> 9;
+    support->bin[k].count[p->polarity]++;
+    if (((support->bright_bins >> k) & 1u) != (uint32_t)p->polarity) {
+        return 0;
+    }
+    support->bin[k].sum_q16 += offset_q16;
+    support->squares_q32 += (int64_t)offset_q16 * offset_q16;
+    support->gradient +=
+        (uint64_t)(edge->gx < 0 ? -edge->gx : edge->gx) + (uint64_t)(edge->gy < 0 ? -edge->gy : edge->gy);
+    support->points++;
+    return 1;
+}
+
+/* Length of a bin, px Q16: (b + (a - b) sin^2) pi / 16, within 8 % for axis ratios from 0.4. */
+static int64_t bin_length_q16(const drogue_ellipse *e, uint32_t bin)
+{
+    /* sin^2 at the middles of the bins of a quadrant, Q16 */
+    static const uint16_t sin2_q16[8] = {630, 5522, 14563, 26375, 39160, 50973, 60014, 64906};
+    const uint32_t within = bin & 15u;
+    const int64_t mean_q16 =
+        e->b_px_q16 +
+        drogue_shr_round_s64(((int64_t)e->a_px_q16 - e->b_px_q16) * sin2_q16[within < 8 ? within : 15 - within], 16);
+    return drogue_shr_round_s64(mean_q16 * DROGUE_Q16_PI, 20);
+}
+
+/* Set bits of a word. */
+static uint32_t popcount(uint32_t v)
+{
+    v = v - ((v >> 1) & 0x55555555u);
+    v = (v & 0x33333333u) + ((v >> 2) & 0x33333333u);
+    v = (v + (v >> 4)) & 0x0F0F0F0Fu;
+    return (v * 0x01010101u) >> 24;
+}
+
+/* Changes of polarity between one covered bin and the next, round the outline. */
+static uint32_t changes(uint32_t bright, uint32_t covered)
+{
+    uint32_t count = 0;
+    uint32_t first = 2;
+    uint32_t last = 2;
+    uint32_t k;
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        if ((covered >> k) & 1u) {
+            uint32_t own = (bright >> k) & 1u;
+            count += last != 2 && own != last;
+            first = first == 2 ? own : first;
+            last = own;
+        }
+    }
+    return count + (first != last);
+}
+
+void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse, drogue_polarity polarity,
+                          uint32_t stride)
+{
+    uint32_t enough[2] = {0, 0};
+    uint32_t majority = 0;
+    uint32_t pure;
+    uint32_t mixed;
+    uint32_t turns;
+    uint32_t k;
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        const uint32_t *count = support->bin[k].count;
+        const int64_t needed_q16 = drogue_shr_round_s64(bin_length_q16(ellipse, k) * DROGUE_Q16(35, 100), 16);
+        enough[0] |= (uint32_t)((int64_t)count[0] * stride * DROGUE_Q16_ONE >= needed_q16) << k;
+        enough[1] |= (uint32_t)((int64_t)count[1] * stride * DROGUE_Q16_ONE >= needed_q16) << k;
+        majority |= (uint32_t)(count[1] > count[0]) << k;
+    }
+    support->bright_bins = popcount(enough[1]) > popcount(enough[0]) ? 0xFFFFFFFFu : 0;
+    if (polarity != DROGUE_POLARITY_BOTH) {
+        support->bright_bins = polarity == DROGUE_POLARITY_BRIGHT ? 0xFFFFFFFFu : 0;
+    }
+    pure = popcount(support->bright_bins != 0 ? enough[1] : enough[0]);
+    support->covered = pure;
+    if (polarity == DROGUE_POLARITY_BOTH) {
+        mixed = popcount(enough[0] | enough[1]);
+        turns = changes(majority, enough[0] | enough[1]);
+        if (mixed > pure + turns) {
+            support->bright_bins = majority;
+            support->covered = mixed - turns;
+        }
+    }
+}

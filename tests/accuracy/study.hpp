@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The sections of the accuracy study: each in a file of its own, each adds tables, plots and bars to the report. */
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evaluate.hpp"
+#include "report.hpp"
+
+namespace accuracy {
+
+struct StudyOptions {
+    bool quick = false; /* all sections, few scenes: the whole study in less than two minutes on two cores */
+    uint64_t seed = 1;
+    int threads = 0;   /* 0: as many as the machine has */
+    std::string cache; /* folder of rendered regions that sections share; empty at the start unless asked otherwise */
+
+    int pick(int full, int few) const { return quick ? few : full; }
+};
+
+/* How run_trials() is to run in a section: threads, cache, progress under a name. */
+RunOptions run_options(Report &report, const StudyOptions &options, const std::string &what);
+
+/* The scenes over all conditions that sections share: 1008, quick 60; condition by condition. */
+std::vector<Trial> study_trials(const StudyOptions &options);
+
+/* Medians on plain scenes per distance, beside the prototype's. */
+void section_distances(Report &report, const StudyOptions &options);
+/* Right, wrong, unmeasured, accuracy and calibration over study_trials(), and by condition. */
+void section_conditions(Report &report, const StudyOptions &options);
+/* The paper's Fig. 6: extraction of the ellipse under illumination and blur. */
+void section_extraction(Report &report, const StudyOptions &options);
+/* Photographs of circle boards. */
+void section_boards(Report &report, const StudyOptions &options);
+
+} // namespace accuracy
