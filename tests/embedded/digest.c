@@ -3,8 +3,13 @@
 #include "digest.h"
 
 #if defined(__x86_64__)
-/* A member was added or removed: bring digest_result() up to date, then this size. */
-typedef char digest_covers_every_member[sizeof(drogue_result) == 448 ? 1 : -1];
+/* A size that differs: members were added or removed. Bring the functions below up to date, then the size. */
+#define COVERED(type, bytes) typedef char digest_covers_##type[sizeof(type) == (bytes) ? 1 : -1]
+COVERED(drogue_result, 448);
+COVERED(drogue_ellipse, 20);
+COVERED(drogue_quality, 20);
+COVERED(drogue_pose, 32);
+COVERED(drogue_dark_part, 20);
 #endif
 
 static uint64_t add(uint64_t digest, int64_t value)
@@ -27,6 +32,12 @@ static uint64_t add_quality(uint64_t d, const drogue_quality *q)
 {
     d = add(add(d, q->fit_ratio_q16), q->length_ratio_q16);
     return add(add(add(d, q->axis_ratio_q16), q->score_q16), q->reliability_q16);
+}
+
+static uint64_t add_dark_part(uint64_t d, const drogue_dark_part *p)
+{
+    d = add(add(add(d, p->x_px_q16), p->y_px_q16), p->area_px);
+    return add(add(d, p->spread_px_q16), p->threshold);
 }
 
 static uint64_t add_pose(uint64_t d, const drogue_pose *p)
@@ -55,7 +66,7 @@ uint64_t digest_result(uint64_t d, const drogue_result *r)
     d = add_quality(d, &r->quality);
     d = add(add(add(d, (int64_t)r->polarity), r->cluster_members), r->refit_points);
     d = add(add(d, r->cover_q16), r->has_inner);
-    d = add(add(add(add(d, r->inner.x_px_q16), r->inner.y_px_q16), r->inner.area_px), r->inner.threshold);
+    d = add_dark_part(d, &r->inner);
     d = add_pose(d, &r->pose);
     d = add_pose(d, &r->alternative);
     d = add(add(d, r->orientation_resolved), r->ambiguity_q16);

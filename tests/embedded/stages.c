@@ -7,8 +7,10 @@
 #include "counter.h"
 #include "drogue/drogue.h"
 #include "drogue/ellipse.h"
+#include "drogue/joint.h"
 
-const char *const stage_names[STAGE_COUNT] = {"front_end", "constraints", "fit", "outline", "inner", "pose", "rest"};
+const char *const stage_names[STAGE_COUNT] = {"front_end", "constraints", "fit",   "outline",
+                                              "inner",     "pose",        "joint", "rest"};
 
 static uint32_t counts[STAGE_COUNT];
 static stage current;
@@ -62,18 +64,23 @@ void __wrap_drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
 WRAP(FRONT_END, drogue_status, drogue_frontend_begin, (drogue_frontend *a, drogue_workspace *b,
      const drogue_frontend_config *c, int32_t d, int32_t e), (a, b, c, d, e))
 WRAP(FRONT_END, drogue_status, drogue_frontend_end, (drogue_edge_list *a, drogue_frontend *b), (a, b))
-WRAP(CONSTRAINTS, drogue_status, drogue_select_farthest, (drogue_farthest *a, drogue_point *b, const drogue_edge *c,
-     const drogue_arc *d, uint32_t e, const drogue_mask *f, drogue_q16 g), (a, b, c, d, e, f, g))
+WRAP(CONSTRAINTS, drogue_status, drogue_select_arcs, (drogue_arc_choices *a, drogue_point *b, const drogue_edge *c,
+     const drogue_arc *d, uint32_t e, const drogue_mask *f, drogue_q16 g, drogue_polarity h), (a, b, c, d, e, f, g, h))
 WRAP(FIT, drogue_status, drogue_ellipse_fit, (drogue_ellipse *a, const drogue_moments *b, int c), (a, b, c))
 WRAP(OUTLINE, drogue_status, drogue_outline_find, (drogue_outline *a, const drogue_workspace *b,
      const drogue_edge_list *c, const drogue_mask *d, const drogue_config *e), (a, b, c, d, e))
 WRAP(OUTLINE, drogue_status, drogue_outline_undistorted, (drogue_ellipse *a, const drogue_outline *b,
      const drogue_workspace *c, const drogue_edge_list *d, const drogue_config *e, const drogue_camera *f, int32_t g,
      int32_t h), (a, b, c, d, e, f, g, h))
-WRAP(INNER, drogue_status, drogue_dark_part_find, (drogue_dark_part *a, drogue_workspace *b, const drogue_image *c,
-     const drogue_mask *d, uint32_t e), (a, b, c, d, e))
+WRAP(INNER, drogue_status, drogue_dark_disc_find, (drogue_dark_part *a, uint32_t *b, drogue_workspace *c,
+     const drogue_image *d, const drogue_mask *e, uint32_t f, const drogue_ellipse *g, uint32_t h),
+     (a, b, c, d, e, f, g, h))
 WRAP(POSE, drogue_status, drogue_pose_from_ellipse, (drogue_pose a[2], const drogue_ellipse *b, const drogue_camera *c,
      drogue_q16 d), (a, b, c, d))
 WRAP(POSE, drogue_status, drogue_choose_pose, (drogue_choice *a, const drogue_pose b[2], drogue_q16 c, drogue_q16 d,
      drogue_q16 e, const drogue_camera *f), (a, b, c, d, e, f))
+WRAP(JOINT, drogue_status, drogue_joint_outline_covariance, (drogue_joint_outline *a, const drogue_support *b,
+     drogue_q16 c, drogue_q16 d), (a, b, c, d))
+WRAP(JOINT, drogue_status, drogue_joint_solve, (drogue_joint *a, const drogue_pose *b, const drogue_joint_outline *c,
+     const drogue_joint_inner *d, const drogue_camera *e, const drogue_model *f, int g), (a, b, c, d, e, f, g))
 /* clang-format on */

@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-typedef enum stage { FRONT_END, CONSTRAINTS, FIT, OUTLINE, INNER, POSE, REST, STAGE_COUNT } stage;
+typedef enum stage { FRONT_END, CONSTRAINTS, FIT, OUTLINE, INNER, POSE, JOINT, REST, STAGE_COUNT } stage;
 
 extern const char *const stage_names[STAGE_COUNT];
 

@@ -8,11 +8,11 @@ function value(name, i) {
 function thousands(count) { return $1 == "host" ? "-" : sprintf("%.0f", count / 1000) }
 
 BEGIN {
-    heading = "%-13s %-13s %8s %16s %8s %6s %6s %6s %6s %6s %6s %8s %7s %7s\n"
+    heading = "%-13s %-13s %8s %16s %8s %6s %6s %6s %6s %6s %6s %6s %8s %7s %7s\n"
     print "Instructions in thousands, without the stages called; of the front end per pixel, too. RAM: workspace, state, stack."
     printf heading, "target", "frame", "z, m", "digest", "all, k", "front", "inner", "constr", "fit", "outlin", "pose",
-        "back, k", "stack", "RAM"
-    printf heading, "", "", "", "", "", "/px", "/px", "k", "k", "k", "k", "", "bytes", "bytes"
+        "joint", "back, k", "stack", "RAM"
+    printf heading, "", "", "", "", "", "/px", "/px", "k", "k", "k", "k", "k", "", "bytes", "bytes"
 }
 
 $3 == "measure" {
@@ -28,10 +28,10 @@ $3 == "stages" {
     key = $1 " " $2
     counts = $1 != "host"
     pixels = value("pixels")
-    back = value("constraints") + value("fit") + value("outline") + value("pose") + value("rest")
+    back = value("constraints") + value("fit") + value("outline") + value("pose") + value("joint") + value("rest")
     same = digest[key] == digest["host " $2] && digest[key] == value("digest")
     printf heading, $1, $2, z[key], same ? digest[key] : "DIFFERS", thousands(all[key]),
         counts ? sprintf("%.1f", value("front_end") / pixels) : "-", counts ? sprintf("%.1f", value("inner") / pixels) : "-",
         thousands(value("constraints")), thousands(value("fit")), thousands(value("outline")), thousands(value("pose")),
-        thousands(back), stack[key], ram[key]
+        thousands(value("joint")), thousands(back), stack[key], ram[key]
 }
