@@ -67,6 +67,7 @@ def own_names(source):
     names |= set(re.findall(r'\bstatic\b[^;=(]*?(\w+)\s*(?:\[[^\]]*\]\s*)*[;=(]', text))
     names |= set(re.findall(r'\b(?:struct|union|enum)\s+(\w+)\s*;', text))
     names |= set(re.findall(r'\btypedef\b[^;]*;\s*(\w+)\s*;', text))
+    names |= set(re.findall(r'\btypedef\b[^;]*?(\w+)\s*;', text))
     return {name for name in names if not name.lower().startswith('drogue_')}
 
 
