@@ -65,15 +65,15 @@ use_two_files() {
     for header in drogue track; do
         echo '#include <drogue.h>' >"$work/shim/drogue/$header.h"
     done
-    gcc "${warnings[@]}" -O2 -I "$1" -c "$1/drogue.c" -o "$work/two_files.o"
+    gcc -std=c99 -O2 -I "$1" -c "$1/drogue.c" -o "$work/two_files.o"
     gcc -std=c99 -I "$work/shim" -I "$1" tests/checks/consumer/main.c "$work/two_files.o" -o "$work/consumer"
     "$work/consumer" "$version"
 }
 
 two_files_compile() {
     local compiler
-    for compiler in gcc clang "arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb"; do
-        $compiler "${warnings[@]}" -Os -c "$work/two/drogue.c" -o "$work/two.o"
+    for compiler in 'gcc -O2' 'clang -O2' 'arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -Os'; do
+        $compiler "${warnings[@]}" -c "$work/two/drogue.c" -o "$work/two.o"
     done
     g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -fsyntax-only -x c++ "$work/two/drogue.h"
 }
