@@ -27,9 +27,10 @@ typedef struct drogue_capacity {
     uint32_t arcs;     /* arcs of the least length and more; [1, 2^24] */
 } drogue_capacity;
 
-/* Capacity that suits a region of the given longest side: 14 edge points, 6 labels and 1 arc a pixel of side. */
-#define DROGUE_EDGES_FOR(side_px) (14u * (size_t)(side_px))
-#define DROGUE_LABELS_FOR(side_px) (6u * (size_t)(side_px) + 2u)
+/* Capacity that suits a region of the given longest side: 12 edge points, 5 labels and 1 arc a pixel of side. The frames
+ * in vectors/ with a scene in them need at most 6.3, 2.1 and 0.2. */
+#define DROGUE_EDGES_FOR(side_px) (12u * (size_t)(side_px))
+#define DROGUE_LABELS_FOR(side_px) (5u * (size_t)(side_px) + 2u)
 #define DROGUE_ARCS_FOR(side_px) ((size_t)(side_px))
 
 #define DROGUE_HULL_MAX 1024 /* vertices of a strictly convex lattice polygon in 2048 x 2048: at most 569 */
@@ -42,12 +43,17 @@ typedef struct drogue_point {
 
 #define DROGUE_FOURS(width_px) (((size_t)(width_px) + 3u) / 4u) /* words that hold a row of pixels */
 
-/* Bytes of memory for a workspace: usable in a static array's size. */
-#define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                  \
-    ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels)*16u +      \
-     DROGUE_HULL_MAX * sizeof(drogue_point) + 256u * 4u + (size_t)(width_px) * (sizeof(drogue_merge) + 18u) +  \
+/* Bytes of the row buffers; the hull, which is needed after them, lies in the same place. */
+#define DROGUE_ROWS_BYTES(width_px)                                                                            \
+    ((size_t)(width_px) * (sizeof(drogue_merge) + 18u) +                                                       \
      DROGUE_FOURS(width_px) * (5u * 4u + 3u * 8u + 4u * 8u + 8u * sizeof(drogue_slope)) + 5u * 4u + 3u * 16u + \
      4u * 8u)
+#define DROGUE_HULL_BYTES (DROGUE_HULL_MAX * sizeof(drogue_point))
+
+/* Bytes of memory for a workspace: usable in a static array's size. */
+#define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                         \
+    ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels)*16u + 256u * 4u + \
+     (DROGUE_ROWS_BYTES(width_px) > DROGUE_HULL_BYTES ? DROGUE_ROWS_BYTES(width_px) : DROGUE_HULL_BYTES))
 
 /* The same for a region of the given longest side with the capacity that suits it. */
 #define DROGUE_WORKSPACE_BYTES_FOR(side_px) \
@@ -63,8 +69,8 @@ typedef struct drogue_workspace {
     uint32_t *component_strong; /* labels */
     uint32_t *arc_parent;       /* labels */
     uint32_t *arc_component;    /* labels */
-    drogue_point *hull;         /* DROGUE_HULL_MAX */
     uint32_t *histogram;        /* 256 */
+    drogue_point *hull;         /* DROGUE_HULL_MAX, in the place of the rows below */
     drogue_merge *merges;       /* width */
     uint32_t *component_rows;   /* 2 x width */
     uint32_t *arc_rows;         /* 2 x width */
