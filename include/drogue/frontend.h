@@ -10,6 +10,7 @@
 #include <stddef.h>
 
 #include "drogue/canny.h"
+#include "drogue/cluster.h"
 #include "drogue/gradient.h"
 #include "drogue/label.h"
 #include "drogue/mask.h"
@@ -34,6 +35,8 @@ typedef struct drogue_capacity {
 #define DROGUE_ARCS_FOR(side_px) ((size_t)(side_px))
 
 #define DROGUE_HULL_MAX 1024 /* vertices of a strictly convex lattice polygon in 2048 x 2048: at most 569 */
+
+#define DROGUE_MAX_CANDIDATES 25 /* 6 pairs of quadrants with two arcs each, and the first arcs of all quadrants */
 
 /* Point of a convex hull, whole pixels. */
 typedef struct drogue_point {
@@ -63,17 +66,18 @@ typedef struct drogue_point {
  * 'edges' and 'arcs' hold its edge points and arcs; everything else is scratch. */
 typedef struct drogue_workspace {
     drogue_capacity capacity;
-    drogue_edge *edges;         /* edges */
-    drogue_arc *arcs;           /* arcs */
-    uint32_t *component_parent; /* labels; these four also serve the dark components */
-    uint32_t *component_strong; /* labels */
-    uint32_t *arc_parent;       /* labels */
-    uint32_t *arc_component;    /* labels */
-    uint32_t *histogram;        /* 256 */
-    drogue_point *hull;         /* DROGUE_HULL_MAX, in the place of the rows below */
-    drogue_merge *merges;       /* width */
-    uint32_t *component_rows;   /* 2 x width */
-    uint32_t *arc_rows;         /* 2 x width */
+    drogue_edge *edges;           /* edges */
+    drogue_arc *arcs;             /* arcs */
+    uint32_t *component_parent;   /* labels; these four also serve the dark components */
+    uint32_t *component_strong;   /* labels */
+    uint32_t *arc_parent;         /* labels */
+    uint32_t *arc_component;      /* labels */
+    uint32_t *histogram;          /* 256 */
+    drogue_point *hull;           /* DROGUE_HULL_MAX, in the place of the rows below */
+    drogue_candidate *candidates; /* DROGUE_MAX_CANDIDATES, in the place of the hull when that has served */
+    drogue_merge *merges;         /* width */
+    uint32_t *component_rows;     /* 2 x width */
+    uint32_t *arc_rows;           /* 2 x width */
     uint8_t *
         raw_rows; /* 5 x (fours + 1) words, ring of input rows, pixel 0 at byte 2; aligned for uint32_t, like the next */
     uint8_t *smooth_rows;     /* 3 x 2 (fours + 2) words, ring of rows of lanes, pixel 0 at word 2 */
