@@ -28,13 +28,14 @@ typedef struct drogue_capacity {
     uint32_t arcs;     /* arcs of the least length and more; [1, 2^24] */
 } drogue_capacity;
 
-/* Capacity that suits a region of the given longest side: 12 edge points, 5 labels and 1 arc a pixel of side. The frames
- * in vectors/ with a scene in them need at most 6.3, 2.1 and 0.2. */
-#define DROGUE_EDGES_FOR(side_px) (12u * (size_t)(side_px))
-#define DROGUE_LABELS_FOR(side_px) (5u * (size_t)(side_px) + 2u)
-#define DROGUE_ARCS_FOR(side_px) ((size_t)(side_px))
+/* Capacity that suits a region of the given longest side: 11 edge points and 6 labels a pixel of side (noise of 8 grey
+ * levels needs up to 10.6 and 5.6, the frames in vectors/ 6.3 and 2.1), and 96 arcs: no more than 88 of an eighth of the
+ * side fit into the edge points. */
+#define DROGUE_EDGES_FOR(side_px) (11u * (size_t)(side_px))
+#define DROGUE_LABELS_FOR(side_px) (6u * (size_t)(side_px) + 2u)
+#define DROGUE_ARCS_FOR(side_px) ((size_t)96u)
 
-#define DROGUE_HULL_MAX 1024 /* vertices of a strictly convex lattice polygon in 2048 x 2048: at most 569 */
+#define DROGUE_HULL_MAX 576 /* vertices of a strictly convex lattice polygon in 2048 x 2048: at most 569 */
 
 #define DROGUE_MAX_CANDIDATES 25 /* 6 pairs of quadrants with two arcs each, and the first arcs of all quadrants */
 
