@@ -98,8 +98,7 @@ void plot_distances(Report &report, const std::vector<Outcome> &outcomes)
         add(axis, median(angles));
         add(axis90, percentile(angles, 90));
     }
-    const std::vector<std::string> ticks = {"set key top left", "set xrange [1.9:27]",
-                                            "set xtics (2, 3, 5, 7, 10, 15, 20, 25)"};
+    const std::vector<std::string> ticks = {"set xrange [1.9:27]", "set xtics (2, 3, 5, 7, 10, 15, 20, 25)"};
     report.plot({"conditions_position",
                  "Position error against distance, all conditions.",
                  "distance, m",
@@ -150,7 +149,7 @@ void plot_calibration(Report &report, const std::vector<Outcome> &outcomes)
                  {seen, theory},
                  false,
                  false,
-                 {"set key bottom right", "set xrange [0:25]", "set yrange [0:1]"}});
+                 {"set xrange [0:25]", "set yrange [0:1]"}});
 }
 
 } // namespace

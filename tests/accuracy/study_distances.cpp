@@ -48,7 +48,7 @@ Medians medians_at(Report &report, const StudyOptions &options, double distance_
     return {median(ellipse), median(centroid), summarise(outcomes)};
 }
 
-std::string beside(double value, double mark) { return significant(value, 2) + " (" + significant(mark, 1) + ")"; }
+std::string beside(double value, double mark) { return significant(value, 2) + " (" + plain(mark) + ")"; }
 
 } // namespace
 
@@ -93,7 +93,7 @@ void section_distances(Report &report, const StudyOptions &options)
                  {z, z_mark, axis, axis_mark},
                  true,
                  true,
-                 {"set key top left", "set xrange [2.7:28]", "set xtics (3, 5, 10, 15, 25)"}});
+                 {"set xrange [2.7:28]", "set xtics (3, 5, 10, 15, 25)"}});
 }
 
 } // namespace accuracy

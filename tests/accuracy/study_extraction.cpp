@@ -54,7 +54,7 @@ void one(Report &report, const StudyOptions &options, const Disturbance &d, std:
     }
     rows.push_back({d.title, std::to_string(outcomes.size()), std::to_string(unmeasured), significant(median(all), 2),
                     significant(percentile(all, 99), 2), significant(percentile(all, 100), 2),
-                    d.paper_px > 0 ? "below " + significant(d.paper_px, 2) : "-"});
+                    d.paper_px > 0 ? "below " + plain(d.paper_px) : "-"});
     Plot plot = {std::string("extraction_") + d.name,
                  std::string("Error of the extracted ellipse under ") + d.title + ".",
                  "distance, m",
@@ -62,7 +62,7 @@ void one(Report &report, const StudyOptions &options, const Disturbance &d, std:
                  {middle, worst},
                  false,
                  true,
-                 {"set key top right", "set xrange [0:27]"}};
+                 {"set xrange [0:27]"}};
     if (d.paper_px > 0) {
         plot.series.push_back({"the paper's bound", {0, 27}, {d.paper_px, d.paper_px}, "lines dashtype 2"});
     }
