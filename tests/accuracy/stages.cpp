@@ -104,16 +104,19 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
         return;
     }
     const uint32_t count = drogue_inner_expect(expected, poses, &q_camera, &model, 0, 0);
-    for (uint32_t i = 0; i < count && result.has_inner != 0 && inner.std_px_q16 == 0; i++) {
-        inner.std_px_q16 = drogue_inner_std(&result.inner, &expected[i], &result.ellipse, &edges.config);
+    const auto miss = [&](const drogue_ellipse &disc) {
+        return std::hypot(from_q16(disc.xc_px_q16 - inner.x_px_q16), from_q16(disc.yc_px_q16 - inner.y_px_q16));
+    };
+    if (result.has_inner != 0 && count > 0) {
+        const drogue_ellipse &disc = expected[count > 1 && miss(expected[1]) < miss(expected[0]) ? 1 : 0];
+        inner.std_px_q16 = drogue_inner_std(&result.inner, &disc, &result.ellipse, &edges.config);
     }
     if (result.has_inner != 0) {
-        result.status = drogue_choose_pose(&choice, poses, inner.x_px_q16, inner.y_px_q16, model.inner_depth_m_q16,
-                                           &q_camera);
+        result.status =
+            drogue_choose_pose(&choice, poses, inner.x_px_q16, inner.y_px_q16, model.inner_depth_m_q16, &q_camera);
     }
     if (result.status == DROGUE_OK) {
-        result.status =
-            drogue_decide(&result, poses, choice.index, &support, &inner, &edges.config, &q_camera, &model);
+        result.status = drogue_decide(&result, poses, choice.index, &support, &inner, &edges.config, &q_camera, &model);
     }
 }
 

@@ -27,7 +27,7 @@ void plot_positions(Report &report, const std::vector<Trial> &trials, const std:
                  {},
                  false,
                  false,
-                 {"set key top left", "set pointsize 0.8"}};
+                 {"set pointsize 0.8"}};
     for (int axis = 0; axis < 3; axis++) {
         const std::string letter = letters[static_cast<size_t>(axis)];
         Series truth = {letter + ", true", {}, {}, "lines"};
@@ -56,7 +56,7 @@ void plot_errors(Report &report, const std::vector<Outcome> &outcomes, bool rela
                  {},
                  false,
                  true,
-                 {"set key outside top center horizontal", "set format y '%g'", "set xrange [4:26]"}};
+                 {"set format y '%g'", "set xrange [4:26]"}};
     for (int axis = 0; axis < 3; axis++) {
         Series s = {letters[static_cast<size_t>(axis)], {}, {}, "points"};
         for (const Outcome &o : outcomes) {
@@ -238,8 +238,7 @@ void plot_sequence(Report &report, const std::vector<Step> &steps, int axis)
                  {raw, filtered, place},
                  false,
                  false,
-                 {"set key outside top center horizontal", "set ytics nomirror", "set y2tics",
-                  "set y2label '" + letter + ", m'"}});
+                 {"set ytics nomirror", "set y2tics", "set y2label '" + letter + ", m'"}});
 }
 
 void sequence_table(Report &report, const std::vector<Step> &steps)
