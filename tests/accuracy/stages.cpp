@@ -104,11 +104,12 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
         return;
     }
     const uint32_t count = drogue_inner_expect(expected, poses, &q_camera, &model, 0, 0);
-    const auto miss = [&](const drogue_ellipse &disc) {
-        return std::hypot(from_q16(disc.xc_px_q16 - inner.x_px_q16), from_q16(disc.yc_px_q16 - inner.y_px_q16));
+    const auto miss = [&](const drogue_ellipse &e) {
+        return std::hypot(from_q16(e.xc_px_q16) - from_q16(inner.x_px_q16),
+                          from_q16(e.yc_px_q16) - from_q16(inner.y_px_q16));
     };
-    if (result.has_inner != 0 && count > 0) {
-        const drogue_ellipse &disc = expected[count > 1 && miss(expected[1]) < miss(expected[0]) ? 1 : 0];
+    if (count > 0 && result.has_inner != 0) {
+        const drogue_ellipse &disc = count == 2 && miss(expected[1]) < miss(expected[0]) ? expected[1] : expected[0];
         inner.std_px_q16 = drogue_inner_std(&result.inner, &disc, &result.ellipse, &edges.config);
     }
     if (result.has_inner != 0) {
