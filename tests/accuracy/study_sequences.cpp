@@ -38,8 +38,8 @@ SequenceOptions approach_of(const Level &level, const StudyOptions &options, uin
     o.motion.amplitude_m = level.amplitude_m;
     o.motion.phase_rad = static_cast<double>(index);
     if (options.quick) {
-        o.motion.from_m = 18;
-        o.motion.to_m = 12;
+        o.motion.from_m = 20;
+        o.motion.to_m = 16;
     }
     o.scene.look = level.look;
     o.scene.background = level.background;
