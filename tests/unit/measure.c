@@ -49,9 +49,10 @@ static void draw(const scene *s)
                 double u = x + (k % FINE + 0.5) / FINE - 0.5, v = y + (k / FINE + 0.5) / FINE - 0.5, ray[3] = {0, 0, 1};
                 ray[0] = (u - 160) / f;
                 ray[1] = (v - 140) / f;
-                sum += !hits(ray, s->position, axis, 0.35) ? s->outside + s->slope[0] * (u - 160) + s->slope[1] * (v - 140)
-                       : hits(ray, inner, axis, 0.2)       ? s->inside
-                                                           : s->canopy;
+                sum += !hits(ray, s->position, axis, 0.35)
+                           ? s->outside + s->slope[0] * (u - 160) + s->slope[1] * (v - 140)
+                       : hits(ray, inner, axis, 0.2) ? s->inside
+                                                     : s->canopy;
             }
             pixels[y * WIDTH + x] = (uint8_t)(fmin(fmax(sum / (FINE * FINE), 0), 255) + 0.5);
         }
@@ -453,7 +454,8 @@ START_TEST(covariance_of_the_result)
         s.yaw = rng_real(&rng, -0.35, 0.35);
         s.pitch = rng_real(&rng, -0.35, 0.35);
         draw(&s);
-        MUST(measure(&r, &t, &c, &model, &whole) == DROGUE_OK && measure(&alone, &t, &c, &no_inner, &whole) == DROGUE_OK,
+        MUST(measure(&r, &t, &c, &model, &whole) == DROGUE_OK &&
+                 measure(&alone, &t, &c, &no_inner, &whole) == DROGUE_OK,
              "case %d: %s", i, drogue_status_name(r.status));
         for (k = 0; k < 2; k++) {
             const drogue_result *q = k ? &alone : &r;
@@ -463,8 +465,8 @@ START_TEST(covariance_of_the_result)
             MUST(positive(q->covariance_q48), "case %d: not positive", i);
             for (j = 0; j < 3; j++) {
                 double root = sqrt((double)q->covariance_q48[j][j]) * 256; /* Q48 to Q32 */
-                MUST(fabs((double)q->position_std_m_q32[j] - root) <= 1e-4 * root + 300, "case %d: std %d is %g, not %g",
-                     i, j, (double)q->position_std_m_q32[j], root);
+                MUST(fabs((double)q->position_std_m_q32[j] - root) <= 1e-4 * root + 300,
+                     "case %d: std %d is %g, not %g", i, j, (double)q->position_std_m_q32[j], root);
             }
             variance = (double)q->covariance_q48[3][3] * pow(cos(real_of_q16(q->pose.pitch_rad_q16)), 2) +
                        (double)q->covariance_q48[4][4];
@@ -473,11 +475,11 @@ START_TEST(covariance_of_the_result)
         }
         for (j = 0; j < 3; j++) {
             double off = real_of_q16(r.pose.position_m_q16[j]) - s.position[j];
-            MUST(fabs(off) < 6 * (double)r.position_std_m_q32[j] / 4294967296.0, "case %d: %d off by %g of %g", i, j, off,
-                 (double)r.position_std_m_q32[j] / 4294967296.0);
+            MUST(fabs(off) < 6 * (double)r.position_std_m_q32[j] / 4294967296.0, "case %d: %d off by %g of %g", i, j,
+                 off, (double)r.position_std_m_q32[j] / 4294967296.0);
         }
-        MUST(axis_error(&r.pose, &s) < 6 * (double)r.axis_std_rad_q32 / 4294967296.0, "case %d: axis off by %g of %g", i,
-             axis_error(&r.pose, &s), (double)r.axis_std_rad_q32 / 4294967296.0);
+        MUST(axis_error(&r.pose, &s) < 6 * (double)r.axis_std_rad_q32 / 4294967296.0, "case %d: axis off by %g of %g",
+             i, axis_error(&r.pose, &s), (double)r.axis_std_rad_q32 / 4294967296.0);
         MUST(alone.axis_std_rad_q32 > r.axis_std_rad_q32, "case %d: surer without the inner part", i);
     }
     memset(pixels, 128, sizeof pixels);
@@ -622,4 +624,5 @@ END_TEST
 SUITE_MAIN("measure", drawn_drogues, without_inner_part, regions_of_one_image, ring_of_a_clipped_region, arguments,
            regions_that_miss, full_tables, nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide,
            inner_part_that_contradicts, covariance_of_the_result, off_centre_region, second_look_that_fails,
-           background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros, capacity_by_macro_is_capacity_by_function)
+           background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
+           capacity_by_macro_is_capacity_by_function)
