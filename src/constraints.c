@@ -178,23 +178,42 @@ void drogue_judge_arc(drogue_arc_verdict *out, drogue_point *hull, const drogue_
     }
 }
 
-/* The best of one quadrant so far, kept while the arcs go by. */
+#define LONGEST 4 /* arcs of a quadrant that are compared by distance */
+
+/* The longest arcs of one quadrant so far, longest first; of equals the first. */
 typedef struct leaders {
-    uint32_t longest[2]; /* indices of the two longest arcs */
-    uint32_t points[2];
+    uint32_t arc[LONGEST];
+    uint32_t points[LONGEST]; /* 0: none */
+    int64_t distance2_q32[LONGEST];
 } leaders;
 
-static void keep_longest(leaders *l, uint32_t index, uint32_t points)
+static void keep_longest(leaders *l, uint32_t arc, uint32_t points, int64_t distance2_q32)
 {
-    if (points > l->points[0]) {
-        l->longest[1] = l->longest[0];
-        l->points[1] = l->points[0];
-        l->longest[0] = index;
-        l->points[0] = points;
-    } else if (points > l->points[1]) {
-        l->longest[1] = index;
-        l->points[1] = points;
+    int i;
+    for (i = LONGEST - 1; i >= 0 && points > l->points[i]; i--) {
+        if (i + 1 < LONGEST) {
+            l->arc[i + 1] = l->arc[i];
+            l->points[i + 1] = l->points[i];
+            l->distance2_q32[i + 1] = l->distance2_q32[i];
+        }
+        l->arc[i] = arc;
+        l->points[i] = points;
+        l->distance2_q32[i] = distance2_q32;
     }
+}
+
+/* The farthest of those with at least half the longest's points, then the longest of the others. */
+static void choose_arcs(uint32_t chosen[DROGUE_ARC_CHOICES], const leaders *l)
+{
+    int far = 0;
+    int i;
+    for (i = 1; i < LONGEST; i++) {
+        if (2 * l->points[i] >= l->points[0] && l->distance2_q32[i] > l->distance2_q32[far]) {
+            far = i;
+        }
+    }
+    chosen[0] = l->arc[far];
+    chosen[1] = l->arc[far == 0 ? 1 : 0];
 }
 
 drogue_status drogue_select_arcs(drogue_arc_choices *out, drogue_point *hull, const drogue_edge *edges,
@@ -202,34 +221,26 @@ drogue_status drogue_select_arcs(drogue_arc_choices *out, drogue_point *hull, co
                                  drogue_q16 min_short_px_q16, drogue_polarity polarity)
 {
     leaders lead[4];
-    int64_t farthest[4];
     drogue_status status = DROGUE_E_NO_ARCS;
-    int pass;
+    uint32_t i;
     int k;
     for (k = 0; k < 4; k++) {
-        lead[k].longest[0] = lead[k].longest[1] = out->arc[k][0] = out->arc[k][1] = DROGUE_NO_ARC;
-        lead[k].points[0] = lead[k].points[1] = 0;
-        farthest[k] = -1;
+        for (i = 0; i < LONGEST; i++) {
+            lead[k].arc[i] = DROGUE_NO_ARC;
+            lead[k].points[i] = 0;
+            lead[k].distance2_q32[i] = -1;
+        }
     }
-    for (pass = 0; pass < 2; pass++) {
-        uint32_t i;
-        for (i = 0; i < arc_count; i++) {
-            drogue_arc_verdict v;
-            drogue_judge_arc(&v, hull, edges, &arcs[i], mask, min_short_px_q16);
-            if (v.quadrant < 0 || (polarity != DROGUE_POLARITY_BOTH && v.polarity != polarity)) {
-                continue;
-            }
-            if (pass == 0) {
-                keep_longest(&lead[v.quadrant], i, arcs[i].count);
-            } else if (arcs[i].count * 2 >= lead[v.quadrant].points[0] && v.distance2_q32 > farthest[v.quadrant]) {
-                farthest[v.quadrant] = v.distance2_q32;
-                out->arc[v.quadrant][0] = i;
-                status = DROGUE_OK;
-            }
+    for (i = 0; i < arc_count; i++) {
+        drogue_arc_verdict v;
+        drogue_judge_arc(&v, hull, edges, &arcs[i], mask, min_short_px_q16);
+        if (v.quadrant >= 0 && (polarity == DROGUE_POLARITY_BOTH || v.polarity == polarity)) {
+            keep_longest(&lead[v.quadrant], i, arcs[i].count, v.distance2_q32);
+            status = DROGUE_OK;
         }
     }
     for (k = 0; k < 4; k++) {
-        out->arc[k][1] = lead[k].longest[out->arc[k][0] == lead[k].longest[0] ? 1 : 0];
+        choose_arcs(out->arc[k], &lead[k]);
     }
     return status;
 }

@@ -13,9 +13,9 @@ void drogue_moments_clear(drogue_moments *m) { memset(m, 0, sizeof *m); }
 
 void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
 {
-    int64_t xx = (int64_t)x * x;
-    int64_t xy = (int64_t)x * y;
-    int64_t yy = (int64_t)y * y;
+    const int32_t xx = x * x; /* at most 2^30 */
+    const int32_t xy = x * y;
+    const int32_t yy = y * y;
     DROGUE_NOTE("ellipse: x", x, 16);
     DROGUE_NOTE("ellipse: y", y, 16);
     m->n++;
@@ -24,15 +24,15 @@ void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
     m->m20 += xx;
     m->m11 += xy;
     m->m02 += yy;
-    m->m30 += xx * x;
-    m->m21 += xx * y;
-    m->m12 += yy * x;
-    m->m03 += yy * y;
-    m->m40 = drogue_s128_add(m->m40, drogue_s128_from_s64(xx * xx));
-    m->m31 = drogue_s128_add(m->m31, drogue_s128_from_s64(xx * xy));
-    m->m22 = drogue_s128_add(m->m22, drogue_s128_from_s64(xx * yy));
-    m->m13 = drogue_s128_add(m->m13, drogue_s128_from_s64(xy * yy));
-    m->m04 = drogue_s128_add(m->m04, drogue_s128_from_s64(yy * yy));
+    m->m30 += (int64_t)xx * x;
+    m->m21 += (int64_t)xx * y;
+    m->m12 += (int64_t)yy * x;
+    m->m03 += (int64_t)yy * y;
+    m->m40 = drogue_s128_add(m->m40, drogue_s128_from_s64((int64_t)xx * xx));
+    m->m31 = drogue_s128_add(m->m31, drogue_s128_from_s64((int64_t)xx * xy));
+    m->m22 = drogue_s128_add(m->m22, drogue_s128_from_s64((int64_t)xx * yy));
+    m->m13 = drogue_s128_add(m->m13, drogue_s128_from_s64((int64_t)xy * yy));
+    m->m04 = drogue_s128_add(m->m04, drogue_s128_from_s64((int64_t)yy * yy));
 }
 
 void drogue_moments_add(drogue_moments *m, const drogue_moments *other)

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define STEPS 4 /* Gauss-Newton steps: each squares the error, the start is within a degree or two */
+#define SETTLED_BITS 20 /* a step that turns by less than 2^-20 rad and moves by less of the distance is the last */
 #define FIT_PARAMETERS 5
 
 typedef drogue_wide wide;
@@ -393,6 +393,32 @@ static wide limited(wide v, wide most)
                                                            : v;
 }
 
+/* One step, at most half a radian in each angle, and never past the plane of the camera. */
+static void move(state *s, const wide step[FIT_PARAMETERS])
+{
+    const wide most_turn = drogue_wide_from_s64(1, -1);
+    const wide most_angle = drogue_wide_from_q16(DROGUE_Q16_HALF_PI);
+    int i;
+    for (i = 0; i < 3; i++) {
+        s->position[i] = add(s->position[i], step[i]);
+    }
+    for (i = 0; i < 2; i++) {
+        s->angle[i] = limited(add(s->angle[i], limited(step[3 + i], most_turn)), most_angle);
+    }
+}
+
+static int small(const wide step[FIT_PARAMETERS], const state *s)
+{
+    int i;
+    for (i = 0; i < FIT_PARAMETERS; i++) {
+        const wide most = drogue_wide_scale(i < 3 ? s->position[2] : integer(1), -SETTLED_BITS);
+        if (drogue_wide_cmp(limited(step[i], most), step[i]) != 0) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 static void start_from(state *s, const drogue_pose *pose)
 {
     int k;
@@ -420,9 +446,8 @@ static drogue_status finish(drogue_pose *out, const state *s)
 
 drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,
                                  const drogue_joint_inner *inner, const drogue_camera *camera,
-                                 const drogue_model *model)
+                                 const drogue_model *model, int steps)
 {
-    const wide most_turn = drogue_wide_from_s64(1, -1); /* rad in one step */
     wide root[DROGUE_PACKED_MAX];
     wide normal[DROGUE_PACKED_MAX];
     wide right[FIT_PARAMETERS];
@@ -430,26 +455,23 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
     equations e;
     state s;
     drogue_status status;
+    int last = 0;
     int step;
     int i;
     memcpy(root, outline->covariance, sizeof root);
     status = drogue_cholesky_factor(root, FIT_PARAMETERS);
     ray_frame_of(&frame, &outline->ellipse, camera, model->rim_radius_m_q16);
     start_from(&s, start);
-    for (step = 0; step <= STEPS && status == DROGUE_OK; step++) {
+    for (step = 0; !last && status == DROGUE_OK; step++) {
         status = all_rows(&e, &s, &frame, root, inner, camera, model);
         if (status == DROGUE_OK) {
             status = normal_equations(normal, right, &e);
         }
-        if (status == DROGUE_OK && step < STEPS) {
+        last = step == steps;
+        if (status == DROGUE_OK && !last) {
             drogue_cholesky_solve(right, normal, FIT_PARAMETERS);
-            for (i = 0; i < 3; i++) {
-                s.position[i] = add(s.position[i], right[i]);
-            }
-            for (i = 0; i < 2; i++) {
-                s.angle[i] = limited(add(s.angle[i], limited(right[3 + i], most_turn)),
-                                     drogue_wide_from_q16(DROGUE_Q16_HALF_PI));
-            }
+            last = small(right, &s);
+            move(&s, right);
         }
     }
     if (status != DROGUE_OK) {

@@ -43,10 +43,10 @@ static int32_t clamp_q24(int64_t v_q46)
 void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
                                 drogue_q16 y_px_q16)
 {
-    int64_t dx = (int64_t)x_px_q16 - frame->xc_px_q16;
-    int64_t dy = (int64_t)y_px_q16 - frame->yc_px_q16;
-    *u_q24 = clamp_q24(dx * frame->cos_over_a_q30 + dy * frame->sin_over_a_q30);
-    *v_q24 = clamp_q24(dy * frame->cos_over_b_q30 - dx * frame->sin_over_b_q30);
+    const int32_t dx = drogue_sat_s32((int64_t)x_px_q16 - frame->xc_px_q16);
+    const int32_t dy = drogue_sat_s32((int64_t)y_px_q16 - frame->yc_px_q16);
+    *u_q24 = clamp_q24((int64_t)dx * frame->cos_over_a_q30 + (int64_t)dy * frame->sin_over_a_q30);
+    *v_q24 = clamp_q24((int64_t)dy * frame->cos_over_b_q30 - (int64_t)dx * frame->sin_over_b_q30);
     DROGUE_NOTE("quality: u, Q24", *u_q24, 29);
     DROGUE_NOTE("quality: v, Q24", *v_q24, 29);
 }
@@ -67,49 +67,56 @@ drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q1
     return drogue_sat_s32(drogue_shr_round_s64(d_q48 < 0 ? -d_q48 : d_q48, 32));
 }
 
+drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16)
+{
+    drogue_band band;
+    band.half_width_px_q16 = half_width_px_q16;
+    band.width2_px2_q24 = (int32_t)drogue_shr_round_s64((int64_t)half_width_px_q16 * half_width_px_q16, 8);
+    band.cos2_q10 = (uint32_t)drogue_shr_round_s64((int64_t)cos_q16 * cos_q16, 22);
+    return band;
+}
+
 int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
                               drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy)
 {
     int64_t f_q24;
-    int64_t f_b_px_q16;
-    int64_t nx;
-    int64_t ny;
-    int64_t n2_q28;
-    int64_t g2;
-    int64_t along;
-    int64_t most2_q32;
-    int64_t cos2_q10;
+    int32_t f_b_px_q16;
+    int32_t nx_q14;
+    int32_t ny_q14;
+    int32_t n2_q28;
+    int32_t n2_q20;
+    int32_t along;
+    uint32_t g2;
     drogue_ellipse_frame_point(&out->u_q24, &out->v_q24, frame, x_px_q16, y_px_q16);
     f_q24 = drogue_shr_round_s64(conic_q48(out->u_q24, out->v_q24), 24);
     if (f_q24 > (INT64_C(1) << 24) || f_q24 < -(INT64_C(3) << 22)) {
         return 0; /* inside half or outside 1.4 of the outline */
     }
     out->f_q24 = (int32_t)f_q24;
-    f_b_px_q16 = drogue_shr_round_s64(f_q24 * frame->b_px_q16, 24);
-    if (f_b_px_q16 < 0) {
-        f_b_px_q16 = -f_b_px_q16;
-    }
-    if (f_b_px_q16 > 4 * (int64_t)band->half_width_px_q16) {
+    f_b_px_q16 = (int32_t)drogue_shr_round_s64((int64_t)out->f_q24 * frame->b_px_q16, 24);
+    f_b_px_q16 = f_b_px_q16 < 0 ? -f_b_px_q16 : f_b_px_q16;
+    if (f_b_px_q16 > 4 * band->half_width_px_q16) {
         return 0;
     }
     /* Half the gradient of F times b: between b / a and about 1 in length. */
-    nx = drogue_shr_round_s64((int64_t)out->u_q24 * frame->cos_ratio_q14 - (int64_t)out->v_q24 * frame->sin_q14, 24);
-    ny = drogue_shr_round_s64((int64_t)out->u_q24 * frame->sin_ratio_q14 + (int64_t)out->v_q24 * frame->cos_q14, 24);
-    n2_q28 = nx * nx + ny * ny;
+    nx_q14 = (int32_t)drogue_shr_round_s64(
+        (int64_t)out->u_q24 * frame->cos_ratio_q14 - (int64_t)out->v_q24 * frame->sin_q14, 24);
+    ny_q14 = (int32_t)drogue_shr_round_s64(
+        (int64_t)out->u_q24 * frame->sin_ratio_q14 + (int64_t)out->v_q24 * frame->cos_q14, 24);
+    n2_q28 = nx_q14 * nx_q14 + ny_q14 * ny_q14;
     /* |F| / |grad F| <= t  <=>  (F b)^2 <= 4 t^2 n^2 */
     DROGUE_NOTE("quality: squared normal, Q28", n2_q28, 30);
-    most2_q32 = drogue_shr_round_s64((int64_t)band->half_width_px_q16 * band->half_width_px_q16, 8) *
-                drogue_shr_round_s64(n2_q28, 8);
-    if (f_b_px_q16 * f_b_px_q16 > drogue_shr_round_s64(most2_q32, 10)) {
+    n2_q20 = (n2_q28 + 128) >> 8;
+    if ((int64_t)f_b_px_q16 * f_b_px_q16 > drogue_shr_round_s64((int64_t)band->width2_px2_q24 * n2_q20, 10)) {
         return 0;
     }
-    along = gx * nx + gy * ny;
+    along = gx * nx_q14 + gy * ny_q14;
     out->polarity = along > 0 ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
-    g2 = (int64_t)gx * gx + (int64_t)gy * gy;
+    g2 = (uint32_t)(gx * gx + gy * gy);
     DROGUE_NOTE("quality: gradient along normal", along, 26);
-    DROGUE_NOTE("quality: squared gradient times squared normal", g2 * n2_q28, 52);
-    cos2_q10 = drogue_shr_round_s64((int64_t)band->cos_q16 * band->cos_q16, 22);
-    return along != 0 && along * along * 1024 >= cos2_q10 * (g2 * n2_q28);
+    DROGUE_NOTE("quality: squared gradient times squared cosine, Q10", band->cos2_q10 * g2, 32);
+    return along != 0 &&
+           (uint64_t)((int64_t)along * along) * 1024 >= (uint64_t)(band->cos2_q10 * g2) * (uint32_t)n2_q28;
 }
 
 drogue_q16 drogue_quality_threshold(const drogue_ellipse *ellipse, drogue_q16 fit_error_px_q16)

@@ -11,11 +11,12 @@
 
 uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24)
 {
-    const int64_t x = u_q24 < 0 ? -(int64_t)u_q24 : u_q24;
-    const int64_t y = v_q24 < 0 ? -(int64_t)v_q24 : v_q24;
-    const int64_t most = x > y ? x : y;
-    const int64_t least = (x > y ? y : x) * DROGUE_Q16_ONE;
-    uint32_t bin = (least >= most * TAN_1) + (uint32_t)(least >= most * TAN_2) + (uint32_t)(least >= most * TAN_3);
+    const int32_t x = u_q24 < 0 ? -u_q24 : u_q24;
+    const int32_t y = v_q24 < 0 ? -v_q24 : v_q24;
+    const int32_t most = x > y ? x : y;
+    const int64_t least = (int64_t)(x > y ? y : x) * DROGUE_Q16_ONE;
+    uint32_t bin = (uint32_t)(least >= (int64_t)most * TAN_1) + (uint32_t)(least >= (int64_t)most * TAN_2) +
+                   (uint32_t)(least >= (int64_t)most * TAN_3);
     bin = most == 0 ? 0 : bin;
     bin = y > x ? 7 - bin : bin;      /* first quadrant */
     bin = u_q24 < 0 ? 15 - bin : bin; /* upper half */
@@ -39,12 +40,13 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
 int drogue_support_add(drogue_support *support, const drogue_band_point *p, const drogue_edge *edge)
 {
     const uint32_t k = drogue_support_bin_of(p->u_q24, p->v_q24);
-    const int64_t offset_q16 = drogue_shr_round_s64(p->f_q24, 9);
+    const int32_t offset_q16 = (p->f_q24 + 256) >> 9;
+    support->bin[k].count[p->polarity]++;
     if (((support->bright_bins >> k) & 1u) != (uint32_t)p->polarity) {
         return 0;
     }
-    support->bin[k].sum_q16 += (int32_t)offset_q16;
-    support->squares_q32 += offset_q16 * offset_q16;
+    support->bin[k].sum_q16 += offset_q16;
+    support->squares_q32 += (int64_t)offset_q16 * offset_q16;
     support->gradient +=
         (uint64_t)(edge->gx < 0 ? -edge->gx : edge->gx) + (uint64_t)(edge->gy < 0 ? -edge->gy : edge->gy);
     support->points++;

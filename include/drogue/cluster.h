@@ -20,8 +20,10 @@ typedef struct drogue_cluster_config {
 typedef struct drogue_candidate {
     drogue_ellipse ellipse;
     drogue_q16 reliability_q16;
+    drogue_q16 fit_ratio_q16; /* what the reliability was computed from: quality.h */
+    drogue_q16 cover_q16;
     uint32_t polarity; /* candidates of unlike polarity never share a cluster */
-    uint32_t arcs;     /* bit set of quadrants fitted */
+    uint32_t arcs;     /* which arcs were fitted */
 } drogue_candidate;
 
 /* Do two candidates describe one ellipse (16)? */

@@ -51,12 +51,15 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
  *
  *  out      pose, covariance, chi2; undefined on failure
  *  start    a pose from drogue_pose_from_ellipse()
+ *  steps    most Gauss-Newton steps, [0, 16]; each about squares what is left of the error. 0: the start itself, for its
+ *           covariance and chi2. A step of less than 2^-20 rad and of the distance is the last one; covariance and chi2
+ *           are then those of the point before it
  *  return   DROGUE_OK; DROGUE_E_DEGENERATE, DROGUE_E_DOMAIN, DROGUE_E_BEHIND_CAMERA
  *  scaling  62-bit mantissas throughout; no overflow
  */
 drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,
                                  const drogue_joint_inner *inner, const drogue_camera *camera,
-                                 const drogue_model *model);
+                                 const drogue_model *model, int steps);
 
 /* Image of the inner disc of a pose.
  *

@@ -43,7 +43,7 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
 void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse, drogue_polarity polarity,
                           uint32_t stride);
 
-/* Add a point that belongs to the sums; 0 when its polarity is not that of its bin. */
+/* Count a point that belongs; when its polarity is that of its bin also add it to the sums, and return 1. */
 int drogue_support_add(drogue_support *support, const drogue_band_point *point, const drogue_edge *edge);
 
 /* Covered share of the circumference, Q16. */

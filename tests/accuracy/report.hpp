@@ -11,6 +11,7 @@ namespace accuracy {
 
 /* Numbers for tables; "-" when not finite. */
 std::string fixed(double value, int digits);
+std::string plain(double value);                   /* as short as it can be, to four digits: limits and marks */
 std::string significant(double value, int digits); /* that many significant digits, no exponent */
 
 struct Series {
