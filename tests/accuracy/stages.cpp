@@ -108,12 +108,11 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
         inner.std_px_q16 = drogue_inner_std(&result.inner, &expected[i], &result.ellipse, &edges.config);
     }
     if (result.has_inner != 0) {
-        result.status = drogue_choose_pose(&choice, poses, inner.x_px_q16, inner.y_px_q16, model.inner_depth_m_q16,
-                                           &q_camera);
+        result.status =
+            drogue_choose_pose(&choice, poses, inner.x_px_q16, inner.y_px_q16, model.inner_depth_m_q16, &q_camera);
     }
     if (result.status == DROGUE_OK) {
-        result.status =
-            drogue_decide(&result, poses, choice.index, &support, &inner, &edges.config, &q_camera, &model);
+        result.status = drogue_decide(&result, poses, choice.index, &support, &inner, &edges.config, &q_camera, &model);
     }
 }
 

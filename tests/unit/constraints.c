@@ -253,8 +253,8 @@ static void put_run(drogue_edge *e, drogue_arc *arc, uint32_t first, uint32_t co
     arc->direction = direction;
 }
 
-/* The choice by its words: of the arcs with half the longest one's points the farthest, then the longest of the others;
- * the first of equals. */
+/* The choice by its words: of the four longest arcs (the first of equals) those with half the longest one's points, of
+ * these the farthest, then the longest of the others. */
 static int model_choices(drogue_arc_choices *out, drogue_point *hull, const drogue_edge *e, const drogue_arc *arcs,
                          uint32_t count, const drogue_mask *mask, drogue_q16 min_short, drogue_polarity polarity)
 {
@@ -269,25 +269,32 @@ static int model_choices(drogue_arc_choices *out, drogue_point *hull, const drog
         }
     }
     for (q = 0; q < 4; q++) {
-        uint32_t longest = 0, points = 0;
-        int64_t far = -1;
-        out->arc[q][0] = out->arc[q][1] = DROGUE_NO_ARC;
-        for (i = 0; i < count; i++) {
-            longest = v[i].quadrant == q && arcs[i].count > longest ? arcs[i].count : longest;
+        uint32_t longest[4], found = 0, far = 0, k;
+        while (found < 4) {
+            uint32_t best = DROGUE_NO_ARC;
+            for (i = 0; i < count; i++) {
+                int taken = 0;
+                for (k = 0; k < found; k++) {
+                    taken |= longest[k] == i;
+                }
+                if (v[i].quadrant == q && !taken && (best == DROGUE_NO_ARC || arcs[i].count > arcs[best].count)) {
+                    best = i;
+                }
+            }
+            if (best == DROGUE_NO_ARC) {
+                break;
+            }
+            longest[found++] = best;
         }
-        for (i = 0; i < count; i++) {
-            if (v[i].quadrant == q && 2 * arcs[i].count >= longest && v[i].distance2_q32 > far) {
-                far = v[i].distance2_q32;
-                out->arc[q][0] = i;
-                any = 1;
+        for (k = 1; k < found; k++) {
+            if (2 * arcs[longest[k]].count >= arcs[longest[0]].count &&
+                v[longest[k]].distance2_q32 > v[longest[far]].distance2_q32) {
+                far = k;
             }
         }
-        for (i = 0; i < count; i++) {
-            if (v[i].quadrant == q && i != out->arc[q][0] && arcs[i].count > points) {
-                points = arcs[i].count;
-                out->arc[q][1] = i;
-            }
-        }
+        out->arc[q][0] = found > 0 ? longest[far] : DROGUE_NO_ARC;
+        out->arc[q][1] = found > 1 ? longest[far == 0 ? 1 : 0] : DROGUE_NO_ARC;
+        any |= found > 0;
     }
     return any;
 }

@@ -125,6 +125,7 @@ static void move_out(const test_workspace *t, const drogue_arc *a, int num, int 
         p->x_q5 = (uint16_t)(4080 + (p->x_q5 - 4080) * num / den);
         p->y_q5 = (uint16_t)(4080 + (p->y_q5 - 4080) * num / den);
     }
+    qsort(t->workspace.edges + a->first, a->count, sizeof(drogue_edge), raster_order);
 }
 
 /* An arc that lies farther out but on another ellipse takes its quadrant, and the winner does without it. */

@@ -90,9 +90,8 @@ START_TEST(band_away_from_its_borders)
         drogue_ellipse q = random_ellipse(&rng);
         ellipse_real e = ellipse_from_q16(&q);
         drogue_ellipse_frame frame;
-        drogue_band band;
-        band.half_width_px_q16 = q16_of(rng_real(&rng, 0.3, fmin(3, 0.1 * e.b)));
-        band.cos_q16 = q16_of(rng_real(&rng, 0.3, 0.98));
+        const drogue_q16 cos_q16 = q16_of(rng_real(&rng, 0.3, 0.98));
+        drogue_band band = drogue_band_of(q16_of(rng_real(&rng, 0.3, fmin(3, 0.1 * e.b))), cos_q16);
         ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_OK);
         for (k = 0; k < 50; k++) {
             double x, y, u, v, gx, gy, nx, ny, n, f, distance, cosine, t = real_of_q16(band.half_width_px_q16);
@@ -111,13 +110,13 @@ START_TEST(band_away_from_its_borders)
             f = u * u + v * v - 1;
             distance = fabs(f) / (2 * n);
             cosine = (gx * nx + gy * ny) / n / hypot(gx, gy);
-            if (fabs(distance / t - 1) > 0.01 && fabs(fabs(cosine) - real_of_q16(band.cos_q16)) > 0.004) {
-                int expected = distance < t && fabs(cosine) > real_of_q16(band.cos_q16);
+            if (fabs(distance / t - 1) > 0.01 && fabs(fabs(cosine) - real_of_q16(cos_q16)) > 0.004) {
+                int expected = distance < t && fabs(cosine) > real_of_q16(cos_q16);
                 drogue_band_point p;
                 MUST(!!drogue_ellipse_band_holds(&p, &frame, &band, q16_of(x), q16_of(y), (int16_t)gx, (int16_t)gy) ==
                          expected,
                      "ellipse %d, point %d: distance %.4f of %.4f, cosine %.4f of %.4f", i, k, distance, t, cosine,
-                     real_of_q16(band.cos_q16));
+                     real_of_q16(cos_q16));
                 if (expected) {
                     drogue_ellipse_frame_point(&frame_u, &frame_v, &frame, q16_of(x), q16_of(y));
                     MUST(p.u_q24 == frame_u && p.v_q24 == frame_v && fabs(p.u_q24 / 16777216.0 - u) < 1e-4 &&
@@ -142,7 +141,7 @@ END_TEST
 START_TEST(band_holds_no_gradient_across_and_no_point_far_off)
 {
     const drogue_ellipse q = {100 * 65536, 100 * 65536, 20 * 65536, 10 * 65536, 0};
-    const drogue_band any = {8 * 65536, 0};
+    const drogue_band any = drogue_band_of(8 * 65536, 0);
     drogue_ellipse_frame frame;
     drogue_band_point p;
     int32_t x;
