@@ -36,7 +36,8 @@ static int same_solution(const drogue_joint *p, const drogue_joint *q)
            drogue_wide_cmp(drogue_wide_mul(pitch, pitch), p->covariance[DROGUE_PACKED(4, 4)]) <= 0;
 }
 
-#define STEPS 5 /* most Gauss-Newton steps of the pose taken: the start is within a few degrees */
+#define STEPS 5       /* most Gauss-Newton steps of the pose taken: the start is within a few degrees */
+#define OTHER_STEPS 1 /* of the other one, of which only matters how much worse it is and whether it is the same */
 
 /* Solve from the pose nearer to the inner part, and far enough from the other one to know how much worse it is. */
 static drogue_status solve_both(drogue_joint joint[2], uint32_t *best, const drogue_pose poses[2],
@@ -48,7 +49,8 @@ static drogue_status solve_both(drogue_joint joint[2], uint32_t *best, const dro
         drogue_joint_solve(&joint[nearer], &poses[nearer], outline, inner, camera, model, with_inner ? STEPS : 0);
     *best = nearer;
     if (status == DROGUE_OK) {
-        status = drogue_joint_solve(&joint[1 - nearer], &poses[1 - nearer], outline, inner, camera, model, with_inner);
+        status = drogue_joint_solve(&joint[1 - nearer], &poses[1 - nearer], outline, inner, camera, model,
+                                    with_inner ? OTHER_STEPS : 0);
     }
     if (status == DROGUE_OK && drogue_wide_cmp(joint[1 - nearer].chi2, joint[nearer].chi2) < 0) {
         *best = 1 - nearer;
@@ -70,12 +72,15 @@ drogue_status drogue_decide(drogue_result *out, const drogue_pose poses[2], uint
     outline.ellipse = out->ideal;
     status = drogue_joint_outline_covariance(&outline, support, config->outline_shading_q16,
                                              config->optics_blur_std_px2_q16);
-    if (status == DROGUE_OK && trusted) {
+    if (status != DROGUE_OK) {
+        return DROGUE_E_DOMAIN;
+    }
+    if (trusted) {
         status = solve_both(joint, &best, poses, &outline, inner, camera, model, nearer);
         trusted =
             status == DROGUE_OK && drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
     }
-    if (status == DROGUE_OK && !trusted) {
+    if (!trusted) {
         status = solve_both(joint, &best, poses, &outline, &none, camera, model, nearer);
     }
     if (status != DROGUE_OK) {

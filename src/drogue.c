@@ -75,9 +75,9 @@ static drogue_status run_frontend(drogue_edge_list *list, drogue_workspace *work
 /* Does the ring mask hold the whole outline? */
 static int ring_holds(const drogue_ellipse *e, const drogue_mask *mask)
 {
-    const int64_t dx = (int64_t)e->xc_px_q16 - (int64_t)mask->centre2_x * (DROGUE_Q16_ONE / 2);
-    const int64_t dy = (int64_t)e->yc_px_q16 - (int64_t)mask->centre2_y * (DROGUE_Q16_ONE / 2);
-    const int64_t off = (int64_t)drogue_isqrt_u64((uint64_t)(dx * dx + dy * dy));
+    const drogue_q16 dx = drogue_sat_s32((int64_t)e->xc_px_q16 - (int64_t)mask->centre2_x * (DROGUE_Q16_ONE / 2));
+    const drogue_q16 dy = drogue_sat_s32((int64_t)e->yc_px_q16 - (int64_t)mask->centre2_y * (DROGUE_Q16_ONE / 2));
+    const int64_t off = (int64_t)drogue_isqrt_u64(drogue_square_sum(dx, dy));
     const int64_t longest = (int64_t)mask->longest_px * DROGUE_Q16_ONE;
     return 2 * (e->a_px_q16 + off + DROGUE_Q16_ONE) <= longest && 3 * (e->b_px_q16 - off - DROGUE_Q16_ONE) >= longest;
 }
@@ -118,23 +118,26 @@ static drogue_status find_outline(drogue_result *out, frame *f, drogue_workspace
     return status == DROGUE_OK ? drogue_outline_find(&f->outline, workspace, &out->list, &f->mask, config) : status;
 }
 
-/* An outline that the ring mask cuts is looked for once more in a region that suits it. */
+/* An outline that the ring mask cuts is looked for once more in a region that suits it; when that fails, what was found
+ * first stands. */
 static drogue_status find_outline_twice(drogue_result *out, frame *f, drogue_workspace *workspace,
                                         const drogue_config *config, const drogue_image *image,
                                         const drogue_region *region)
 {
     drogue_region better;
-    drogue_status status = find_outline(out, f, workspace, config, image, region);
-    if ((status != DROGUE_OK && status != DROGUE_E_NO_ELLIPSE) ||
+    drogue_status second;
+    const drogue_status first = find_outline(out, f, workspace, config, image, region);
+    if ((first != DROGUE_OK && first != DROGUE_E_NO_ELLIPSE) ||
         f->outline.cover_q16 < drogue_shr_round_s64(config->min_cover_q16, 1) ||
         f->outline.cover_q16 >= config->recentre_cover_q16 || ring_holds(&f->outline.ellipse, &f->mask)) {
-        return status;
+        return first;
     }
     better = region_about(&f->outline.ellipse, &out->region);
     if ((uint32_t)better.width_px > workspace->capacity.width_px) {
-        return status;
+        return first;
     }
-    return find_outline(out, f, workspace, config, image, &better);
+    second = find_outline(out, f, workspace, config, image, &better);
+    return second == DROGUE_OK ? second : find_outline(out, f, workspace, config, image, region);
 }
 
 static drogue_q16 shifted(drogue_q16 v_px_q16, int32_t by_px)
@@ -166,8 +169,10 @@ static drogue_status find_inner(drogue_result *out, drogue_joint_inner *weighed,
     drogue_choice choice;
     uint32_t which;
     const uint32_t count = drogue_inner_expect(expected, poses, camera, model, out->region.x_px, out->region.y_px);
-    drogue_status status = drogue_dark_disc_find(&out->inner, &which, workspace, &f->view, &disc,
-                                                 config->min_dark_area_px, expected, count);
+    drogue_status status = drogue_mask_valid(&disc)
+                               ? drogue_dark_disc_find(&out->inner, &which, workspace, &f->view, &disc,
+                                                       config->min_dark_area_px, expected, count)
+                               : DROGUE_E_NO_DARK_PART;
     if (status != DROGUE_OK) {
         return status == DROGUE_E_NO_DARK_PART ? DROGUE_OK : status;
     }

@@ -50,13 +50,13 @@ drogue_q16 drogue_inner_std(const drogue_dark_part *part, const drogue_ellipse *
                             const drogue_config *config)
 {
     const drogue_q16 fill = drogue_dark_fill(part, expected);
-    const int64_t dx = (int64_t)part->x_px_q16 - expected->xc_px_q16;
-    const int64_t dy = (int64_t)part->y_px_q16 - expected->yc_px_q16;
-    const int64_t gate = drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16);
+    const uint64_t away2_q32 = drogue_square_sum(drogue_q16_sub(part->x_px_q16, expected->xc_px_q16),
+                                                 drogue_q16_sub(part->y_px_q16, expected->yc_px_q16));
+    const drogue_q16 gate = drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16);
     const int64_t share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
     const int64_t least = config->inner_std_px_q16;
     const int64_t spread = drogue_q16_mul(part->spread_px_q16, config->inner_std_spread_q16);
-    if (fill < config->min_fill_q16 || fill > config->max_fill_q16 || dx * dx + dy * dy > gate * gate ||
+    if (fill < config->min_fill_q16 || fill > config->max_fill_q16 || away2_q32 > drogue_square_sum(gate, 0) ||
         !within_outline(part, expected, outline)) {
         return 0;
     }

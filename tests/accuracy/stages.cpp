@@ -104,8 +104,13 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
         return;
     }
     const uint32_t count = drogue_inner_expect(expected, poses, &q_camera, &model, 0, 0);
-    for (uint32_t i = 0; i < count && result.has_inner != 0 && inner.std_px_q16 == 0; i++) {
-        inner.std_px_q16 = drogue_inner_std(&result.inner, &expected[i], &result.ellipse, &edges.config);
+    const auto miss = [&](const drogue_ellipse &e) {
+        return std::hypot(from_q16(e.xc_px_q16) - from_q16(inner.x_px_q16),
+                          from_q16(e.yc_px_q16) - from_q16(inner.y_px_q16));
+    };
+    if (count > 0 && result.has_inner != 0) {
+        const drogue_ellipse &disc = count == 2 && miss(expected[1]) < miss(expected[0]) ? expected[1] : expected[0];
+        inner.std_px_q16 = drogue_inner_std(&result.inner, &disc, &result.ellipse, &edges.config);
     }
     if (result.has_inner != 0) {
         result.status =
