@@ -12,7 +12,7 @@
 #define TRIES 3                            /* candidates refined before the best of them is taken */
 #define GOOD_COVER_Q16 DROGUE_Q16(3, 4)    /* no further try */
 #define ENOUGH_COVER_Q16 DROGUE_Q16(9, 10) /* no further candidate */
-#define SETTLED_Q16 DROGUE_Q16(1, 64)     /* px: an ellipse that a refit moves by less has settled */
+#define SETTLED_Q16 DROGUE_Q16(1, 64)      /* px: an ellipse that a refit moves by less has settled */
 
 /* The candidates' arcs, and what each of them sums to. */
 typedef struct arc_set {
