@@ -2,6 +2,8 @@
 /* Choice between the two poses by outline and inner part together. */
 #include "drogue/decide.h"
 
+#include <string.h>
+
 static int64_t q48_of(drogue_wide v) { return drogue_wide_to_s64(v, 48); }
 
 static void put_covariance(drogue_result *out, const drogue_joint *joint)
@@ -69,6 +71,7 @@ drogue_status drogue_decide(drogue_result *out, const drogue_pose poses[2], uint
     drogue_status status;
     uint32_t best = 0;
     int trusted = inner->std_px_q16 > 0;
+    memset(joint, 0, sizeof joint);
     outline.ellipse = out->ideal;
     status = drogue_joint_outline_covariance(&outline, support, config->outline_shading_q16,
                                              config->optics_blur_std_px2_q16);

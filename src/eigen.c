@@ -5,7 +5,7 @@
 #define MAX_SWEEPS 8
 #define ONE_Q60 (INT64_C(1) << DROGUE_EIGEN_FRAC)
 
-static int64_t mul_q60(int64_t a, int64_t b) { return drogue_mul_shr_round_s64(a, b, DROGUE_EIGEN_FRAC); }
+static int64_t mul_q60(int64_t a, int64_t b) { return drogue_s128_shr_round(drogue_s128_mul(a, b), DROGUE_EIGEN_FRAC); }
 
 /* Rotation that zeroes a_pq: t = tan, s = sin, r = tan(angle / 2), Q60, |angle| <= 45 degrees. */
 static void rotation(int64_t *t_q60, int64_t *s_q60, int64_t *r_q60, int64_t a_pp, int64_t a_pq, int64_t a_qq)
