@@ -200,8 +200,7 @@ static void format_trimmed(char out[DECIMAL_TEXT], int64_t v, int decimals, int 
         v /= 10;
         decimals--;
     }
-    snprintf(out, DECIMAL_TEXT, "%s%" PRId64 ".%0*" PRId64, negative ? "-" : "", v / power_of_ten(decimals), decimals,
-             v % power_of_ten(decimals));
+    decimal_format(out, negative ? -v : v, decimals);
 }
 
 void decimal_format_binary(char out[DECIMAL_TEXT], int64_t value, int frac_bits, int digits)
