@@ -178,8 +178,8 @@ START_TEST(degenerate_support)
     ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
     s = support_of(6); /* the most points that one bin's sum can hold, all at the end of their range */
     for (k = 0; k < 6; k++) {
-        s.bin[5 * k].count[0] = 65535;
-        s.bin[5 * k].sum_q16 = k & 1 ? INT32_MIN : INT32_MAX;
+        s.bin[5 * k].count[0] = 1u << 15;
+        s.bin[5 * k].sum_q16 = k & 1 ? -(1 << 30) : 1 << 30;
     }
     s.gradient = UINT32_MAX;
     ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, INT32_MAX, INT32_MAX), DROGUE_OK);
@@ -342,9 +342,12 @@ END_TEST
 /* Pose of an ellipse a little off, by the cone; nearest of the two to a start. */
 static int cone_pose(double out[5], const ellipse_real *e, const field *f, const drogue_pose *start)
 {
-    const drogue_ellipse q = ellipse_to_q16(e);
+    ellipse_real turned = *e;
+    drogue_ellipse q;
     drogue_pose poses[2], *p;
     int k, far[2];
+    turned.angle = angle_difference(e->angle, 0, TEST_PI);
+    q = ellipse_to_q16(&turned);
     if (drogue_pose_from_ellipse(poses, &q, &f->camera, f->model.rim_radius_m_q16) != DROGUE_OK) {
         return 0;
     }
