@@ -184,26 +184,64 @@ void json_measurement(FILE *out, const char *path, const drogue_result *result)
     fputc('}', out);
 }
 
-void json_track_line(FILE *out, const char *path, const drogue_result *result, drogue_track_state state,
+/* round(v * unit / 2^32) for a v >= 0 that may be as large as there is */
+static int64_t scaled_q32(int64_t v_q32, int64_t unit)
+{
+    return (v_q32 >> 32) * unit + (((v_q32 & INT64_C(0xFFFFFFFF)) * unit + (INT64_C(1) << 31)) >> 32);
+}
+
+static void put_metres_q32(FILE *out, int64_t v_q32)
+{
+    char text[DECIMAL_TEXT];
+    decimal_format(text, scaled_q32(v_q32, 1000000), JSON_DECIMALS);
+    put_number(out, text);
+}
+
+static void put_degrees_q32(FILE *out, const char *key, int64_t angle_rad_q32)
+{
+    char text[DECIMAL_TEXT];
+    decimal_format(text, scaled_q32(angle_rad_q32, 57295780), JSON_DECIMALS);
+    fprintf(out, ",\"%s\":", key);
+    put_number(out, text);
+}
+
+static void put_estimate(FILE *out, const drogue_track_estimate *estimate)
+{
+    int i;
+    put_vector(out, "position_m", estimate->position_m_q16);
+    fputc(',', out);
+    put_vector(out, "velocity_mps", estimate->velocity_mps_q16);
+    fputc(',', out);
+    put_vector(out, "axis", estimate->axis_q16);
+    fputc(',', out);
+    put_degrees(out, "yaw_deg", estimate->yaw_rad_q16);
+    fputc(',', out);
+    put_degrees(out, "pitch_deg", estimate->pitch_rad_q16);
+    fprintf(out, ",\"orientation_resolved\":%s,\"position_std_m\":[",
+            estimate->orientation_resolved ? "true" : "false");
+    for (i = 0; i < 3; i++) {
+        fputs(i > 0 ? "," : "", out);
+        put_metres_q32(out, estimate->position_std_m_q32[i]);
+    }
+    fputc(']', out);
+    put_degrees_q32(out, "yaw_std_deg", estimate->yaw_std_rad_q32);
+    put_degrees_q32(out, "pitch_std_deg", estimate->pitch_std_rad_q32);
+    put_degrees_q32(out, "axis_std_deg", estimate->axis_std_rad_q32);
+}
+
+void json_track_line(FILE *out, const char *path, const drogue_result *result, const drogue_track *track,
                      const drogue_region *region, const drogue_track_estimate *estimate)
 {
     fputs("{\"image\":", out);
     json_string(out, path);
-    fprintf(out, ",\"state\":\"%s\",\"raw\":", drogue_track_state_name(state));
+    fprintf(out, ",\"state\":\"%s\",\"gated\":%s,\"raw\":", drogue_track_state_name(track->state),
+            track->gated ? "true" : "false");
     json_measurement(out, path, result);
-    if (state == DROGUE_LOST) {
+    if (track->state == DROGUE_LOST) {
         fputs(",\"filtered\":null", out);
     } else {
         fputs(",\"filtered\":{", out);
-        put_vector(out, "position_m", estimate->position_m_q16);
-        fputc(',', out);
-        put_vector(out, "velocity_mps", estimate->velocity_mps_q16);
-        fputc(',', out);
-        put_vector(out, "axis", estimate->axis_q16);
-        fputc(',', out);
-        put_degrees(out, "yaw_deg", estimate->yaw_rad_q16);
-        fputc(',', out);
-        put_degrees(out, "pitch_deg", estimate->pitch_rad_q16);
+        put_estimate(out, estimate);
         fputc('}', out);
     }
     fprintf(out, ",\"roi\":[%ld,%ld,%ld,%ld]}\n", (long)region->x_px, (long)region->y_px, (long)region->width_px,

@@ -48,6 +48,13 @@ near "$(json position_std_m.2)" 0.003 0.0025
 near "$(json axis.1)" "sin($(json pitch_deg) * atan2(0, -1) / 180)" 0.0001
 near "$(json axis.0)" "sin($(json yaw_deg) * atan2(0, -1) / 180) * cos($(json pitch_deg) * atan2(0, -1) / 180)" 0.0001
 
+# Without a region the drogue is searched for.
+run 0 measure scene.png $camera $model --json --overlay found.png
+near "$(json ellipse.xc)" 161.25 0.02
+near "$(json ellipse.a)" 80 0.05
+near "$(json inner_centre.x)" 161.25 0.05
+near "$(json position_m.2)" 3.5 0.005
+
 # The keys are all there when nothing is found.
 run 1 measure black.png $camera --json
 same "$(json status)" '"no_edges"'
@@ -124,7 +131,7 @@ cmp -s out first || fail 'another answer with --overlay'
 same "$(png_side found.png 16)" 640
 [ "$(png_side found.png 20)" -gt 480 ] || fail 'no room for words'
 run 0 measure scene.png $camera $roi --overlay unresolved.png
-run 1 measure scene.png $camera --overlay nothing.png
+run 1 measure scene.png $camera --roi 0,0,30,30 --overlay nothing.png
 cmp -s found.png unresolved.png && fail 'overlays do not show the orientation'
 cmp -s found.png nothing.png && fail 'overlays do not show what was found'
 run 1 measure one.png $camera --overlay over.png
