@@ -181,13 +181,21 @@ typedef struct collection {
     int frac_bits;
 } collection;
 
+/* Offset in the fit's unit, rounded; beyond 16 bits where a - b leaves 32. */
+static int32_t in_unit(drogue_q16 a, drogue_q16 b, int frac_bits)
+{
+    const int64_t d = (int64_t)a - b;
+    const int32_t low = (int32_t)d;
+    return low == d ? (low >> (16 - frac_bits)) + ((low >> (15 - frac_bits)) & 1) : INT32_MAX;
+}
+
 static void collect_point(collection *c, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
-    int64_t x = drogue_shr_round_s64((int64_t)x_px_q16 - c->x_px_q16, 16 - c->frac_bits);
-    int64_t y = drogue_shr_round_s64((int64_t)y_px_q16 - c->y_px_q16, 16 - c->frac_bits);
+    const int32_t x = in_unit(x_px_q16, c->x_px_q16, c->frac_bits);
+    const int32_t y = in_unit(y_px_q16, c->y_px_q16, c->frac_bits);
     DROGUE_NOTE("outline: point in the fit's unit", x, 16);
     if (c->moments.n < DROGUE_MAX_FIT_POINTS && x >= INT16_MIN && x <= INT16_MAX && y >= INT16_MIN && y <= INT16_MAX) {
-        drogue_moments_add_point(&c->moments, (int32_t)x, (int32_t)y);
+        drogue_moments_add_point(&c->moments, x, y);
     }
 }
 
