@@ -6,12 +6,6 @@
 
 #define PIVOT_BITS 40 /* a pivot this many bits below its diagonal entry is rounding */
 
-/* b -= a c */
-static void subtract_product(drogue_wide *b, const drogue_wide *a, const drogue_wide *c)
-{
-    *b = drogue_wide_sub(*b, drogue_wide_mul(*a, *c));
-}
-
 drogue_status drogue_cholesky_factor(drogue_wide *a, int n)
 {
     int i;
@@ -21,14 +15,14 @@ drogue_status drogue_cholesky_factor(drogue_wide *a, int n)
         for (i = j; i < n; i++) {
             drogue_wide sum = a[DROGUE_PACKED(i, j)];
             for (k = 0; k < j; k++) {
-                subtract_product(&sum, &a[DROGUE_PACKED(i, k)], &a[DROGUE_PACKED(j, k)]);
+                drogue_wide_subtract_product(&sum, &a[DROGUE_PACKED(i, k)], &a[DROGUE_PACKED(j, k)]);
             }
             if (i > j) {
-                a[DROGUE_PACKED(i, j)] = drogue_wide_div(sum, a[DROGUE_PACKED(j, j)]);
+                drogue_wide_quotient(&a[DROGUE_PACKED(i, j)], &sum, &a[DROGUE_PACKED(j, j)]);
             } else if (drogue_wide_cmp(sum, drogue_wide_scale(a[DROGUE_PACKED(j, j)], -PIVOT_BITS)) <= 0) {
                 return DROGUE_E_DEGENERATE;
             } else {
-                a[DROGUE_PACKED(j, j)] = drogue_wide_sqrt(sum);
+                drogue_wide_root(&a[DROGUE_PACKED(j, j)], &sum);
             }
         }
     }
@@ -42,9 +36,9 @@ static void forward(drogue_wide *b, const drogue_wide *l, int n, int first)
     int k;
     for (i = first; i < n; i++) {
         for (k = first; k < i; k++) {
-            subtract_product(&b[i], &l[DROGUE_PACKED(i, k)], &b[k]);
+            drogue_wide_subtract_product(&b[i], &l[DROGUE_PACKED(i, k)], &b[k]);
         }
-        b[i] = drogue_wide_div(b[i], l[DROGUE_PACKED(i, i)]);
+        drogue_wide_quotient(&b[i], &b[i], &l[DROGUE_PACKED(i, i)]);
     }
 }
 
@@ -55,9 +49,9 @@ static void backward(drogue_wide *b, const drogue_wide *l, int n, int first)
     int k;
     for (i = n - 1; i >= first; i--) {
         for (k = i + 1; k < n; k++) {
-            subtract_product(&b[i], &l[DROGUE_PACKED(k, i)], &b[k]);
+            drogue_wide_subtract_product(&b[i], &l[DROGUE_PACKED(k, i)], &b[k]);
         }
-        b[i] = drogue_wide_div(b[i], l[DROGUE_PACKED(i, i)]);
+        drogue_wide_quotient(&b[i], &b[i], &l[DROGUE_PACKED(i, i)]);
     }
 }
 
@@ -75,7 +69,8 @@ drogue_wide drogue_cholesky_square(const drogue_wide *b, const drogue_wide *l, i
     memcpy(y, b, (size_t)n * sizeof *y);
     forward(y, l, n, 0);
     for (i = 0; i < n; i++) {
-        sum = drogue_wide_add(sum, drogue_wide_mul(y[i], y[i]));
+        drogue_wide_product(&y[i], &y[i], &y[i]);
+        drogue_wide_sum(&sum, &sum, &y[i]);
     }
     return sum;
 }

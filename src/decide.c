@@ -2,38 +2,48 @@
 /* Choice between the two poses by outline and inner part together. */
 #include "drogue/decide.h"
 
-static int64_t q48_of(drogue_wide v) { return drogue_wide_to_s64(v, 48); }
+#include <string.h>
 
 static void put_covariance(drogue_result *out, const drogue_joint *joint)
 {
-    drogue_wide angle2;
+    const drogue_wide *yaw = &joint->covariance[DROGUE_PACKED(3, 3)];
+    drogue_wide t;
     int32_t s_q30;
     int32_t c_q30;
-    drogue_wide c;
     int i;
     int j;
     for (i = 0; i < 5; i++) {
         for (j = 0; j < 5; j++) {
-            out->covariance_q48[i][j] = q48_of(joint->covariance[DROGUE_PACKED(i, j)]);
+            out->covariance_q48[i][j] = drogue_wide_to_s64(joint->covariance[DROGUE_PACKED(i, j)], 48);
         }
     }
     for (i = 0; i < 3; i++) {
-        out->position_std_m_q32[i] = drogue_wide_to_s64(drogue_wide_sqrt(joint->covariance[DROGUE_PACKED(i, i)]), 32);
+        drogue_wide_root(&t, &joint->covariance[DROGUE_PACKED(i, i)]);
+        out->position_std_m_q32[i] = drogue_wide_to_s64(t, 32);
     }
     drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(joint->pose.pitch_rad_q16, 13));
-    c = drogue_wide_from_s64(c_q30, -30);
-    angle2 = drogue_wide_add(drogue_wide_mul(joint->covariance[DROGUE_PACKED(3, 3)], drogue_wide_mul(c, c)),
-                             joint->covariance[DROGUE_PACKED(4, 4)]);
-    out->axis_std_rad_q32 = drogue_wide_to_s64(drogue_wide_sqrt(angle2), 32);
+    drogue_wide_set(&t, c_q30, -30);
+    drogue_wide_product(&t, &t, &t);
+    drogue_wide_product(&t, yaw, &t);
+    drogue_wide_sum(&t, &t, &joint->covariance[DROGUE_PACKED(4, 4)]);
+    drogue_wide_root(&t, &t);
+    out->axis_std_rad_q32 = drogue_wide_to_s64(t, 32);
+}
+
+/* Is the difference of two angles within a variance? */
+static int within(drogue_q16 a_rad_q16, drogue_q16 b_rad_q16, const drogue_wide *variance)
+{
+    drogue_wide d;
+    drogue_wide_set(&d, (int64_t)a_rad_q16 - b_rad_q16, -16);
+    drogue_wide_product(&d, &d, &d);
+    return drogue_wide_cmp(d, *variance) <= 0;
 }
 
 /* Do two solutions differ by less than their standard deviations? Then there is nothing to choose. */
-static int same_solution(const drogue_joint *p, const drogue_joint *q)
+static int same_solution(const drogue_joint *p, const drogue_pose *q)
 {
-    const drogue_wide yaw = drogue_wide_from_s64((int64_t)p->pose.yaw_rad_q16 - q->pose.yaw_rad_q16, -16);
-    const drogue_wide pitch = drogue_wide_from_s64((int64_t)p->pose.pitch_rad_q16 - q->pose.pitch_rad_q16, -16);
-    return drogue_wide_cmp(drogue_wide_mul(yaw, yaw), p->covariance[DROGUE_PACKED(3, 3)]) <= 0 &&
-           drogue_wide_cmp(drogue_wide_mul(pitch, pitch), p->covariance[DROGUE_PACKED(4, 4)]) <= 0;
+    return within(p->pose.yaw_rad_q16, q->yaw_rad_q16, &p->covariance[DROGUE_PACKED(3, 3)]) &&
+           within(p->pose.pitch_rad_q16, q->pitch_rad_q16, &p->covariance[DROGUE_PACKED(4, 4)]);
 }
 
 #define STEPS 5       /* most Gauss-Newton steps of the pose taken: the start is within a few degrees */
@@ -45,27 +55,27 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
                           const drogue_joint_outline *outline, const drogue_joint_inner *inner,
                           const drogue_config *config, const drogue_camera *camera, const drogue_model *model)
 {
-    drogue_joint other;
+    drogue_pose other; /* what matters of the solution not taken */
+    drogue_wide chi2;
     drogue_status near_status;
     const drogue_status far_status =
-        drogue_joint_solve(&other, &poses[1 - *index], outline, inner, camera, model, OTHER_STEPS);
+        drogue_joint_solve(best, &poses[1 - *index], outline, inner, camera, model, OTHER_STEPS);
+    other = best->pose;
+    chi2 = best->chi2;
     near_status = drogue_joint_solve(best, &poses[*index], outline, inner, camera, model, STEPS);
-    if (far_status == DROGUE_OK && (near_status != DROGUE_OK || drogue_wide_cmp(other.chi2, best->chi2) < 0)) {
-        drogue_joint turned = other;
-        if (near_status == DROGUE_OK) {
-            turned = *best;
-        }
+    if (far_status == DROGUE_OK && (near_status != DROGUE_OK || drogue_wide_cmp(chi2, best->chi2) < 0)) {
+        other = best->pose;
+        chi2 = best->chi2;
         *index = 1 - *index;
         if (drogue_joint_solve(best, &poses[*index], outline, inner, camera, model, STEPS) != DROGUE_OK) {
             return 0;
         }
-        other = turned;
     } else if (near_status != DROGUE_OK) {
         return 0;
     }
-    *resolved =
-        far_status != DROGUE_OK || near_status != DROGUE_OK || same_solution(best, &other) ||
-        drogue_wide_cmp(drogue_wide_sub(other.chi2, best->chi2), drogue_wide_from_q16(config->min_chi2_gap_q16)) >= 0;
+    drogue_wide_difference(&chi2, &chi2, &best->chi2);
+    *resolved = far_status != DROGUE_OK || near_status != DROGUE_OK || same_solution(best, &other) ||
+                drogue_wide_cmp(chi2, drogue_wide_from_q16(config->min_chi2_gap_q16)) >= 0;
     return drogue_wide_cmp(best->chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
 }
 
@@ -78,6 +88,7 @@ drogue_status drogue_decide(drogue_result *out, const drogue_pose poses[2], uint
     drogue_joint joint;
     uint32_t index = nearer;
     int32_t resolved = 0;
+    memset(&joint, 0, sizeof joint);
     outline.ellipse = out->ideal;
     if (drogue_joint_outline_covariance(&outline, support, config->outline_shading_q16,
                                         config->optics_blur_std_px2_q16) != DROGUE_OK) {

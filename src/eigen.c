@@ -10,22 +10,31 @@ static int64_t mul_q60(int64_t a, int64_t b) { return drogue_s128_shr_round(drog
 /* sqrt(a2 + b^2) */
 static void hypotenuse(drogue_wide *out, const drogue_wide *a2, const drogue_wide *b)
 {
-    *out = drogue_wide_sqrt(drogue_wide_add(*a2, drogue_wide_mul(*b, *b)));
+    drogue_wide square;
+    drogue_wide_product(&square, b, b);
+    drogue_wide_sum(out, a2, &square);
+    drogue_wide_root(out, out);
 }
 
 /* a / (b + c) */
 static void share(drogue_wide *out, const drogue_wide *a, const drogue_wide *b, const drogue_wide *c)
 {
-    *out = drogue_wide_div(*a, drogue_wide_add(*b, *c));
+    drogue_wide sum;
+    drogue_wide_sum(&sum, b, c);
+    drogue_wide_quotient(out, a, &sum);
 }
 
 /* Rotation that zeroes a_pq: t = tan, s = sin, r = tan(angle / 2), Q60, |angle| <= 45 degrees. */
 static void rotation(int64_t *t_q60, int64_t *s_q60, int64_t *r_q60, int64_t a_pp, int64_t a_pq, int64_t a_qq)
 {
-    const drogue_wide one = drogue_wide_from_s64(1, 0);
-    drogue_wide d = drogue_wide_from_s64(a_qq - a_pp, 0);
-    drogue_wide t = drogue_wide_from_s64(a_pq, 1);
-    drogue_wide c = drogue_wide_mul(d, d); /* the hypotenuse, then the cosine */
+    drogue_wide one;
+    drogue_wide d;
+    drogue_wide t;
+    drogue_wide c; /* the hypotenuse, then the cosine */
+    drogue_wide_set(&one, 1, 0);
+    drogue_wide_set(&d, a_qq - a_pp, 0);
+    drogue_wide_set(&t, a_pq, 1);
+    drogue_wide_product(&c, &d, &d);
     hypotenuse(&c, &c, &t);
     if (d.mantissa < 0) {
         c = drogue_wide_neg(c);
@@ -33,8 +42,8 @@ static void rotation(int64_t *t_q60, int64_t *s_q60, int64_t *r_q60, int64_t a_p
     share(&t, &t, &d, &c);
     *t_q60 = drogue_wide_to_s64(t, DROGUE_EIGEN_FRAC);
     hypotenuse(&c, &one, &t);
-    c = drogue_wide_div(one, c);
-    t = drogue_wide_mul(t, c); /* the sine */
+    drogue_wide_quotient(&c, &one, &c);
+    drogue_wide_product(&t, &t, &c); /* the sine */
     *s_q60 = drogue_wide_to_s64(t, DROGUE_EIGEN_FRAC);
     share(&t, &t, &one, &c);
     *r_q60 = drogue_wide_to_s64(t, DROGUE_EIGEN_FRAC);

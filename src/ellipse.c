@@ -25,7 +25,7 @@ static drogue_status eliminate_linear_part(drogue_wide scatter[21])
         }
         for (i = k + 1; i < 6; i++) {
             column[i] = scatter[DROGUE_PACKED(i, k)];
-            scatter[DROGUE_PACKED(i, k)] = drogue_wide_div(column[i], pivot);
+            drogue_wide_quotient(&scatter[DROGUE_PACKED(i, k)], &column[i], &pivot);
             for (j = k + 1; j <= i; j++) {
                 scatter[DROGUE_PACKED(i, j)] = drogue_wide_sub(
                     scatter[DROGUE_PACKED(i, j)], drogue_wide_mul(scatter[DROGUE_PACKED(i, k)], column[j]));

@@ -17,6 +17,57 @@ static const uint32_t cordic_angle_q32[CORDIC_STEPS] = {
 /* 1 / product of sqrt(1 + 4^-i): what a vector must start with to end up of length 1, Q40 */
 static const int64_t cordic_gain_q40 = INT64_C(667681663043);
 
+int drogue_clz_u64(uint64_t v)
+{
+    int n = 0;
+    if (v == 0) {
+        return 64;
+    }
+    if ((v >> 32) == 0) {
+        n += 32;
+        v <<= 32;
+    }
+    if ((v >> 48) == 0) {
+        n += 16;
+        v <<= 16;
+    }
+    if ((v >> 56) == 0) {
+        n += 8;
+        v <<= 8;
+    }
+    if ((v >> 60) == 0) {
+        n += 4;
+        v <<= 4;
+    }
+    if ((v >> 62) == 0) {
+        n += 2;
+        v <<= 2;
+    }
+    if ((v >> 63) == 0) {
+        n += 1;
+    }
+    return n;
+}
+
+drogue_q16 drogue_q16_from_int(int32_t v) { return drogue_sat_s32((int64_t)v * DROGUE_Q16_ONE); }
+
+drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b) { return drogue_sat_s32((int64_t)a + b); }
+
+drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b) { return drogue_sat_s32((int64_t)a - b); }
+
+drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b)
+{
+    return drogue_sat_s32(drogue_shr_round_s64((int64_t)a * b, 16));
+}
+
+int64_t drogue_floor_div_s64(int64_t num, int64_t den)
+{
+    const int64_t q = num / den;
+    return num - q * den < 0 ? q - 1 : q;
+}
+
+int64_t drogue_div_round_s64(int64_t num, int64_t den) { return drogue_floor_div_s64(2 * num + den, 2 * den); }
+
 drogue_q16 drogue_q16_div(drogue_q16 a, drogue_q16 b)
 {
     int64_t num = (int64_t)a * DROGUE_Q16_ONE;

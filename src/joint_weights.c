@@ -6,9 +6,6 @@
 
 typedef drogue_wide wide;
 
-static wide add(wide a, wide b) { return drogue_wide_add(a, b); }
-static wide mul(wide a, wide b) { return drogue_wide_mul(a, b); }
-
 /* 1, cos t, sin t, cos 2t, sin 2t at the middle of bin k, Q30. */
 static void basis_of(int64_t basis_q30[DROGUE_JOINT_FIT], uint32_t k)
 {
@@ -38,18 +35,22 @@ static int32_t sum_bins(wide information[DROGUE_PACKED_MAX], wide *scatter, cons
     int i;
     int j;
     memset(sum_q30, 0, sizeof sum_q30);
-    *scatter = drogue_wide_from_s64(0, 0);
+    drogue_wide_set(scatter, 0, 0);
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
         const int64_t n = support->bin[k].count[(support->bright_bins >> k) & 1u];
         const int64_t sum_q16 = support->bin[k].sum_q16;
         int64_t basis_q30[DROGUE_JOINT_FIT];
+        wide square;
+        wide points;
         if (n == 0) {
             continue;
         }
         bins++;
         DROGUE_NOTE("joint: squared sum of a bin's offsets, Q32", sum_q16 * sum_q16, 61); /* support.c: 2^30 */
-        *scatter =
-            add(*scatter, drogue_wide_div(drogue_wide_from_s64(sum_q16 * sum_q16, -32), drogue_wide_from_s64(n, 0)));
+        drogue_wide_set(&square, sum_q16 * sum_q16, -32);
+        drogue_wide_set(&points, n, 0);
+        drogue_wide_quotient(&square, &square, &points);
+        drogue_wide_sum(scatter, scatter, &square);
         basis_of(basis_q30, k);
         for (i = 0; i < DROGUE_JOINT_FIT; i++) {
             for (j = 0; j <= i; j++) {
@@ -60,44 +61,57 @@ static int32_t sum_bins(wide information[DROGUE_PACKED_MAX], wide *scatter, cons
         }
     }
     for (i = 0; i < DROGUE_PACKED_MAX; i++) {
-        information[i] = drogue_wide_from_s64(sum_q30[i], -30);
+        drogue_wide_set(&information[i], sum_q30[i], -30);
     }
     return bins;
 }
 
-/* Squared standard deviation num / den. */
-static wide square_ratio(wide num, wide den)
+/* Variance of a standard deviation num / den. */
+static void square_ratio(wide *out, const wide *num, const wide *den)
 {
-    const wide share = drogue_wide_div(num, den);
-    return mul(share, share);
+    drogue_wide_quotient(out, num, den);
+    drogue_wide_product(out, out, out);
 }
 
 drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
                                               drogue_q16 shading_q16, drogue_q16 blur_px2_q16)
 {
-    const wide a = drogue_wide_from_q16(outline->ellipse.a_px_q16);
     wide *covariance = outline->covariance;
     wide information[DROGUE_PACKED_MAX];
     wide scatter;
-    wide shading;
+    wide variance;
+    wide a;
+    wide t;
     int i;
     const int32_t bins = sum_bins(information, &scatter, support);
     if (bins <= DROGUE_JOINT_FIT || support->gradient == 0 ||
         drogue_cholesky_factor(information, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
-    scatter = drogue_wide_div(scatter, drogue_wide_from_s64(bins - DROGUE_JOINT_FIT, 0));
+    drogue_wide_set(&t, bins - DROGUE_JOINT_FIT, 0);
+    drogue_wide_quotient(&scatter, &scatter, &t);
     drogue_cholesky_invert(covariance, information, DROGUE_JOINT_FIT);
     for (i = 0; i < DROGUE_PACKED_MAX; i++) {
-        covariance[i] = mul(covariance[i], scatter);
+        drogue_wide_product(&covariance[i], &covariance[i], &scatter);
     }
-    shading = square_ratio(mul(drogue_wide_from_q16(shading_q16), drogue_wide_from_s64(support->points, 0)),
-                           mul(a, drogue_wide_from_s64((int64_t)support->gradient, 0)));
+    /* shading times points over the semi-axis times the sum of gradients */
+    drogue_wide_set_q16(&a, outline->ellipse.a_px_q16);
+    drogue_wide_set_q16(&variance, shading_q16);
+    drogue_wide_set(&t, support->points, 0);
+    drogue_wide_product(&variance, &variance, &t);
+    drogue_wide_set(&t, (int64_t)support->gradient, 0);
+    drogue_wide_product(&t, &a, &t);
+    square_ratio(&variance, &variance, &t);
     for (i = 0; i < DROGUE_JOINT_FIT; i++) {
-        covariance[DROGUE_PACKED(i, i)] = add(covariance[DROGUE_PACKED(i, i)], shading);
+        wide *own = &covariance[DROGUE_PACKED(i, i)];
+        drogue_wide_sum(own, own, &variance);
     }
-    covariance[0] = add(covariance[0], square_ratio(drogue_wide_from_q16(blur_px2_q16),
-                                                    mul(a, drogue_wide_from_q16(outline->ellipse.b_px_q16))));
+    /* blur over the product of the semi-axes */
+    drogue_wide_set_q16(&variance, blur_px2_q16);
+    drogue_wide_set_q16(&t, outline->ellipse.b_px_q16);
+    drogue_wide_product(&t, &a, &t);
+    square_ratio(&variance, &variance, &t);
+    drogue_wide_sum(&covariance[0], &covariance[0], &variance);
     return DROGUE_OK;
 }
 
@@ -128,6 +142,7 @@ drogue_status drogue_joint_weigh(drogue_joint_weights *out, const drogue_joint_o
     wide root[DROGUE_PACKED_MAX];
     wide information[DROGUE_PACKED_MAX];
     wide by_inner[2];
+    wide std;
     memcpy(root, outline->covariance, sizeof root);
     if (drogue_cholesky_factor(root, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
@@ -135,8 +150,11 @@ drogue_status drogue_joint_weigh(drogue_joint_weights *out, const drogue_joint_o
     drogue_cholesky_invert(information, root, DROGUE_JOINT_FIT);
     memset(by_inner, 0, sizeof by_inner);
     if (inner->std_px_q16 > 0) { /* its rows are rays */
-        by_inner[0] = square_ratio(drogue_wide_from_q16(camera->fx_px_q16), drogue_wide_from_q16(inner->std_px_q16));
-        by_inner[1] = square_ratio(drogue_wide_from_q16(camera->fy_px_q16), drogue_wide_from_q16(inner->std_px_q16));
+        drogue_wide_set_q16(&std, inner->std_px_q16);
+        drogue_wide_set_q16(&by_inner[0], camera->fx_px_q16);
+        drogue_wide_set_q16(&by_inner[1], camera->fy_px_q16);
+        square_ratio(&by_inner[0], &by_inner[0], &std);
+        square_ratio(&by_inner[1], &by_inner[1], &std);
     }
     scale_weights(out, information, by_inner);
     return DROGUE_OK;

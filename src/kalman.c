@@ -171,7 +171,7 @@ drogue_wide drogue_kalman_distance2(const drogue_kalman *filter, const drogue_q1
     drogue_wide covariance[DROGUE_PACKED_MAX];
     drogue_wide sum = {0, 0};
     int p;
-    for (p = 0; p < DROGUE_PACKED(n, 0); p++) {
+    for (p = 0; p < n * (n + 1) / 2; p++) {
         covariance[p] = noise[p];
     }
     for (p = 0; p < n; p++) {

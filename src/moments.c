@@ -42,6 +42,8 @@ void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
     accumulate(&m->m04, (int64_t)yy * yy);
 }
 
+static void add_fourth(drogue_s128 *sum, const drogue_s128 *other) { *sum = drogue_s128_add(*sum, *other); }
+
 void drogue_moments_add(drogue_moments *m, const drogue_moments *other)
 {
     m->n += other->n;
@@ -54,11 +56,11 @@ void drogue_moments_add(drogue_moments *m, const drogue_moments *other)
     m->m21 += other->m21;
     m->m12 += other->m12;
     m->m03 += other->m03;
-    m->m40 = drogue_s128_add(m->m40, other->m40);
-    m->m31 = drogue_s128_add(m->m31, other->m31);
-    m->m22 = drogue_s128_add(m->m22, other->m22);
-    m->m13 = drogue_s128_add(m->m13, other->m13);
-    m->m04 = drogue_s128_add(m->m04, other->m04);
+    add_fourth(&m->m40, &other->m40);
+    add_fourth(&m->m31, &other->m31);
+    add_fourth(&m->m22, &other->m22);
+    add_fourth(&m->m13, &other->m13);
+    add_fourth(&m->m04, &other->m04);
 }
 
 /* v * c modulo 2^128 */

@@ -180,17 +180,26 @@ drogue_q16 drogue_ellipse_circumference(const drogue_ellipse *ellipse)
  * wide. */
 static drogue_q16 axis_ratio_score(const drogue_ellipse *e, const drogue_quality_config *config)
 {
-    drogue_wide a = drogue_wide_from_q16(e->a_px_q16);
-    drogue_wide k2 = drogue_wide_from_q16(config->k2_q16);
-    drogue_wide t = drogue_wide_sub(drogue_wide_from_q16(e->b_px_q16), drogue_wide_mul(k2, a));
+    drogue_wide a;
+    drogue_wide k;
+    drogue_wide t;
     int64_t t_q30;
     int64_t decay_q30;
+    drogue_wide_set_q16(&a, e->a_px_q16);
+    drogue_wide_set_q16(&k, config->k2_q16);
+    drogue_wide_product(&k, &k, &a);
+    drogue_wide_set_q16(&t, e->b_px_q16);
+    drogue_wide_difference(&t, &t, &k);
     if (t.mantissa <= 0) {
         return 0;
     }
-    t = drogue_wide_div(t, drogue_wide_mul(a, drogue_wide_sub(drogue_wide_from_s64(1, 0), k2)));
+    drogue_wide_set_q16(&k, DROGUE_Q16_ONE - config->k2_q16);
+    drogue_wide_product(&a, &a, &k);
+    drogue_wide_quotient(&t, &t, &a);
     t_q30 = drogue_wide_to_s64(t, 30);
-    decay_q30 = drogue_exp_neg_q30(drogue_wide_to_s64(drogue_wide_mul(drogue_wide_from_q16(config->k1_q16), t), 30));
+    drogue_wide_set_q16(&k, config->k1_q16);
+    drogue_wide_product(&t, &k, &t);
+    decay_q30 = drogue_exp_neg_q30(drogue_wide_to_s64(t, 30));
     return (drogue_q16)drogue_shr_round_s64(
         drogue_shr_round_s64((t_q30 - (INT64_C(1) << 30)) * decay_q30, 30) + (INT64_C(1) << 30), 15);
 }

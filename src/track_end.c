@@ -22,8 +22,9 @@ static void configured_noise(measurement *m, const drogue_track_config *c)
     m->std_q16[DROGUE_Z] = at_least_one(drogue_q16_mul(c->depth_std_q16, z));
     m->std_q16[DROGUE_PITCH] = m->std_q16[DROGUE_YAW] = at_least_one(c->angle_std_rad_q16);
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        const drogue_wide s = drogue_wide_from_q16(m->std_q16[p]);
-        m->noise[DROGUE_PACKED(p, p)] = drogue_wide_mul(s, s);
+        drogue_wide *variance = &m->noise[DROGUE_PACKED(p, p)];
+        drogue_wide_set_q16(variance, m->std_q16[p]);
+        drogue_wide_product(variance, variance, variance);
     }
 }
 
@@ -36,14 +37,17 @@ static void measured_noise(measurement *m, const drogue_result *result, int twin
     int q;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         const int64_t own_q48 = result->covariance_q48[from[p]][from[p]];
-        const drogue_wide least = drogue_wide_from_q16(
-            at_least_one(p == DROGUE_PITCH || p == DROGUE_YAW ? c->angle_floor_rad_q16 : c->position_floor_m_q16));
-        const drogue_wide variance =
-            drogue_wide_add(drogue_wide_from_s64(own_q48 > 0 ? own_q48 : 0, -48), drogue_wide_mul(least, least));
-        m->noise[DROGUE_PACKED(p, p)] = variance;
-        m->std_q16[p] = at_least_one(drogue_wide_to_q16(drogue_wide_sqrt(variance)));
+        drogue_wide *variance = &m->noise[DROGUE_PACKED(p, p)];
+        drogue_wide own;
+        drogue_wide_set_q16(variance, at_least_one(p == DROGUE_PITCH || p == DROGUE_YAW ? c->angle_floor_rad_q16
+                                                                                        : c->position_floor_m_q16));
+        drogue_wide_product(variance, variance, variance);
+        drogue_wide_set(&own, own_q48 > 0 ? own_q48 : 0, -48);
+        drogue_wide_sum(variance, &own, variance);
+        drogue_wide_root(&own, variance);
+        m->std_q16[p] = at_least_one(drogue_wide_to_q16(own));
         for (q = 0; q < p && !(twin && p > DROGUE_Z); q++) {
-            m->noise[DROGUE_PACKED(p, q)] = drogue_wide_from_s64(result->covariance_q48[from[p]][from[q]], -48);
+            drogue_wide_set(&m->noise[DROGUE_PACKED(p, q)], result->covariance_q48[from[p]][from[q]], -48);
         }
     }
 }
@@ -104,24 +108,40 @@ static void forget_angles(drogue_kalman *filter, const measurement *m, const dro
  * N_xx - k^2 N_zz of its own and k^2 P_zz of the corrected z. */
 static void correct(drogue_kalman *filter, const measurement *m, const drogue_track_config *c)
 {
-    const drogue_wide zz = m->noise[DROGUE_PACKED(DROGUE_Z, DROGUE_Z)];
+    const drogue_wide *zz = &m->noise[DROGUE_PACKED(DROGUE_Z, DROGUE_Z)];
     const drogue_kalman3 *z = &filter->parameter[DROGUE_Z];
-    const drogue_wide shrink = drogue_wide_div(zz, drogue_wide_add(z->covariance[0], zz));
-    const drogue_wide rest =
-        drogue_wide_mul(drogue_wide_sub(drogue_wide_from_q16(m->value_q16[DROGUE_Z]), z->state[0]), shrink);
-    const drogue_wide variance = drogue_wide_mul(z->covariance[0], shrink);
-    const drogue_wide floor_m = drogue_wide_from_q16(at_least_one(c->position_floor_m_q16));
-    const drogue_wide least = drogue_wide_mul(floor_m, floor_m);
     measurement own = *m;
+    drogue_wide variance; /* of the corrected z */
+    drogue_wide rest;
+    drogue_wide least;
+    drogue_wide k;
+    drogue_wide k2;
+    drogue_wide t;
     int p;
+    drogue_wide_sum(&t, &z->covariance[0], zz);
+    drogue_wide_quotient(&t, zz, &t);
+    drogue_wide_set_q16(&rest, m->value_q16[DROGUE_Z]);
+    drogue_wide_difference(&rest, &rest, &z->state[0]);
+    drogue_wide_product(&rest, &rest, &t);
+    drogue_wide_product(&variance, &z->covariance[0], &t);
+    drogue_wide_set_q16(&least, at_least_one(c->position_floor_m_q16));
+    drogue_wide_product(&least, &least, &least);
     for (p = DROGUE_X; p <= DROGUE_Y; p++) {
-        const drogue_wide k = drogue_wide_div(m->noise[DROGUE_PACKED(DROGUE_Z, p)], zz);
-        const drogue_wide k2 = drogue_wide_mul(k, k);
-        drogue_wide left = drogue_wide_sub(m->noise[DROGUE_PACKED(p, p)], drogue_wide_mul(k2, zz));
-        left = drogue_wide_add(drogue_wide_cmp(left, least) < 0 ? least : left, drogue_wide_mul(k2, variance));
-        own.value_q16[p] =
-            drogue_wide_to_q16(drogue_wide_sub(drogue_wide_from_q16(m->value_q16[p]), drogue_wide_mul(k, rest)));
-        own.std_q16[p] = at_least_one(drogue_wide_to_q16(drogue_wide_sqrt(left)));
+        drogue_wide_quotient(&k, &m->noise[DROGUE_PACKED(DROGUE_Z, p)], zz);
+        drogue_wide_product(&k2, &k, &k);
+        drogue_wide_product(&t, &k2, zz);
+        drogue_wide_difference(&t, &m->noise[DROGUE_PACKED(p, p)], &t);
+        if (drogue_wide_cmp(t, least) < 0) {
+            t = least;
+        }
+        drogue_wide_product(&k2, &k2, &variance);
+        drogue_wide_sum(&t, &t, &k2);
+        drogue_wide_root(&t, &t);
+        own.std_q16[p] = at_least_one(drogue_wide_to_q16(t));
+        drogue_wide_product(&k, &k, &rest);
+        drogue_wide_set_q16(&t, m->value_q16[p]);
+        drogue_wide_difference(&t, &t, &k);
+        own.value_q16[p] = drogue_wide_to_q16(t);
     }
     drogue_kalman_correct(filter, own.value_q16, own.std_q16);
 }

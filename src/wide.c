@@ -245,6 +245,13 @@ void drogue_wide_quotient(drogue_wide *out, const drogue_wide *a, const drogue_w
 
 void drogue_wide_root(drogue_wide *out, const drogue_wide *a) { *out = drogue_wide_sqrt(*a); }
 
+void drogue_wide_subtract_product(drogue_wide *out, const drogue_wide *a, const drogue_wide *b)
+{
+    drogue_wide product;
+    drogue_wide_product(&product, a, b);
+    drogue_wide_difference(out, out, &product);
+}
+
 void drogue_wide_products(drogue_wide *out, const drogue_wide *a, const drogue_wide *b, const drogue_wide *c,
                           const drogue_wide *d)
 {

@@ -52,48 +52,13 @@ static inline int64_t drogue_shr_round_s64(int64_t v, int n) { return n == 0 ? v
 static inline uint64_t drogue_abs_u64(int64_t v) { return v < 0 ? (uint64_t)0 - (uint64_t)v : (uint64_t)v; }
 
 /* Leading zero bits of v, 64 for 0. */
-static inline int drogue_clz_u64(uint64_t v)
-{
-    int n = 0;
-    if (v == 0) {
-        return 64;
-    }
-    if ((v >> 32) == 0) {
-        n += 32;
-        v <<= 32;
-    }
-    if ((v >> 48) == 0) {
-        n += 16;
-        v <<= 16;
-    }
-    if ((v >> 56) == 0) {
-        n += 8;
-        v <<= 8;
-    }
-    if ((v >> 60) == 0) {
-        n += 4;
-        v <<= 4;
-    }
-    if ((v >> 62) == 0) {
-        n += 2;
-        v <<= 2;
-    }
-    if ((v >> 63) == 0) {
-        n += 1;
-    }
-    return n;
-}
+int drogue_clz_u64(uint64_t v);
 
-static inline drogue_q16 drogue_q16_from_int(int32_t v) { return drogue_sat_s32((int64_t)v * DROGUE_Q16_ONE); }
-
-static inline drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b) { return drogue_sat_s32((int64_t)a + b); }
-
-static inline drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b) { return drogue_sat_s32((int64_t)a - b); }
-
-static inline drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b)
-{
-    return drogue_sat_s32(drogue_shr_round_s64((int64_t)a * b, 16));
-}
+/* Saturated. */
+drogue_q16 drogue_q16_from_int(int32_t v);
+drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b);
+drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b);
+drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b);
 
 /* a^2 + b^2, exact. */
 static inline uint64_t drogue_square_sum(int32_t a, int32_t b)
@@ -102,17 +67,10 @@ static inline uint64_t drogue_square_sum(int32_t a, int32_t b)
 }
 
 /* floor(num / den) for den > 0. */
-static inline int64_t drogue_floor_div_s64(int64_t num, int64_t den)
-{
-    int64_t q = num / den;
-    return (num % den < 0) ? q - 1 : q;
-}
+int64_t drogue_floor_div_s64(int64_t num, int64_t den);
 
 /* num / den rounded to nearest, ties toward +infinity; den > 0, |num| <= 2^61, den <= 2^61. */
-static inline int64_t drogue_div_round_s64(int64_t num, int64_t den)
-{
-    return drogue_floor_div_s64(2 * num + den, 2 * den);
-}
+int64_t drogue_div_round_s64(int64_t num, int64_t den);
 
 /* Q16 quotient a / b.
  *

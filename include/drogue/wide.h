@@ -117,6 +117,8 @@ void drogue_wide_difference(drogue_wide *out, const drogue_wide *a, const drogue
 void drogue_wide_product(drogue_wide *out, const drogue_wide *a, const drogue_wide *b);
 void drogue_wide_quotient(drogue_wide *out, const drogue_wide *a, const drogue_wide *b);
 void drogue_wide_root(drogue_wide *out, const drogue_wide *a);
+/* out -= a b, both operations rounded */
+void drogue_wide_subtract_product(drogue_wide *out, const drogue_wide *a, const drogue_wide *b);
 /* a b + c d, each operation rounded */
 void drogue_wide_products(drogue_wide *out, const drogue_wide *a, const drogue_wide *b, const drogue_wide *c,
                           const drogue_wide *d);
