@@ -36,7 +36,9 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.recentre_cover_q16, q16_of(0.85));
     ck_assert_int_eq(c.optics_blur_px_q16, q16_of(0.6));
     ck_assert_uint_eq(c.min_dark_area_px, 9);
-    ck_assert_int_eq(c.inner_gate_q16, q16_of(0.25));
+    ck_assert_int_eq(c.min_inner_contrast, 6);
+    ck_assert_int_eq(c.inner_gate_px_q16, q16_of(1.5));
+    ck_assert_int_eq(c.inner_gate_q16, q16_of(0.05));
     ck_assert_int_eq(c.min_fill_q16, q16_of(0.75));
     ck_assert_int_eq(c.max_fill_q16, q16_of(1.25));
     ck_assert_int_eq(c.outline_shading_q16, q16_of(3.8));
@@ -95,6 +97,9 @@ START_TEST(each_limit)
     LIMIT(min_cover_q16, 65536, 65537);
     LIMIT(optics_blur_px_q16, 0, -1);
     LIMIT(optics_blur_px_q16, 16 * 65536, 16 * 65536 + 1);
+    LIMIT(min_inner_contrast, 0, -1);
+    LIMIT(min_inner_contrast, 255, 256);
+    LIMIT(inner_gate_px_q16, 0, -1);
     LIMIT(inner_gate_q16, 0, -1);
     LIMIT(min_arc_share_q16, 0, -1);
     LIMIT(min_arc_share_q16, 65536, 65537);

@@ -454,7 +454,7 @@ START_TEST(fill)
     MUST(worst <= 1.5, "off by %g LSB", worst); /* pi as Q16 takes a part */
     {
         const drogue_ellipse least = disc_at(0, 0, 1.0 / 256), largest = {0, 0, INT32_MAX, INT32_MAX, 0};
-        const drogue_dark_part all = {0, 0, 1u << 22, 0, 0};
+        const drogue_dark_part all = {0, 0, 1u << 22, 0, 0, 0};
         ck_assert_int_eq(drogue_dark_fill(&all, &least), INT32_MAX);
         ck_assert_int_le(abs(drogue_dark_fill(&all, &largest) - 81), 1); /* 2^22 / (pi 2^30) */
     }

@@ -132,6 +132,7 @@ static finding usual_finding(void)
     f.part.x_px_q16 = q16_of(210);
     f.part.y_px_q16 = q16_of(150);
     f.part.area_px = 2827; /* 30^2 pi */
+    f.part.contrast = 40;
     return f;
 }
 
@@ -172,10 +173,15 @@ START_TEST(reasons_not_to_believe)
     ck_assert(std_of(&f) > 0);
     f.part.area_px = (uint32_t)(2827 * 1.26); /* too large */
     ck_assert(std_of(&f) == 0);
-    for (k = 0; k < 4; k++) { /* a quarter of the semi-axis off, each way */
+    f = usual_finding();
+    f.part.contrast = 6;
+    ck_assert(std_of(&f) > 0);
+    f.part.contrast = 5; /* hardly darker than its surround */
+    ck_assert(std_of(&f) == 0);
+    for (k = 0; k < 4; k++) { /* 1.5 px and a twentieth of the semi-axis off, each way */
         f = usual_finding();
-        f.part.x_px_q16 += k == 0 ? q16_of(24.9) : k == 1 ? -q16_of(24.9) : 0;
-        f.part.y_px_q16 += k == 2 ? q16_of(24.9) : k == 3 ? -q16_of(24.9) : 0;
+        f.part.x_px_q16 += k == 0 ? q16_of(6.4) : k == 1 ? -q16_of(6.4) : 0;
+        f.part.y_px_q16 += k == 2 ? q16_of(6.4) : k == 3 ? -q16_of(6.4) : 0;
         ck_assert(std_of(&f) > 0);
         f.part.x_px_q16 += k == 0 ? q16_of(0.2) : k == 1 ? -q16_of(0.2) : 0;
         f.part.y_px_q16 += k == 2 ? q16_of(0.2) : k == 3 ? -q16_of(0.2) : 0;
