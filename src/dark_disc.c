@@ -46,10 +46,16 @@ static void components_within(drogue_dark_part *out, const drogue_dark_pass *p, 
 
 drogue_q16 drogue_dark_fill(const drogue_dark_part *part, const drogue_ellipse *expected)
 {
-    const drogue_wide box =
-        drogue_wide_mul(drogue_wide_from_q16(expected->a_px_q16), drogue_wide_from_q16(expected->b_px_q16));
-    return drogue_wide_to_q16(drogue_wide_div(drogue_wide_from_s64(part->area_px, 0),
-                                              drogue_wide_mul(box, drogue_wide_from_q16(DROGUE_Q16_PI))));
+    drogue_wide box;
+    drogue_wide t;
+    drogue_wide_set_q16(&box, expected->a_px_q16);
+    drogue_wide_set_q16(&t, expected->b_px_q16);
+    drogue_wide_product(&box, &box, &t);
+    drogue_wide_set_q16(&t, DROGUE_Q16_PI);
+    drogue_wide_product(&box, &box, &t);
+    drogue_wide_set(&t, part->area_px, 0);
+    drogue_wide_quotient(&t, &t, &box);
+    return drogue_wide_to_q16(t);
 }
 
 /* How badly a part fits an expected disc: distance in its semi-axes plus the share by which the areas differ, Q16. */

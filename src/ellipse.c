@@ -27,8 +27,7 @@ static drogue_status eliminate_linear_part(drogue_wide scatter[21])
             column[i] = scatter[DROGUE_PACKED(i, k)];
             drogue_wide_quotient(&scatter[DROGUE_PACKED(i, k)], &column[i], &pivot);
             for (j = k + 1; j <= i; j++) {
-                scatter[DROGUE_PACKED(i, j)] = drogue_wide_sub(
-                    scatter[DROGUE_PACKED(i, j)], drogue_wide_mul(scatter[DROGUE_PACKED(i, k)], column[j]));
+                drogue_wide_subtract_product(&scatter[DROGUE_PACKED(i, j)], &scatter[DROGUE_PACKED(i, k)], &column[j]);
             }
         }
     }
@@ -68,7 +67,7 @@ static drogue_status inverse_cholesky(drogue_wide h[6], int *singular, const dro
         for (j = 0; j <= i; j++) {
             drogue_wide sum = scatter[DROGUE_PACKED(3 + i, 3 + j)];
             for (k = 0; k < j; k++) {
-                sum = drogue_wide_sub(sum, drogue_wide_mul(g[DROGUE_PACKED(i, k)], g[DROGUE_PACKED(j, k)]));
+                drogue_wide_subtract_product(&sum, &g[DROGUE_PACKED(i, k)], &g[DROGUE_PACKED(j, k)]);
             }
             if (i == j) {
                 drogue_wide least = drogue_wide_scale(spread[i], i < 2 ? -PIVOT_BITS : -FLOOR_BITS);
@@ -76,17 +75,20 @@ static drogue_status inverse_cholesky(drogue_wide h[6], int *singular, const dro
                     return DROGUE_E_DEGENERATE; /* more than one conic through the points, or one that is no ellipse */
                 }
                 *singular = drogue_wide_cmp(sum, least) < 0;
-                h[DROGUE_PACKED(i, i)] = drogue_wide_div(one, drogue_wide_sqrt(*singular ? least : sum));
+                drogue_wide_root(&sum, *singular ? &least : &sum);
+                drogue_wide_quotient(&h[DROGUE_PACKED(i, i)], &one, &sum);
             } else {
-                g[DROGUE_PACKED(i, j)] = drogue_wide_mul(sum, h[DROGUE_PACKED(j, j)]);
+                drogue_wide_product(&g[DROGUE_PACKED(i, j)], &sum, &h[DROGUE_PACKED(j, j)]);
             }
         }
     }
     minus_product(&h[1], &g[1], &h[0], &h[2]);
     minus_product(&h[4], &g[4], &h[2], &h[5]);
-    h[3] = drogue_wide_mul(g[4], h[2]);
-    h[3] = drogue_wide_sub(drogue_wide_mul(g[1], h[3]), g[3]);
-    h[3] = drogue_wide_mul(h[3], drogue_wide_mul(h[0], h[5]));
+    drogue_wide_product(&h[3], &g[4], &h[2]);
+    drogue_wide_product(&h[3], &g[1], &h[3]);
+    drogue_wide_difference(&h[3], &h[3], &g[3]);
+    drogue_wide_product(&g[0], &h[0], &h[5]);
+    drogue_wide_product(&h[3], &h[3], &g[0]);
     return DROGUE_OK;
 }
 
@@ -133,8 +135,10 @@ static drogue_status solve_quadratic_part(drogue_wide h[6], int singular)
     for (i = 0; i < 3; i++) {
         drogue_wide sum = {0, 0};
         for (k = 2; k >= i; k--) {
-            drogue_wide v = drogue_wide_from_s64(eigen.vector_q60[0][k], -DROGUE_EIGEN_FRAC);
-            sum = drogue_wide_add(drogue_wide_mul(h[DROGUE_PACKED(k, i)], v), sum);
+            drogue_wide v;
+            drogue_wide_set(&v, eigen.vector_q60[0][k], -DROGUE_EIGEN_FRAC);
+            drogue_wide_product(&v, &h[DROGUE_PACKED(k, i)], &v);
+            drogue_wide_sum(&sum, &v, &sum);
         }
         h[3 + i] = sum;
     }
@@ -147,9 +151,9 @@ static void solve_linear_part(drogue_wide theta[6], const drogue_wide scatter[21
     int k;
     int i;
     for (k = 2; k >= 0; k--) {
-        theta[k] = drogue_wide_from_s64(0, 0);
+        drogue_wide_set(&theta[k], 0, 0);
         for (i = k + 1; i < 6; i++) {
-            theta[k] = drogue_wide_sub(theta[k], drogue_wide_mul(scatter[DROGUE_PACKED(i, k)], theta[i]));
+            drogue_wide_subtract_product(&theta[k], &scatter[DROGUE_PACKED(i, k)], &theta[i]);
         }
     }
     if (drogue_wide_add(theta[3], theta[5]).mantissa < 0) {

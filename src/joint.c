@@ -35,7 +35,7 @@ static void normal_equations(drogue_wide normal[CHI2 + 1], const drogue_joint_ro
             *sum = drogue_wide_from_s128(drogue_joint_products(weighted, rows->column[q], DROGUE_JOINT_ROWS),
                                          w->exponent + drop - 2 * DROGUE_JOINT_FRAC);
             if (p == q && (p == 3 || p == 4)) {
-                *sum = drogue_wide_add(*sum, one);
+                drogue_wide_sum(sum, sum, &one);
             }
         }
     }
@@ -77,10 +77,10 @@ static void put_covariance(drogue_wide out[DROGUE_PACKED_MAX], const drogue_wide
         for (j = 0; j < 3; j++) {
             drogue_wide *entry = &out[DROGUE_PACKED(i, j)];
             if (i >= j) {
-                *entry = drogue_wide_mul(*entry, radius);
+                drogue_wide_product(entry, entry, &radius);
             }
             if (i <= j) {
-                *entry = drogue_wide_mul(*entry, radius);
+                drogue_wide_product(entry, entry, &radius);
             }
         }
     }
@@ -113,7 +113,7 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
     drogue_joint_state s;
     int last = 0;
     int step;
-    drogue_status status = drogue_joint_weigh(&weights, outline, inner, camera);
+    drogue_status status = drogue_joint_weigh(&weights, normal, outline, inner, camera);
     if (status == DROGUE_OK) {
         status = drogue_joint_begin(&s, &frame, start, &outline->ellipse, camera, model);
     }

@@ -44,7 +44,11 @@ static int64_t difference(int64_t a, int64_t b, int64_t c, int64_t d)
 
 int64_t drogue_joint_ratio(int64_t num, int64_t den)
 {
-    const drogue_wide q = drogue_wide_div(drogue_wide_from_s64(num, 0), drogue_wide_from_s64(den, 0));
+    drogue_wide q;
+    drogue_wide d;
+    drogue_wide_set(&q, num, 0);
+    drogue_wide_set(&d, den, 0);
+    drogue_wide_quotient(&q, &q, &d);
     return limited(drogue_wide_to_s64(q, DROGUE_JOINT_FRAC), LARGEST);
 }
 

@@ -136,14 +136,14 @@ static void scale_weights(drogue_joint_weights *out, const wide information[DROG
     }
 }
 
-drogue_status drogue_joint_weigh(drogue_joint_weights *out, const drogue_joint_outline *outline,
-                                 const drogue_joint_inner *inner, const drogue_camera *camera)
+drogue_status drogue_joint_weigh(drogue_joint_weights *out, wide root[DROGUE_PACKED_MAX],
+                                 const drogue_joint_outline *outline, const drogue_joint_inner *inner,
+                                 const drogue_camera *camera)
 {
-    wide root[DROGUE_PACKED_MAX];
     wide information[DROGUE_PACKED_MAX];
     wide by_inner[2];
     wide std;
-    memcpy(root, outline->covariance, sizeof root);
+    memcpy(root, outline->covariance, sizeof outline->covariance);
     if (drogue_cholesky_factor(root, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }

@@ -51,10 +51,13 @@ static void offsets(int64_t *u_q46, int64_t *v_q46, const drogue_ellipse_frame *
     *v_q46 = (int64_t)dy * frame->cos_over_b_q30 - (int64_t)dx * frame->sin_over_b_q30;
 }
 
+/* drogue_shr_round_s64() for what is done to every point; 1 <= n <= 63 */
+static int64_t shr_round(int64_t v, int n) { return (v >> n) + ((v >> (n - 1)) & 1); }
+
 static int32_t clamp_q24(int64_t v_q46)
 {
     const int64_t most = INT64_C(16) << 24;
-    int64_t v = drogue_shr_round_s64(v_q46, 22);
+    int64_t v = shr_round(v_q46, 22);
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
@@ -83,7 +86,7 @@ drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q1
     int64_t d_q48;
     drogue_ellipse_frame_point(&u_q24, &v_q24, frame, x_px_q16, y_px_q16);
     d_q48 = conic_q48(u_q24, v_q24);
-    return drogue_sat_s32(drogue_shr_round_s64(d_q48 < 0 ? -d_q48 : d_q48, 32));
+    return drogue_sat_s32(shr_round(d_q48 < 0 ? -d_q48 : d_q48, 32));
 }
 
 drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16)
@@ -142,7 +145,7 @@ int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame
     /* |F| / |grad F| <= t  <=>  (F b)^2 <= 4 t^2 n^2 */
     DROGUE_NOTE("quality: squared normal, Q28", n2_q28, 30);
     n2_q20 = (n2_q28 + 128) >> 8;
-    if ((int64_t)f_b_px_q16 * f_b_px_q16 > drogue_shr_round_s64((int64_t)band->width2_px2_q24 * n2_q20, 10)) {
+    if ((int64_t)f_b_px_q16 * f_b_px_q16 > shr_round((int64_t)band->width2_px2_q24 * n2_q20, 10)) {
         return 0;
     }
     along = gx * nx_q14 + gy * ny_q14;
