@@ -5,7 +5,7 @@
 #include <map>
 
 #include "case.hpp"
-#include "mirror.hpp"
+#include "frame_tier.hpp"
 #include "reference.hpp"
 #include "stages.h"
 
@@ -139,19 +139,10 @@ Tiers constraints_tier(const Arrays &in, const Arrays &exact)
     for (size_t i = 0; i < in[0].words.size(); i += 2) {
         points.emplace_back(as_int(in[0].words[i]), as_int(in[0].words[i + 1]));
     }
-    const reference::Rect r = reference::min_area_rect(points);
-    const int64_t dx = q16(r.xc) - p[0] * 32768;
-    const int64_t dy = q16(r.yc) - p[1] * 32768;
-    int64_t quadrant = -1;
-    int64_t polarity = DROGUE_POLARITY_BOTH;
-    if (dx != 0 && dy != 0 && q16(r.shorter) >= p[4]) {
-        const int64_t position = dy < 0 ? (dx > 0 ? 0 : 1) : (dx < 0 ? 2 : 3);
-        if ((position - p[3]) % 2 == 0) {
-            quadrant = position;
-            polarity = position == p[3] ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
-        }
-    }
-    return {{like(exact[0], {q16(r.xc), q16(r.yc), q16(r.shorter), q16(r.longer), quadrant, polarity}),
+    const reference::Verdict v =
+        reference::judge_arc(points, as_int(p[0]), as_int(p[1]), as_int(p[3]), p[4]);
+    return {{like(exact[0], {q16(v.rect.xc), q16(v.rect.yc), q16(v.rect.shorter), q16(v.rect.longer), v.quadrant,
+                             v.polarity}),
              {4, 4, 4, 4, 0, 0}}};
 }
 
@@ -405,12 +396,6 @@ Tiers kalman_tier(const Arrays &in, const Arrays &exact)
         }
     }
     return {{like(exact[0], words), {16}}};
-}
-
-Tiers frame_tier(const Arrays &in, const Arrays &exact)
-{
-    const FrameReference r = mirror_frame(image_of(in[0]), in[1].words, in[2].words, in[3].words);
-    return {{like(exact[0], r.words), r.bound}};
 }
 
 } // namespace

@@ -62,7 +62,9 @@ int format_of(const std::string &stage, const std::string &output)
                                                        {"pose/pose", 16},
                                                        {"kalman/states", 16},
                                                        {"frame/frame", 16},
-                                                       {"frame/detail", 16}};
+                                                       {"frame/detail", 16},
+                                                       {"frame/covariance", 48},
+                                                       {"frame/std", 32}};
     const auto found = formats.find(stage + "/" + output);
     if (found == formats.end()) {
         throw std::runtime_error("no format for output " + stage + "/" + output);
