@@ -82,48 +82,72 @@ static int disc_span(int32_t *first, int32_t *last, const drogue_mask *disc, int
         return 0;
     }
     half = drogue_isqrt_u64((uint64_t)(rest / 9));
-    low = drogue_floor_div_s64(disc->centre2_x - half + 1, 2);
-    high = drogue_floor_div_s64(disc->centre2_x + half, 2);
+    low = (disc->centre2_x - half + 1) >> 1;
+    high = (disc->centre2_x + half) >> 1;
     *first = (int32_t)(low < 0 ? 0 : low);
     *last = (int32_t)(high > width_px - 1 ? width_px - 1 : high);
     return low <= high && *first <= *last;
 }
 
-static void binary_row(uint8_t *out, const uint8_t *row, const drogue_mask *disc, int32_t y, int32_t width_px,
-                       uint8_t threshold)
+/* Rows of the binary image are bits, pixel x at bit x % 32 of word x / 32. */
+enum { BITS = 32 };
+
+/* Levels at most the threshold, columns first .. last. */
+static void binary_row(uint32_t *out, const uint8_t *row, int32_t first, int32_t last, uint32_t threshold)
 {
-    int32_t first;
-    int32_t last;
-    int32_t x;
-    memset(out, 0, (size_t)width_px);
-    if (disc_span(&first, &last, disc, y, width_px)) {
-        for (x = first; x <= last; x++) {
-            out[x] = row[x] <= threshold ? 1 : 0;
+    const uint32_t limit = DROGUE_LANES(0x8000u + threshold); /* less a level: top bit set where that is dark */
+    int32_t x = first & ~3;
+    for (; x <= last; x += 4) {
+        uint32_t word = 0;
+        uint32_t dark;
+        if (x >= first && x + 3 <= last) {
+            const uint8_t *p = row + x;
+            word = (uint32_t)p[0] | ((uint32_t)p[1] << 8) | ((uint32_t)p[2] << 16) | ((uint32_t)p[3] << 24);
+        } else {
+            int32_t k;
+            for (k = 0; k < 4; k++) { /* outside the disc nothing is dark */
+                word |= (x + k >= first && x + k <= last ? (uint32_t)row[x + k] : 255u) << (8 * k);
+            }
         }
+        dark = (((limit - drogue_lanes_even(word)) >> 1) & DROGUE_LANES(0x4000u)) |
+               ((limit - drogue_lanes_odd(word)) & DROGUE_LANES(0x8000u));
+        out[x / BITS] |= (((dark >> 14) | (dark >> 28)) & 15u) << (x % BITS);
     }
 }
 
-/* Minimum (erosion) or maximum (dilation) over 3x3; beyond the left and right border nothing counts. */
-static void erode_row(uint8_t *out, const uint8_t *const rows[3], int32_t width_px)
+/* Erosion by 3x3; 'valid' holds the columns of the last word, beyond the border nothing counts. */
+static void erode_row(uint32_t *out, const uint32_t *const rows[3], int32_t words, uint32_t valid)
 {
-    int32_t x;
-    for (x = 0; x < width_px; x++) {
-        int32_t l = x > 0 ? x - 1 : x;
-        int32_t r = x + 1 < width_px ? x + 1 : x;
-        out[x] = rows[0][l] & rows[0][x] & rows[0][r] & rows[1][l] & rows[1][x] & rows[1][r] & rows[2][l] & rows[2][x] &
-                 rows[2][r];
+    uint32_t before = ~(uint32_t)0;
+    uint32_t at = rows[0][0] & rows[1][0] & rows[2][0];
+    int32_t i;
+    for (i = 0; i < words; i++) {
+        uint32_t after = ~(uint32_t)0;
+        if (i + 1 < words) {
+            after = rows[0][i + 1] & rows[1][i + 1] & rows[2][i + 1];
+        } else {
+            at |= ~valid;
+        }
+        out[i] = at & ((at << 1) | (before >> 31)) & ((at >> 1) | (after << 31));
+        before = at;
+        at = after;
     }
+    out[words - 1] &= valid;
 }
 
-static void dilate_row(uint8_t *out, const uint8_t *const rows[3], int32_t width_px)
+/* Dilation by 3x3. */
+static void dilate_row(uint32_t *out, const uint32_t *const rows[3], int32_t words, uint32_t valid)
 {
-    int32_t x;
-    for (x = 0; x < width_px; x++) {
-        int32_t l = x > 0 ? x - 1 : x;
-        int32_t r = x + 1 < width_px ? x + 1 : x;
-        out[x] = rows[0][l] | rows[0][x] | rows[0][r] | rows[1][l] | rows[1][x] | rows[1][r] | rows[2][l] | rows[2][x] |
-                 rows[2][r];
+    uint32_t before = 0;
+    uint32_t at = rows[0][0] | rows[1][0] | rows[2][0];
+    int32_t i;
+    for (i = 0; i < words; i++) {
+        uint32_t after = i + 1 < words ? rows[0][i + 1] | rows[1][i + 1] | rows[2][i + 1] : 0;
+        out[i] = at | (at << 1) | (before >> 31) | (at >> 1) | (after << 31);
+        before = at;
+        at = after;
     }
+    out[words - 1] &= valid;
 }
 
 /* Components of the opened binary image with area and coordinate sums, in the tables of the workspace. The sums
@@ -133,11 +157,35 @@ typedef struct dark_pass {
     const drogue_image *image;
     const drogue_mask *disc;
     drogue_labels labels;
-    uint8_t *binary;  /* ring of 3 rows */
-    uint8_t *eroded;  /* ring of 3 rows */
-    uint8_t *outside; /* row of ones for the erosion, then of zeros for the dilation */
+    uint32_t *binary; /* ring of 3 rows */
+    uint32_t *eroded; /* ring of 3 rows */
+    uint32_t *opened; /* 1 row */
+    uint32_t *ones;   /* 1 row: outside the image for the erosion */
+    uint32_t *zeros;  /* 1 row: outside the disc, and outside the image for the dilation */
+    int32_t words;
+    int32_t first_row; /* of the disc, within the image */
+    int32_t last_row;
+    uint32_t valid; /* columns of the last word */
     uint8_t threshold;
 } dark_pass;
+
+/* List the columns of the opened row and set their codes. */
+static uint32_t list_opened(drogue_slope *points, uint8_t *code, const uint32_t *opened, int32_t words)
+{
+    uint32_t count = 0;
+    int32_t i;
+    for (i = 0; i < words; i++) {
+        uint32_t bits = opened[i];
+        int32_t x = i * BITS;
+        for (; bits != 0; bits >>= 1, x++) {
+            if ((bits & 1u) != 0) {
+                points[count++].x = (uint16_t)x;
+                code[x] = 1;
+            }
+        }
+    }
+    return count;
+}
 
 static void label_opened_row(dark_pass *p, int32_t y)
 {
@@ -145,34 +193,61 @@ static void label_opened_row(dark_pass *p, int32_t y)
     size_t width = (size_t)p->image->width_px;
     uint8_t *code = w->code_rows + (size_t)(y & 1) * width;
     uint32_t *row = w->component_rows + (size_t)(y & 1) * width;
-    const uint8_t *rows[3];
-    int32_t x;
-    rows[0] = y > 0 ? p->eroded + (size_t)((y - 1) % 3) * width : p->outside + width;
-    rows[1] = p->eroded + (size_t)(y % 3) * width;
-    rows[2] = y + 1 < p->image->height_px ? p->eroded + (size_t)((y + 1) % 3) * width : p->outside + width;
-    dilate_row(code, rows, p->image->width_px);
-    drogue_label_row(row, &p->labels, w->merges, w->component_rows + (size_t)(~y & 1) * width, code,
-                     w->code_rows + (size_t)(~y & 1) * width, 1, p->image->width_px);
-    for (x = 0; x < p->image->width_px; x++) {
-        if (row[x] != 0) {
-            w->component_strong[row[x]]++;
-            w->arc_parent[row[x]] += (uint32_t)x;
-            w->arc_component[row[x]] += (uint32_t)y;
+    const uint32_t *rows[3];
+    uint32_t count;
+    uint32_t i;
+    rows[0] = y > p->first_row ? p->eroded + (y - 1) % 3 * p->words : p->zeros;
+    rows[1] = p->eroded + y % 3 * p->words;
+    rows[2] = y < p->last_row ? p->eroded + (y + 1) % 3 * p->words : p->zeros;
+    dilate_row(p->opened, rows, p->words, p->valid);
+    memset(code, 0, width);
+    count = list_opened(w->slope_rows, code, p->opened, p->words);
+    drogue_label_points(row, &p->labels, w->merges, w->component_rows + (size_t)(~y & 1) * width, code,
+                        w->code_rows + (size_t)(~y & 1) * width, 1, p->image->width_px, w->slope_rows, count);
+    for (i = 0; i < count; i++) {
+        uint32_t x = w->slope_rows[i].x;
+        uint32_t label = row[x];
+        if (label != 0) {
+            w->component_strong[label]++;
+            w->arc_parent[label] += x;
+            w->arc_component[label] += (uint32_t)y;
         }
     }
 }
 
+/* Row y of the binary image, or what stands for it outside the disc. */
+static const uint32_t *binary_at(const dark_pass *p, int32_t y)
+{
+    if (y < 0 || y >= p->image->height_px) {
+        return p->ones;
+    }
+    return y >= p->first_row && y <= p->last_row ? p->binary + y % 3 * p->words : p->zeros;
+}
+
 static void erode_step(dark_pass *p, int32_t y)
 {
-    size_t width = (size_t)p->image->width_px;
-    const uint8_t *rows[3];
-    rows[0] = y > 0 ? p->binary + (size_t)((y - 1) % 3) * width : p->outside;
-    rows[1] = p->binary + (size_t)(y % 3) * width;
-    rows[2] = y + 1 < p->image->height_px ? p->binary + (size_t)((y + 1) % 3) * width : p->outside;
-    erode_row(p->eroded + (size_t)(y % 3) * width, rows, p->image->width_px);
-    if (y > 0) {
+    const uint32_t *rows[3];
+    rows[0] = binary_at(p, y - 1);
+    rows[1] = binary_at(p, y);
+    rows[2] = binary_at(p, y + 1);
+    erode_row(p->eroded + y % 3 * p->words, rows, p->words, p->valid);
+    if (y > p->first_row) {
         label_opened_row(p, y - 1);
     }
+}
+
+/* Rows of the disc within the image; 0 when there are none. */
+static int disc_rows(dark_pass *p)
+{
+    int32_t height = p->image->height_px;
+    int32_t first;
+    int32_t last;
+    int32_t y;
+    for (y = 0; y < height && !disc_span(&first, &last, p->disc, y, p->image->width_px); y++) {}
+    p->first_row = y;
+    for (y = height - 1; y > p->first_row && !disc_span(&first, &last, p->disc, y, p->image->width_px); y--) {}
+    p->last_row = y;
+    return p->first_row < height;
 }
 
 static void open_and_label(dark_pass *p)
@@ -180,27 +255,40 @@ static void open_and_label(dark_pass *p)
     drogue_workspace *w = p->workspace;
     size_t width = (size_t)p->image->width_px;
     size_t table = w->capacity.labels * sizeof(uint32_t);
+    size_t bytes;
     int32_t y;
-    p->binary = w->raw_rows;
-    p->eroded = w->smooth_rows;
-    p->outside = w->raw_rows + 3 * width;
-    memset(p->outside, 1, width);
-    memset(p->outside + width, 0, width);
+    p->words = (p->image->width_px + BITS - 1) / BITS;
+    p->valid = ~(uint32_t)0 >> (p->words * BITS - p->image->width_px);
+    bytes = (size_t)p->words * sizeof(uint32_t);
+    p->binary = (uint32_t *)(void *)w->smooth_rows;
+    p->eroded = p->binary + 3 * p->words;
+    p->opened = p->eroded + 3 * p->words;
+    p->ones = p->opened + p->words;
+    p->zeros = p->ones + p->words;
+    memset(p->ones, 0xFF, bytes);
+    memset(p->zeros, 0, bytes);
     memset(w->code_rows, 0, 2 * width);
-    memset(w->component_rows, 0, 2 * width * sizeof(uint32_t));
     memset(w->component_strong, 0, table);
     memset(w->arc_parent, 0, table);
     memset(w->arc_component, 0, table);
     drogue_labels_reset(&p->labels, w->component_parent, w->capacity.labels);
-    for (y = 0; y < p->image->height_px; y++) {
-        binary_row(p->binary + (size_t)(y % 3) * width, drogue_image_row(p->image, y), p->disc, y, p->image->width_px,
-                   p->threshold);
-        if (y > 0) {
+    if (!disc_rows(p)) {
+        return;
+    }
+    for (y = p->first_row; y <= p->last_row; y++) {
+        uint32_t *row = p->binary + y % 3 * p->words;
+        int32_t first;
+        int32_t last;
+        memset(row, 0, bytes);
+        if (disc_span(&first, &last, p->disc, y, p->image->width_px)) {
+            binary_row(row, drogue_image_row(p->image, y), first, last, p->threshold);
+        }
+        if (y > p->first_row) {
             erode_step(p, y - 1);
         }
     }
-    erode_step(p, p->image->height_px - 1);
-    label_opened_row(p, p->image->height_px - 1);
+    erode_step(p, p->last_row);
+    label_opened_row(p, p->last_row);
 }
 
 /* Join the sums of merged labels: afterwards roots alone have an area. */
@@ -221,7 +309,7 @@ static void join_components(dark_pass *p)
 }
 
 /* Rows that a disc can reach, within the image. */
-static void disc_rows(int32_t *first, int32_t *last, const drogue_mask *disc, int32_t height_px)
+static void window_rows(int32_t *first, int32_t *last, const drogue_mask *disc, int32_t height_px)
 {
     const int64_t low = ((int64_t)disc->centre2_y - disc->longest_px) / 2;
     const int64_t high = ((int64_t)disc->centre2_y + disc->longest_px) / 2;
@@ -235,7 +323,7 @@ static uint8_t disc_threshold(uint32_t *histogram, const drogue_image *image, co
     int32_t low;
     int32_t high;
     memset(histogram, 0, 256 * sizeof(uint32_t));
-    disc_rows(&low, &high, disc, image->height_px);
+    window_rows(&low, &high, disc, image->height_px);
     for (y = low; y <= high; y++) {
         const uint8_t *row = drogue_image_row(image, y);
         int32_t first;
@@ -298,16 +386,14 @@ drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *wor
     return DROGUE_OK;
 }
 
-static int64_t distance2_q32(const drogue_dark_part *part, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+static uint64_t distance2_q32(const drogue_dark_part *part, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
-    const int64_t dx = (int64_t)part->x_px_q16 - x_px_q16;
-    const int64_t dy = (int64_t)part->y_px_q16 - y_px_q16;
-    return dx * dx + dy * dy;
+    return drogue_square_sum(drogue_q16_sub(part->x_px_q16, x_px_q16), drogue_q16_sub(part->y_px_q16, y_px_q16));
 }
 
-static drogue_q16 distance_q16(const drogue_dark_part *p, const drogue_dark_part *q)
+static drogue_q16 distance_q16(const drogue_dark_part *part, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
-    return drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)distance2_q32(p, q->x_px_q16, q->y_px_q16)));
+    return drogue_sat_s32((int64_t)drogue_isqrt_u64(distance2_q32(part, x_px_q16, y_px_q16)));
 }
 
 /* Components whose centroids lie within an expected disc, together; area 0 when there are none. */
@@ -315,7 +401,7 @@ static void components_within(drogue_dark_part *out, const dark_pass *p, const d
                               uint32_t min_area)
 {
     const drogue_workspace *w = p->workspace;
-    const int64_t reach2_q32 = (int64_t)expected->a_px_q16 * expected->a_px_q16;
+    const uint64_t reach2_q32 = drogue_square_sum(expected->a_px_q16, 0);
     int64_t x = 0;
     int64_t y = 0;
     uint32_t i;
@@ -342,16 +428,17 @@ static void components_within(drogue_dark_part *out, const dark_pass *p, const d
 
 drogue_q16 drogue_dark_fill(const drogue_dark_part *part, const drogue_ellipse *expected)
 {
-    const drogue_q16 box = drogue_q16_mul(expected->a_px_q16, expected->b_px_q16);
-    return drogue_q16_div(drogue_sat_s32((int64_t)part->area_px * DROGUE_Q16_ONE), drogue_q16_mul(box, DROGUE_Q16_PI));
+    const drogue_wide box =
+        drogue_wide_mul(drogue_wide_from_q16(expected->a_px_q16), drogue_wide_from_q16(expected->b_px_q16));
+    return drogue_wide_to_q16(drogue_wide_div(drogue_wide_from_s64(part->area_px, 0),
+                                              drogue_wide_mul(box, drogue_wide_from_q16(DROGUE_Q16_PI))));
 }
 
 /* How badly a part fits an expected disc: distance in its semi-axes plus the share by which the areas differ, Q16. */
 static drogue_q16 misfit(const drogue_dark_part *part, const drogue_ellipse *expected)
 {
-    const drogue_q16 away = drogue_q16_div(drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)distance2_q32(
-                                               part, expected->xc_px_q16, expected->yc_px_q16))),
-                                           expected->a_px_q16);
+    const drogue_q16 away =
+        drogue_q16_div(distance_q16(part, expected->xc_px_q16, expected->yc_px_q16), expected->a_px_q16);
     const int64_t fill = (int64_t)drogue_dark_fill(part, expected) - DROGUE_Q16_ONE;
     return drogue_sat_s32(away + (fill < 0 ? -fill : fill));
 }
@@ -395,7 +482,7 @@ static void weigh(drogue_dark_part *part, const drogue_image *image, const drogu
     int32_t y;
     int32_t low;
     int32_t high;
-    disc_rows(&low, &high, window, image->height_px);
+    window_rows(&low, &high, window, image->height_px);
     for (y = low; y <= high; y++) {
         const uint8_t *row = drogue_image_row(image, y);
         int32_t row_sum = 0;
@@ -445,7 +532,7 @@ static void weigh_about(drogue_dark_part *part, uint32_t *histogram, const drogu
     weigh(&lower, image, &window, &r);
     r.full += 2 * half;
     weigh(&upper, image, &window, &r);
-    part->spread_px_q16 = distance_q16(&lower, &upper);
+    part->spread_px_q16 = distance_q16(&lower, upper.x_px_q16, upper.y_px_q16);
 }
 
 drogue_status drogue_dark_disc_find(drogue_dark_part *out, uint32_t *which, drogue_workspace *workspace,

@@ -6,76 +6,11 @@
 
 enum { CODE_CANDIDATE = 1, CODE_STRONG = 2, CODE_CLASS_SHIFT = 2, CODE_CLASS_MASK = 0x1C };
 
-static int capacity_valid(const drogue_capacity *c)
-{
-    const uint32_t most = (uint32_t)1 << 24;
-    return c->width_px >= 1 && c->width_px <= DROGUE_MAX_SIDE && c->edges >= 1 && c->edges <= most && c->labels >= 2 &&
-           c->labels <= most && c->arcs >= 1 && c->arcs <= most;
-}
-
-size_t drogue_workspace_bytes(const drogue_capacity *capacity)
-{
-    return DROGUE_WORKSPACE_BYTES(capacity->width_px, capacity->edges, capacity->labels, capacity->arcs);
-}
-
-drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, size_t bytes,
-                                    const drogue_capacity *capacity)
-{
-    uint8_t *at = memory;
-    size_t width;
-    size_t labels;
-    if (!capacity_valid(capacity) || memory == NULL || ((uintptr_t)memory & (sizeof(uint32_t) - 1)) != 0) {
-        return DROGUE_E_ARGUMENT;
-    }
-    if (bytes < drogue_workspace_bytes(capacity)) {
-        return DROGUE_E_WORKSPACE;
-    }
-    width = capacity->width_px;
-    labels = capacity->labels;
-    workspace->capacity = *capacity;
-    /* Widest elements first: every array is aligned for its type. */
-    workspace->edges = (drogue_edge *)(void *)at;
-    at += capacity->edges * sizeof(drogue_edge);
-    workspace->arcs = (drogue_arc *)(void *)at;
-    at += capacity->arcs * sizeof(drogue_arc);
-    workspace->component_parent = (uint32_t *)(void *)at;
-    at += labels * sizeof(uint32_t);
-    workspace->component_strong = (uint32_t *)(void *)at;
-    at += labels * sizeof(uint32_t);
-    workspace->arc_parent = (uint32_t *)(void *)at;
-    at += labels * sizeof(uint32_t);
-    workspace->arc_component = (uint32_t *)(void *)at;
-    at += labels * sizeof(uint32_t);
-    workspace->hull = (drogue_point *)(void *)at;
-    at += DROGUE_HULL_MAX * sizeof(drogue_point);
-    workspace->histogram = (uint32_t *)(void *)at;
-    at += 256 * sizeof(uint32_t);
-    workspace->merges = (drogue_merge *)(void *)at;
-    at += width * sizeof(drogue_merge);
-    workspace->component_rows = (uint32_t *)(void *)at;
-    at += 2 * width * sizeof(uint32_t);
-    workspace->arc_rows = (uint32_t *)(void *)at;
-    at += 2 * width * sizeof(uint32_t);
-    workspace->column = (uint16_t *)(void *)at;
-    at += width * sizeof(uint16_t);
-    workspace->magnitude_rows = (uint16_t *)(void *)at;
-    at += 4 * width * sizeof(uint16_t);
-    workspace->gx_rows = (int16_t *)(void *)at;
-    at += 2 * width * sizeof(int16_t);
-    workspace->gy_rows = (int16_t *)(void *)at;
-    at += 2 * width * sizeof(int16_t);
-    workspace->raw_rows = at;
-    at += 5 * width;
-    workspace->smooth_rows = at;
-    at += 3 * width;
-    workspace->code_rows = at;
-    return DROGUE_OK;
-}
-
 drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace *workspace,
                                     const drogue_frontend_config *config, int32_t width_px, int32_t height_px)
 {
     size_t width;
+    size_t fours;
     if (config->canny_low < 0 || config->canny_high < config->canny_low ||
         (config->use_ring && !drogue_mask_valid(&config->ring))) {
         return DROGUE_E_ARGUMENT;
@@ -96,38 +31,89 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
     drogue_labels_reset(&frontend->components, workspace->component_parent, workspace->capacity.labels);
     drogue_labels_reset(&frontend->arc_labels, workspace->arc_parent, workspace->capacity.labels);
     width = (size_t)width_px;
+    fours = DROGUE_FOURS(width_px);
     memset(workspace->component_strong, 0, workspace->capacity.labels * sizeof(uint32_t));
-    memset(workspace->magnitude_rows + 3 * width, 0, width * sizeof(uint16_t));
-    memset(workspace->component_rows, 0, 2 * width * sizeof(uint32_t));
-    memset(workspace->arc_rows, 0, 2 * width * sizeof(uint32_t));
+    memset(workspace->raw_rows, 0, 5 * (fours + 1) * sizeof(uint32_t));
+    memset(workspace->smooth_rows, 0, 3 * 2 * (fours + 2) * sizeof(uint32_t));
+    memset(workspace->magnitude_rows + 3 * 4 * (fours + 1), 0, 4 * (fours + 1) * sizeof(uint16_t));
     memset(workspace->code_rows, 0, 2 * width);
     return DROGUE_OK;
 }
 
-/* Append the candidate at column x of row y to the edge list. */
-static void append_edge(drogue_frontend *f, const uint16_t *const magnitude[3], int16_t gx, int16_t gy, int32_t x,
-                        int32_t y, uint32_t label)
+/* Append a candidate of row y to the edge list. */
+static void append_edge(drogue_frontend *f, const drogue_slope *point, int32_t y, uint32_t label)
 {
-    drogue_sector sector = drogue_canny_sector(gx, gy);
     drogue_edge *e;
-    int32_t before;
-    int32_t after;
-    int32_t offset_q5;
     if (f->edge_count >= f->workspace->capacity.edges) {
         f->edges_full = 1;
         return;
     }
     e = &f->workspace->edges[f->edge_count++];
-    drogue_canny_neighbours(&before, &after, sector, magnitude, x, f->width_px);
-    offset_q5 = drogue_canny_offset_q5(before, magnitude[1][x], after);
     /* Magnitudes outside are 0, so at a border the offset points inward and the sums stay in [0, 65535]. */
-    DROGUE_NOTE("frontend: edge x, Q5", 32 * x + drogue_canny_step_x(sector) * offset_q5, 16);
-    DROGUE_NOTE("frontend: edge y, Q5", 32 * y + drogue_canny_step_y(sector) * offset_q5, 16);
-    e->x_q5 = (uint16_t)(32 * x + drogue_canny_step_x(sector) * offset_q5);
-    e->y_q5 = (uint16_t)(32 * y + drogue_canny_step_y(sector) * offset_q5);
-    e->gx = gx;
-    e->gy = gy;
+    DROGUE_NOTE("frontend: edge x, Q5", 32 * point->x + point->dx_q5, 16);
+    DROGUE_NOTE("frontend: edge y, Q5", 32 * y + point->dy_q5, 16);
+    e->x_q5 = (uint16_t)(32 * point->x + point->dx_q5);
+    e->y_q5 = (uint16_t)(32 * y + point->dy_q5);
+    e->gx = point->gx;
+    e->gy = point->gy;
     e->arc = label;
+}
+
+/* Keep of the slopes of row y the maxima across their edge, and note their codes; those in the ring get their offset.
+ * Returns the number kept. */
+static uint32_t suppress(drogue_frontend *f, uint8_t *code, drogue_slope *slopes, const uint16_t *const magnitude[3],
+                         int32_t y)
+{
+    const drogue_ring_row ring = drogue_mask_ring_row(&f->config.ring, y);
+    const drogue_slope *end = slopes + f->slope_count[y & 1];
+    const drogue_slope *s;
+    drogue_slope *kept = slopes;
+    memset(code, 0, (size_t)f->width_px);
+    for (s = slopes; s < end; s++) {
+        drogue_sector sector = drogue_canny_sector(s->gx, s->gy);
+        int32_t m = magnitude[1][s->x];
+        int32_t before;
+        int32_t after;
+        uint32_t c;
+        drogue_canny_padded_neighbours(&before, &after, sector, magnitude, s->x);
+        if (!drogue_canny_is_maximum(sector, before, m, after)) {
+            continue;
+        }
+        *kept = *s;
+        c = m > f->config.canny_high ? CODE_CANDIDATE | CODE_STRONG : CODE_CANDIDATE;
+        if (!f->config.use_ring || drogue_ring_row_holds(&ring, s->x)) {
+            int32_t offset_q5 = drogue_canny_offset_q5(before, m, after);
+            kept->dx_q5 = (int8_t)(drogue_canny_step_x(sector) * offset_q5);
+            kept->dy_q5 = (int8_t)(drogue_canny_step_y(sector) * offset_q5);
+            c |= (drogue_direction_class(s->gx, s->gy) + 1u) << CODE_CLASS_SHIFT;
+        }
+        code[s->x] = (uint8_t)c;
+        kept++;
+    }
+    return (uint32_t)(kept - slopes);
+}
+
+/* Pixel 0 of a row in the ring buffers; row 3 of the magnitude stays 0. */
+static uint8_t *raw_row(const drogue_frontend *f, int32_t y)
+{
+    return f->workspace->raw_rows + (size_t)(y % 5) * (DROGUE_FOURS(f->width_px) + 1) * 4 + 2;
+}
+
+static uint32_t *smooth_row(const drogue_frontend *f, int32_t y)
+{
+    uint32_t *rows = (uint32_t *)(void *)f->workspace->smooth_rows;
+    return rows + (size_t)(y % 3) * (DROGUE_FOURS(f->width_px) + 2) * 2 + 2;
+}
+
+static uint16_t *magnitude_row(const drogue_frontend *f, int32_t y)
+{
+    size_t row = y >= 0 && y < f->height_px ? (size_t)(y % 3) : 3;
+    return f->workspace->magnitude_rows + row * (DROGUE_FOURS(f->width_px) + 1) * 4 + 2;
+}
+
+static drogue_slope *slope_row(const drogue_frontend *f, int32_t y)
+{
+    return f->workspace->slope_rows + (size_t)(y & 1) * DROGUE_FOURS(f->width_px) * 4;
 }
 
 /* Suppress, threshold, label and list row y, whose magnitude is complete above and below. */
@@ -136,38 +122,27 @@ static void canny_step(drogue_frontend *f, int32_t y)
     drogue_workspace *w = f->workspace;
     size_t width = (size_t)f->width_px;
     const uint16_t *magnitude[3];
-    const int16_t *gx = w->gx_rows + (size_t)(y & 1) * width;
-    const int16_t *gy = w->gy_rows + (size_t)(y & 1) * width;
+    drogue_slope *points = slope_row(f, y);
     uint8_t *code = w->code_rows + (size_t)(y & 1) * width;
     const uint8_t *code_above = w->code_rows + (size_t)(~y & 1) * width;
     uint32_t *component = w->component_rows + (size_t)(y & 1) * width;
     uint32_t *arc = w->arc_rows + (size_t)(y & 1) * width;
-    int32_t x;
-    magnitude[0] = w->magnitude_rows + (y > 0 ? (size_t)((y - 1) % 3) : 3u) * width;
-    magnitude[1] = w->magnitude_rows + (size_t)(y % 3) * width;
-    magnitude[2] = w->magnitude_rows + (y + 1 < f->height_px ? (size_t)((y + 1) % 3) : 3u) * width;
-
-    drogue_canny_row(code, magnitude, gx, gy, f->width_px, f->config.canny_low, f->config.canny_high);
-    for (x = 0; x < f->width_px; x++) {
-        if (code[x] != DROGUE_CANNY_NONE) {
-            uint8_t c = code[x] == DROGUE_CANNY_STRONG ? CODE_CANDIDATE | CODE_STRONG : CODE_CANDIDATE;
-            if (!f->config.use_ring || drogue_mask_in_ring(&f->config.ring, x, y)) {
-                c = (uint8_t)(c | ((drogue_direction_class(gx[x], gy[x]) + 1u) << CODE_CLASS_SHIFT));
-            }
-            code[x] = c;
-        }
-    }
-    drogue_label_row(component, &f->components, w->merges, w->component_rows + (size_t)(~y & 1) * width, code,
-                     code_above, CODE_CANDIDATE, f->width_px);
-    drogue_label_row(arc, &f->arc_labels, w->merges, w->arc_rows + (size_t)(~y & 1) * width, code, code_above,
-                     CODE_CLASS_MASK, f->width_px);
-    for (x = 0; x < f->width_px; x++) {
-        if (code[x] != DROGUE_CANNY_NONE) {
-            w->component_strong[component[x]] |= code[x] & CODE_STRONG;
-            if (arc[x] != 0) {
-                w->arc_component[arc[x]] = component[x];
-                append_edge(f, magnitude, gx[x], gy[x], x, y, arc[x]);
-            }
+    uint32_t count;
+    uint32_t i;
+    magnitude[0] = magnitude_row(f, y - 1);
+    magnitude[1] = magnitude_row(f, y);
+    magnitude[2] = magnitude_row(f, y + 1);
+    count = suppress(f, code, points, magnitude, y);
+    drogue_label_points(component, &f->components, w->merges, w->component_rows + (size_t)(~y & 1) * width, code,
+                        code_above, CODE_CANDIDATE, f->width_px, points, count);
+    drogue_label_points(arc, &f->arc_labels, w->merges, w->arc_rows + (size_t)(~y & 1) * width, code, code_above,
+                        CODE_CLASS_MASK, f->width_px, points, count);
+    for (i = 0; i < count; i++) {
+        int32_t x = points[i].x;
+        w->component_strong[component[x]] |= code[x] & CODE_STRONG;
+        if (arc[x] != 0) {
+            w->arc_component[arc[x]] = component[x];
+            append_edge(f, &points[i], y, arc[x]);
         }
     }
 }
@@ -175,54 +150,72 @@ static void canny_step(drogue_frontend *f, int32_t y)
 /* Smoothed row y is there: the gradient of row y - 1 is complete above and below. */
 static void gradient_step(drogue_frontend *f, int32_t y)
 {
-    drogue_workspace *w = f->workspace;
-    size_t width = (size_t)f->width_px;
-    const uint8_t *rows[3];
+    const uint32_t *rows[3];
+    uint16_t *magnitude = magnitude_row(f, y);
     int32_t below = y + 1 < f->height_px ? y + 1 : y;
-    rows[0] = w->smooth_rows + (size_t)((y > 0 ? y - 1 : 0) % 3) * width;
-    rows[1] = w->smooth_rows + (size_t)(y % 3) * width;
-    rows[2] = w->smooth_rows + (size_t)(below % 3) * width;
-    drogue_gradient_row(w->gx_rows + (size_t)(y & 1) * width, w->gy_rows + (size_t)(y & 1) * width,
-                        w->magnitude_rows + (size_t)(y % 3) * width, rows, f->width_px);
+    rows[0] = smooth_row(f, y > 0 ? y - 1 : 0);
+    rows[1] = smooth_row(f, y);
+    rows[2] = smooth_row(f, below);
+    f->slope_count[y & 1] =
+        drogue_gradient_lanes_row(slope_row(f, y), magnitude, rows, f->width_px, f->config.canny_low);
+    magnitude[-1] = 0;
+    magnitude[f->width_px] = 0;
     if (y > 0) {
         canny_step(f, y - 1);
     }
 }
 
-static void smooth_step(drogue_frontend *f, int32_t y)
+/* Smoothed row y is complete but for its border, which is replicated. */
+static void smoothed(drogue_frontend *f, int32_t y)
 {
-    drogue_workspace *w = f->workspace;
-    size_t width = (size_t)f->width_px;
-    const uint8_t *rows[5];
-    int32_t k;
-    for (k = 0; k < 5; k++) {
-        rows[k] = w->raw_rows + (size_t)(drogue_reflect_101(y + k - 2, f->height_px) % 5) * width;
-    }
-    drogue_smooth_row(w->smooth_rows + (size_t)(y % 3) * width, w->column, rows, f->width_px);
+    uint32_t *row = smooth_row(f, y);
+    drogue_lanes_set(row, -1, drogue_lanes_get(row, 0));
+    drogue_lanes_set(row, f->width_px, drogue_lanes_get(row, f->width_px - 1));
     if (y > 0) {
         gradient_step(f, y - 1);
     }
 }
 
+static void smooth_step(drogue_frontend *f, int32_t y)
+{
+    const uint32_t *rows[5];
+    int32_t k;
+    for (k = 0; k < 5; k++) {
+        rows[k] = (const uint32_t *)(const void *)(raw_row(f, drogue_reflect_101(y + k - 2, f->height_px)) - 2);
+    }
+    drogue_smooth_lanes_row(smooth_row(f, y), rows, (f->width_px + 3) / 4);
+    smoothed(f, y);
+}
+
+/* Put the border of a raw row in its place, reflected. */
+static void reflect_border(uint8_t *row, int32_t width_px)
+{
+    int32_t k;
+    for (k = 1; k <= 2; k++) {
+        row[-k] = row[drogue_reflect_101(-k, width_px)];
+        row[width_px - 1 + k] = row[drogue_reflect_101(width_px - 1 + k, width_px)];
+    }
+}
+
 void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
 {
-    drogue_workspace *w = frontend->workspace;
-    size_t width = (size_t)frontend->width_px;
     int32_t y = frontend->rows_in;
     if (y >= frontend->height_px) {
         return;
     }
     frontend->rows_in++;
     if (frontend->config.smooth) {
-        memcpy(w->raw_rows + (size_t)(y % 5) * width, row, width);
+        uint8_t *raw = raw_row(frontend, y);
+        memcpy(raw, row, (size_t)frontend->width_px);
+        reflect_border(raw, frontend->width_px);
         if (y >= 2) {
             smooth_step(frontend, y - 2);
         }
     } else {
-        memcpy(w->smooth_rows + (size_t)(y % 3) * width, row, width);
-        if (y >= 1) {
-            gradient_step(frontend, y - 1);
-        }
+        uint8_t *raw = raw_row(frontend, 0) - 2;
+        memcpy(raw, row, (size_t)frontend->width_px);
+        drogue_lanes_row(smooth_row(frontend, y), (const uint32_t *)(const void *)raw, (frontend->width_px + 3) / 4);
+        smoothed(frontend, y);
     }
 }
 

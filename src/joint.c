@@ -419,6 +419,16 @@ static int small(const wide step[FIT_PARAMETERS], const state *s)
     return 1;
 }
 
+static wide square_sum(const wide *v, int count)
+{
+    wide sum = integer(0);
+    int i;
+    for (i = 0; i < count; i++) {
+        sum = add(sum, mul(v[i], v[i]));
+    }
+    return sum;
+}
+
 static void start_from(state *s, const drogue_pose *pose)
 {
     int k;
@@ -457,7 +467,6 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
     drogue_status status;
     int last = 0;
     int step;
-    int i;
     memcpy(root, outline->covariance, sizeof root);
     status = drogue_cholesky_factor(root, FIT_PARAMETERS);
     ray_frame_of(&frame, &outline->ellipse, camera, model->rim_radius_m_q16);
@@ -467,10 +476,13 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
         if (status == DROGUE_OK) {
             status = normal_equations(normal, right, &e);
         }
+        if (status != DROGUE_OK) {
+            return status;
+        }
         last = step == steps;
-        if (status == DROGUE_OK && !last) {
+        if (steps > 0) {
             drogue_cholesky_solve(right, normal, FIT_PARAMETERS);
-            last = small(right, &s);
+            last = last || small(right, &s);
             move(&s, right);
         }
     }
@@ -478,10 +490,8 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
         return status;
     }
     drogue_cholesky_invert(out->covariance, normal, FIT_PARAMETERS);
-    out->chi2 = integer(0);
-    for (i = 0; i < e.rows; i++) {
-        out->chi2 = add(out->chi2, mul(e.residual[i], e.residual[i]));
-    }
+    out->chi2 = square_sum(e.residual, e.rows);
+    turn_axis(&s);
     return finish(&out->pose, &s);
 }
 

@@ -11,22 +11,27 @@ static int packed(int i, int j)
     return at[i][j];
 }
 
+void drogue_kalman_restart(drogue_kalman *filter, int parameter, drogue_q16 value_q16, const drogue_q16 std_q16[3])
+{
+    const drogue_wide zero = {0, 0};
+    drogue_kalman3 *f = &filter->parameter[parameter];
+    int k;
+    for (k = 0; k < 6; k++) {
+        f->covariance[k] = zero;
+    }
+    for (k = 0; k < 3; k++) {
+        drogue_wide s = drogue_wide_from_q16(std_q16[k]);
+        f->state[k] = k == 0 ? drogue_wide_from_q16(value_q16) : zero;
+        f->covariance[packed(k, k)] = drogue_wide_mul(s, s);
+    }
+}
+
 void drogue_kalman_init(drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
                         const drogue_q16 std_q16[DROGUE_PARAMETERS][3])
 {
-    const drogue_wide zero = {0, 0};
     int p;
-    int k;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        drogue_kalman3 *f = &filter->parameter[p];
-        for (k = 0; k < 6; k++) {
-            f->covariance[k] = zero;
-        }
-        for (k = 0; k < 3; k++) {
-            drogue_wide s = drogue_wide_from_q16(std_q16[p][k]);
-            f->state[k] = k == 0 ? drogue_wide_from_q16(value_q16[p]) : zero;
-            f->covariance[packed(k, k)] = drogue_wide_mul(s, s);
-        }
+        drogue_kalman_restart(filter, p, value_q16[p], std_q16[p]);
     }
 }
 
@@ -79,6 +84,13 @@ static drogue_wide wrap(drogue_wide angle)
     return drogue_wide_sub(angle, drogue_wide_mul(drogue_wide_from_s64(turns, 0), two_pi));
 }
 
+/* Measured less predicted value. */
+static drogue_wide innovation_of(const drogue_kalman *filter, int p, drogue_q16 value_q16)
+{
+    drogue_wide d = drogue_wide_sub(drogue_wide_from_q16(value_q16), filter->parameter[p].state[0]);
+    return p == DROGUE_PITCH || p == DROGUE_YAW ? wrap(d) : d;
+}
+
 void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
                            const drogue_q16 std_q16[DROGUE_PARAMETERS])
 {
@@ -87,15 +99,12 @@ void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DRO
         drogue_kalman3 *f = &filter->parameter[p];
         drogue_wide s = drogue_wide_from_q16(std_q16[p]);
         drogue_wide innovation_variance = drogue_wide_add(f->covariance[0], drogue_wide_mul(s, s));
-        drogue_wide innovation = drogue_wide_sub(drogue_wide_from_q16(value_q16[p]), f->state[0]);
+        drogue_wide innovation = innovation_of(filter, p, value_q16[p]);
         drogue_wide first[3]; /* first row of the covariance: P H' */
         drogue_wide gain[3];
         drogue_wide shrink;
         int i;
         int j;
-        if (p == DROGUE_PITCH || p == DROGUE_YAW) {
-            innovation = wrap(innovation);
-        }
         for (i = 0; i < 3; i++) {
             first[i] = f->covariance[packed(0, i)];
             gain[i] = drogue_wide_div(first[i], innovation_variance);
@@ -124,4 +133,34 @@ void drogue_kalman_state(drogue_q16 out_q16[DROGUE_PARAMETERS], const drogue_kal
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         out_q16[p] = drogue_wide_to_q16(filter->parameter[p].state[k]);
     }
+}
+
+void drogue_kalman_std(int64_t out_q32[DROGUE_PARAMETERS], const drogue_kalman *filter)
+{
+    int p;
+    for (p = 0; p < DROGUE_PARAMETERS; p++) {
+        out_q32[p] = drogue_wide_to_s64(drogue_wide_sqrt(filter->parameter[p].covariance[0]), 32);
+    }
+}
+
+drogue_wide drogue_kalman_distance2(const drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
+                                    const drogue_wide noise[DROGUE_PACKED_MAX], int n)
+{
+    drogue_wide innovation[DROGUE_PARAMETERS];
+    drogue_wide covariance[DROGUE_PACKED_MAX];
+    drogue_wide sum = {0, 0};
+    int p;
+    for (p = 0; p < n * (n + 1) / 2; p++) {
+        covariance[p] = noise[p];
+    }
+    for (p = 0; p < n; p++) {
+        drogue_wide *own = &covariance[DROGUE_PACKED(p, p)];
+        *own = drogue_wide_add(*own, filter->parameter[p].covariance[0]);
+        innovation[p] = innovation_of(filter, p, value_q16[p]);
+        sum = drogue_wide_add(sum, drogue_wide_div(drogue_wide_mul(innovation[p], innovation[p]), *own));
+    }
+    if (drogue_cholesky_factor(covariance, n) != DROGUE_OK) {
+        return sum;
+    }
+    return drogue_cholesky_square(innovation, covariance, n);
 }

@@ -7,12 +7,12 @@
 #include "drogue/ellipse.h"
 #include "drogue/undistort.h"
 
-#define EDGE_FRAC 5                     /* edge points are Q5 */
-#define LOOKS 512                       /* a candidate is scored by so many edge points, evenly taken */
-#define TRIES 3                         /* candidates refined before the best of them is taken */
+#define EDGE_FRAC 5                        /* edge points are Q5 */
+#define LOOKS 512                          /* a candidate is scored by so many edge points, evenly taken */
+#define TRIES 3                            /* candidates refined before the best of them is taken */
 #define GOOD_COVER_Q16 DROGUE_Q16(3, 4)    /* no further try */
 #define ENOUGH_COVER_Q16 DROGUE_Q16(9, 10) /* no further candidate */
-#define SETTLED_Q16 DROGUE_Q16(1, 256)     /* px: an ellipse that a refit moves by less has settled */
+#define SETTLED_Q16 DROGUE_Q16(1, 64)     /* px: an ellipse that a refit moves by less has settled */
 
 /* The candidates' arcs, and what each of them sums to. */
 typedef struct arc_set {
@@ -77,10 +77,10 @@ static drogue_band band_about(const drogue_ellipse *e, drogue_q16 share_q16, con
 {
     const drogue_q16 wide = drogue_q16_mul(e->a_px_q16, share_q16);
     const drogue_q16 most = DROGUE_Q16(8, 1);
-    drogue_band band;
-    band.half_width_px_q16 = config->refit_band_px_q16 > wide ? config->refit_band_px_q16 : wide > most ? most : wide;
-    band.cos_q16 = config->refit_cos_q16;
-    return band;
+    return drogue_band_of(config->refit_band_px_q16 > wide ? config->refit_band_px_q16
+                          : wide > most                    ? most
+                                                           : wide,
+                          config->refit_cos_q16);
 }
 
 /* Everything that a candidate is made of and scored with. */
@@ -142,8 +142,7 @@ static int try_arcs(drogue_candidate *out, const arc_set *set, const uint8_t cho
 
 /* The first arcs of all quadrants together; unless they cover enough, all pairs of arcs from two quadrants too. Returns
  * how many candidates there are. */
-static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const arc_set *set,
-                               const context *c)
+static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const arc_set *set, const context *c)
 {
     uint8_t chosen[4];
     uint32_t count;
@@ -276,7 +275,7 @@ static void narrow(drogue_band *band, const drogue_support *support, const drogu
         drogue_shr_round_s64(3 * (int64_t)drogue_isqrt_u64((uint64_t)variance_q32) * e->a_px_q16, 16);
     const drogue_q16 least = config->refit_band_px_q16 / 3 + 1;
     if (spread_px_q16 < band->half_width_px_q16) {
-        band->half_width_px_q16 = spread_px_q16 < least ? least : (drogue_q16)spread_px_q16;
+        *band = drogue_band_of(spread_px_q16 < least ? least : (drogue_q16)spread_px_q16, config->refit_cos_q16);
     }
 }
 
@@ -397,7 +396,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
                                          const drogue_config *config, const drogue_camera *camera, int32_t x_px,
                                          int32_t y_px)
 {
-    const drogue_band band = {outline->band_px_q16, config->refit_cos_q16};
+    const drogue_band band = drogue_band_of(outline->band_px_q16, config->refit_cos_q16);
     drogue_support support = outline->support;
     drogue_ellipse_frame frame;
     drogue_ellipse centre = outline->ellipse;

@@ -67,6 +67,15 @@ drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q1
     return drogue_sat_s32(drogue_shr_round_s64(d_q48 < 0 ? -d_q48 : d_q48, 32));
 }
 
+drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16)
+{
+    drogue_band band;
+    band.half_width_px_q16 = half_width_px_q16;
+    band.width2_px2_q24 = (int32_t)drogue_shr_round_s64((int64_t)half_width_px_q16 * half_width_px_q16, 8);
+    band.cos2_q10 = (uint32_t)drogue_shr_round_s64((int64_t)cos_q16 * cos_q16, 22);
+    return band;
+}
+
 int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
                               drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy)
 {
@@ -75,10 +84,9 @@ int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame
     int32_t nx_q14;
     int32_t ny_q14;
     int32_t n2_q28;
-    int32_t width2_q24;
+    int32_t n2_q20;
     int32_t along;
-    int32_t g2;
-    int32_t cos2_q10;
+    uint32_t g2;
     drogue_ellipse_frame_point(&out->u_q24, &out->v_q24, frame, x_px_q16, y_px_q16);
     f_q24 = drogue_shr_round_s64(conic_q48(out->u_q24, out->v_q24), 24);
     if (f_q24 > (INT64_C(1) << 24) || f_q24 < -(INT64_C(3) << 22)) {
@@ -98,18 +106,17 @@ int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame
     n2_q28 = nx_q14 * nx_q14 + ny_q14 * ny_q14;
     /* |F| / |grad F| <= t  <=>  (F b)^2 <= 4 t^2 n^2 */
     DROGUE_NOTE("quality: squared normal, Q28", n2_q28, 30);
-    width2_q24 = (int32_t)drogue_shr_round_s64((int64_t)band->half_width_px_q16 * band->half_width_px_q16, 8);
-    if ((int64_t)f_b_px_q16 * f_b_px_q16 >
-        drogue_shr_round_s64((int64_t)width2_q24 * drogue_shr_round_s64(n2_q28, 8), 10)) {
+    n2_q20 = (n2_q28 + 128) >> 8;
+    if ((int64_t)f_b_px_q16 * f_b_px_q16 > drogue_shr_round_s64((int64_t)band->width2_px2_q24 * n2_q20, 10)) {
         return 0;
     }
     along = gx * nx_q14 + gy * ny_q14;
     out->polarity = along > 0 ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
-    g2 = gx * gx + gy * gy;
+    g2 = (uint32_t)(gx * gx + gy * gy);
     DROGUE_NOTE("quality: gradient along normal", along, 26);
-    DROGUE_NOTE("quality: squared gradient times squared normal", (int64_t)g2 * n2_q28, 52);
-    cos2_q10 = (int32_t)drogue_shr_round_s64((int64_t)band->cos_q16 * band->cos_q16, 22);
-    return along != 0 && (int64_t)along * along * 1024 >= cos2_q10 * ((int64_t)g2 * n2_q28);
+    DROGUE_NOTE("quality: squared gradient times squared cosine, Q10", band->cos2_q10 * g2, 32);
+    return along != 0 &&
+           (uint64_t)((int64_t)along * along) * 1024 >= (uint64_t)(band->cos2_q10 * g2) * (uint32_t)n2_q28;
 }
 
 drogue_q16 drogue_quality_threshold(const drogue_ellipse *ellipse, drogue_q16 fit_error_px_q16)

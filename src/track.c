@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Tracking: where to look next, and what to believe when a frame is missed. */
+/* Tracking: where to look next, and what the filter says. What to believe is in track_end.c. */
 #include "drogue/track.h"
 
 #include <string.h>
@@ -18,17 +18,24 @@ const char *drogue_track_state_name(drogue_track_state state)
 
 void drogue_track_config_default(drogue_track_config *config)
 {
-    int p;
     config->max_missed = 10;
+    config->agree_frames = 4;
+    config->gate_q16 = DROGUE_Q16(20515, 1000);
+    config->position_gate_q16 = DROGUE_Q16(16266, 1000);
     config->region_scale_q16 = DROGUE_Q16(5, 2);
+    config->region_sigmas_q16 = DROGUE_Q16(3, 1);
     config->min_region_px = 32;
     config->max_region_px = DROGUE_MAX_SIDE;
     config->lateral_std_q16 = DROGUE_Q16(5, 10000);
     config->depth_std_q16 = DROGUE_Q16(2, 1000);
     config->angle_std_rad_q16 = DROGUE_Q16(2, 100);
-    for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        config->process_std_q16[p] = DROGUE_Q16(2, 10);
-    }
+    config->position_floor_m_q16 = DROGUE_Q16(1, 10000);
+    config->angle_floor_rad_q16 = DROGUE_Q16(5, 10000);
+    config->process_std_q16[DROGUE_X] = DROGUE_Q16(1, 4);
+    config->process_std_q16[DROGUE_Y] = DROGUE_Q16(1, 4);
+    config->process_std_q16[DROGUE_Z] = DROGUE_Q16(2, 100);
+    config->process_std_q16[DROGUE_PITCH] = DROGUE_Q16(4, 100);
+    config->process_std_q16[DROGUE_YAW] = DROGUE_Q16(4, 100);
     config->start_rate_std_q16 = DROGUE_Q16(2, 1);
     config->start_accel_std_q16 = DROGUE_Q16(2, 1);
 }
@@ -40,7 +47,10 @@ void drogue_track_init(drogue_track *track, const drogue_track_config *config, c
     track->config = *config;
     track->camera = *camera;
     track->model = *model;
-    track->first_region = *first_region;
+    if (first_region != NULL) {
+        track->first_region = *first_region;
+    }
+    track->reach = track->first_region;
     track->state = DROGUE_LOST;
 }
 
@@ -65,10 +75,24 @@ static drogue_q16 wrap_q16(drogue_q16 angle)
     return (drogue_q16)(angle - turn * drogue_floor_div_s64((int64_t)angle + DROGUE_Q16_PI, turn));
 }
 
+/* Root of yaw's variance times cos^2 pitch plus pitch's variance. */
+static int64_t axis_std(int64_t yaw_std_q32, int64_t pitch_std_q32, drogue_q16 pitch_rad_q16)
+{
+    const drogue_wide pitch = drogue_wide_from_s64(pitch_std_q32, -32);
+    drogue_wide yaw = drogue_wide_from_s64(yaw_std_q32, -32);
+    int32_t s_q30;
+    int32_t c_q30;
+    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(pitch_rad_q16, 13));
+    yaw = drogue_wide_mul(yaw, drogue_wide_from_s64(c_q30, -30));
+    return drogue_wide_to_s64(
+        drogue_wide_sqrt(drogue_wide_add(drogue_wide_mul(yaw, yaw), drogue_wide_mul(pitch, pitch))), 32);
+}
+
 void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
 {
     drogue_q16 value[DROGUE_PARAMETERS];
     drogue_q16 rate[DROGUE_PARAMETERS];
+    int64_t std[DROGUE_PARAMETERS];
     int k;
     memset(out, 0, sizeof *out);
     if (track->state == DROGUE_LOST) {
@@ -76,23 +100,64 @@ void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
     }
     drogue_kalman_state(value, &track->filter, 0);
     drogue_kalman_state(rate, &track->filter, 1);
+    drogue_kalman_std(std, &track->filter);
     for (k = 0; k < 3; k++) {
         out->position_m_q16[k] = value[k];
         out->velocity_mps_q16[k] = rate[k];
+        out->position_std_m_q32[k] = std[k];
     }
     out->yaw_rad_q16 = wrap_q16(value[DROGUE_YAW]);
     out->pitch_rad_q16 = wrap_q16(value[DROGUE_PITCH]);
     axis_of(out->axis_q16, out->yaw_rad_q16, out->pitch_rad_q16);
+    out->orientation_resolved = track->orientation_known;
+    out->yaw_std_rad_q32 = std[DROGUE_YAW];
+    out->pitch_std_rad_q32 = std[DROGUE_PITCH];
+    out->axis_std_rad_q32 = axis_std(std[DROGUE_YAW], std[DROGUE_PITCH], out->pitch_rad_q16);
 }
 
-/* Square region about the predicted outline; 0 when the prediction cannot be seen. */
-static int predicted_region(drogue_region *region, const drogue_track *track)
+/* Square about a point; a side beyond the limits is brought within. */
+static void square_about(drogue_region *region, drogue_q16 x_px_q16, drogue_q16 y_px_q16, int64_t side_px,
+                         const drogue_track_config *config)
 {
+    if (side_px < config->min_region_px) {
+        side_px = config->min_region_px;
+    }
+    if (side_px > config->max_region_px) {
+        side_px = config->max_region_px;
+    }
+    region->width_px = (int32_t)side_px;
+    region->height_px = (int32_t)side_px;
+    region->x_px = (int32_t)(drogue_shr_round_s64(x_px_q16, 16) - side_px / 2);
+    region->y_px = (int32_t)(drogue_shr_round_s64(y_px_q16, 16) - side_px / 2);
+}
+
+/* How far the outline may lie from where it is predicted, in semi-axes: region_sigmas standard deviations of the
+ * lateral position over the rim's radius, and of the depth over itself. */
+static drogue_wide predicted_spread(const drogue_track_estimate *e, const drogue_track *track)
+{
+    const int64_t lateral_q32 =
+        e->position_std_m_q32[0] > e->position_std_m_q32[1] ? e->position_std_m_q32[0] : e->position_std_m_q32[1];
+    const drogue_wide aside =
+        drogue_wide_div(drogue_wide_from_s64(lateral_q32, -32), drogue_wide_from_q16(track->model.rim_radius_m_q16));
+    const drogue_wide away = drogue_wide_div(drogue_wide_from_s64(e->position_std_m_q32[2], -32),
+                                             drogue_wide_from_q16(e->position_m_q16[2]));
+    return drogue_wide_mul(drogue_wide_from_q16(track->config.region_sigmas_q16), drogue_wide_add(aside, away));
+}
+
+/* Regions about the predicted outline; 0 when the prediction cannot be seen.
+ * What drogue_measure() bears at a side of 2.5 semi-axes: an outline 0.4 semi-axes away from the middle, and at that a
+ * side a tenth larger. */
+static int predicted_region(drogue_region *region, drogue_track *track)
+{
+    const drogue_wide most = drogue_wide_from_q16(DROGUE_Q16(4, 10));
+    const drogue_wide scale = drogue_wide_from_q16(track->config.region_scale_q16);
     drogue_track_estimate estimate;
     drogue_pose pose;
+    drogue_wide semi_axis_px;
+    drogue_wide spread;
+    drogue_wide grown;
     drogue_q16 x;
     drogue_q16 y;
-    int64_t side_px;
     memset(&pose, 0, sizeof pose);
     drogue_track_get(&estimate, track);
     memcpy(pose.position_m_q16, estimate.position_m_q16, sizeof pose.position_m_q16);
@@ -100,90 +165,76 @@ static int predicted_region(drogue_region *region, const drogue_track *track)
         (drogue_camera_distorts(&track->camera) && drogue_distort_point(&x, &y, &track->camera) != DROGUE_OK)) {
         return 0;
     }
-    side_px = drogue_wide_to_s64(drogue_wide_mul(drogue_wide_mul(drogue_wide_from_q16(track->config.region_scale_q16),
-                                                                 drogue_wide_from_q16(track->camera.fx_px_q16)),
-                                                 drogue_wide_div(drogue_wide_from_q16(track->model.rim_radius_m_q16),
-                                                                 drogue_wide_from_q16(pose.position_m_q16[2]))),
-                                 0);
-    if (side_px < track->config.min_region_px) {
-        side_px = track->config.min_region_px;
-    }
-    if (side_px > track->config.max_region_px) {
-        side_px = track->config.max_region_px;
-    }
-    region->width_px = (int32_t)side_px;
-    region->height_px = (int32_t)side_px;
-    region->x_px = (int32_t)(drogue_shr_round_s64(x, 16) - side_px / 2);
-    region->y_px = (int32_t)(drogue_shr_round_s64(y, 16) - side_px / 2);
+    semi_axis_px = drogue_wide_mul(drogue_wide_from_q16(track->camera.fx_px_q16),
+                                   drogue_wide_div(drogue_wide_from_q16(track->model.rim_radius_m_q16),
+                                                   drogue_wide_from_q16(pose.position_m_q16[2])));
+    spread = predicted_spread(&estimate, track);
+    track->search = drogue_wide_cmp(spread, most) > 0;
+    grown = drogue_wide_add(scale, drogue_wide_scale(spread, 1));
+    square_about(&track->reach, x, y, drogue_wide_to_s64(drogue_wide_mul(grown, semi_axis_px), 0), &track->config);
+    grown = drogue_wide_mul(track->search ? most : spread, drogue_wide_from_q16(DROGUE_Q16(1, 4)));
+    grown = drogue_wide_mul(scale, drogue_wide_add(drogue_wide_from_q16(DROGUE_Q16_ONE), grown));
+    square_about(region, x, y, drogue_wide_to_s64(drogue_wide_mul(grown, semi_axis_px), 0), &track->config);
     return 1;
 }
 
 void drogue_track_begin(drogue_region *region, drogue_track *track, uint32_t dt_us)
 {
-    *region = track->first_region;
+    track->gated = 0;
+    if (track->agreeing > 0) {
+        drogue_kalman_predict(&track->second, dt_us, track->config.process_std_q16);
+    }
     if (track->state != DROGUE_LOST) {
         drogue_kalman_predict(&track->filter, dt_us, track->config.process_std_q16);
-        if (!predicted_region(region, track)) {
-            track->state = DROGUE_LOST;
+        if (predicted_region(region, track)) {
+            return;
         }
+        track->state = DROGUE_LOST;
+        track->agreeing = 0;
     }
+    *region = track->first_region;
+    track->reach = track->first_region;
+    track->search = track->first_region.width_px <= 0;
 }
 
-/* The pose to believe: the measured choice, or without one the pose nearer to the predicted axis. */
-static const drogue_pose *believed_pose(const drogue_track *track, const drogue_result *result)
+/* May a search's find start a track? Its inner part decided, or was at least seen within a good outline. */
+static int looks_whole(const drogue_result *result)
 {
-    drogue_track_estimate estimate;
-    int64_t first = 0;
-    int64_t second = 0;
-    int k;
-    if (result->orientation_resolved || track->state == DROGUE_LOST) {
-        return &result->pose;
-    }
-    drogue_track_get(&estimate, track);
-    for (k = 0; k < 3; k++) {
-        first += (int64_t)estimate.axis_q16[k] * result->pose.axis_q16[k];
-        second += (int64_t)estimate.axis_q16[k] * result->alternative.axis_q16[k];
-    }
-    return second > first ? &result->alternative : &result->pose;
+    return result->orientation_resolved || (result->has_inner && result->cover_q16 >= DROGUE_Q16(3, 4));
 }
 
-static drogue_q16 at_least_one(drogue_q16 v) { return v < 1 ? 1 : v; }
-
-drogue_track_state drogue_track_end(drogue_track *track, const drogue_result *result)
+/* Look where the drogue is expected, then where it may be. 1 when a search found it. */
+static int look(drogue_result *result, const drogue_region *region, const drogue_track *track,
+                drogue_workspace *workspace, drogue_search *search, const drogue_config *config,
+                const drogue_image *image)
 {
-    const drogue_track_config *c = &track->config;
-    const drogue_pose *pose;
-    drogue_q16 value[DROGUE_PARAMETERS];
-    drogue_q16 std[DROGUE_PARAMETERS];
-    int p;
-    if (result->status != DROGUE_OK) {
-        track->missed++;
-        if (track->state != DROGUE_LOST) {
-            track->state = track->missed > c->max_missed ? DROGUE_LOST : DROGUE_COASTING;
-        }
+    const int lost = track->state == DROGUE_LOST;
+    drogue_result found;
+    memset(result, 0, sizeof *result);
+    result->status = DROGUE_E_REGION;
+    if (region->width_px > 0) {
+        (void)drogue_measure(result, workspace, config, &track->camera, &track->model, image, region);
+    }
+    if (result->status == DROGUE_OK || (!lost && !track->search)) {
+        return 0;
+    }
+    (void)drogue_acquire(&found, search, workspace, config, &track->camera, &track->model, image,
+                         lost ? NULL : &track->reach);
+    if (found.status == DROGUE_OK || region->width_px <= 0) {
+        *result = found;
+        return 1;
+    }
+    return 0;
+}
+
+drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *region, drogue_track *track,
+                                      drogue_workspace *workspace, drogue_search *search, const drogue_config *config,
+                                      const drogue_image *image, uint32_t dt_us)
+{
+    drogue_track_begin(region, track, dt_us);
+    if (look(result, region, track, workspace, search, config, image) && track->state == DROGUE_LOST &&
+        track->model.inner_radius_m_q16 > 0 && !looks_whole(result)) {
         return track->state;
     }
-    pose = believed_pose(track, result);
-    value[DROGUE_X] = pose->position_m_q16[0];
-    value[DROGUE_Y] = pose->position_m_q16[1];
-    value[DROGUE_Z] = pose->position_m_q16[2];
-    value[DROGUE_PITCH] = pose->pitch_rad_q16;
-    value[DROGUE_YAW] = pose->yaw_rad_q16;
-    std[DROGUE_X] = std[DROGUE_Y] = at_least_one(drogue_q16_mul(c->lateral_std_q16, value[DROGUE_Z]));
-    std[DROGUE_Z] = at_least_one(drogue_q16_mul(c->depth_std_q16, value[DROGUE_Z]));
-    std[DROGUE_PITCH] = std[DROGUE_YAW] = at_least_one(c->angle_std_rad_q16);
-    if (track->state == DROGUE_LOST) {
-        drogue_q16 start[DROGUE_PARAMETERS][3];
-        for (p = 0; p < DROGUE_PARAMETERS; p++) {
-            start[p][0] = std[p];
-            start[p][1] = c->start_rate_std_q16;
-            start[p][2] = c->start_accel_std_q16;
-        }
-        drogue_kalman_init(&track->filter, value, (const drogue_q16(*)[3])start);
-    } else {
-        drogue_kalman_correct(&track->filter, value, std);
-    }
-    track->missed = 0;
-    track->state = DROGUE_TRACKING;
-    return track->state;
+    return drogue_track_end(track, result);
 }

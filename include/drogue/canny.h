@@ -55,6 +55,16 @@ static inline void drogue_canny_neighbours(int32_t *before, int32_t *after, drog
     *after = x + dx >= 0 && x + dx < width_px ? magnitude[1 + dy][x + dx] : 0;
 }
 
+/* The same where the rows bring a 0 on both sides. */
+static inline void drogue_canny_padded_neighbours(int32_t *before, int32_t *after, drogue_sector sector,
+                                                  const uint16_t *const magnitude[3], int32_t x)
+{
+    int32_t dx = drogue_canny_step_x(sector);
+    int32_t dy = drogue_canny_step_y(sector);
+    *before = magnitude[1 - dy][x - dx];
+    *after = magnitude[1 + dy][x + dx];
+}
+
 /* Is m a maximum across the edge?  before: left or the neighbour in the row above (above itself for the
  * vertical sector); after: the opposite one. Magnitudes outside the image are 0. */
 static inline int drogue_canny_is_maximum(drogue_sector sector, int32_t before, int32_t m, int32_t after)

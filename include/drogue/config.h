@@ -37,19 +37,19 @@ typedef struct drogue_config {
     drogue_q16
         recentre_cover_q16; /* 0.85: an outline covered less than this that the ring mask cuts is looked for again
                                       in a region about it; 0: never */
-    drogue_q16 optics_blur_px_q16; /* 0 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
+    drogue_q16 optics_blur_px_q16; /* 0.6 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
                                       draws a curved edge inward, which is put back (outline.h) */
     uint32_t min_dark_area_px;     /* 9 px: smaller dark parts are noise */
     drogue_q16 inner_gate_q16;     /* 0.25: the inner part is believed when it lies within this share of the major
                                       semi-axis of where a pose expects it */
-    drogue_q16 min_fill_q16;       /* 0.7, 1.4: and when its area over the expected disc's is between these */
+    drogue_q16 min_fill_q16;       /* 0.75, 1.25: and when its area over the expected disc's is between these */
     drogue_q16 max_fill_q16;
     drogue_q16 outline_shading_q16; /* 3.8 px grey * 8: error of the outline that its own residuals cannot show, over
                                        the gradient along it (joint.h) */
     drogue_q16 optics_blur_std_px2_q16; /* 0.12 px^2: uncertainty of half the variance of the optics' blur */
-    drogue_q16 inner_std_px_q16;        /* 0.04 px: standard deviation of the inner centroid, */
-    drogue_q16 inner_std_share_q16;     /* 0.003: and what its size adds, as a share of the disc's semi-axis */
-    drogue_q16 inner_std_spread_q16;    /* 1: and what its spread over thresholds adds, as a factor */
+    drogue_q16 inner_std_px_q16;        /* 0.03 px: standard deviation of the inner centroid, */
+    drogue_q16 inner_std_share_q16;     /* 0.002: and what its size adds, as a share of the disc's semi-axis */
+    drogue_q16 inner_std_spread_q16;    /* 0.5: and what its spread over thresholds adds, as a factor */
     drogue_q16 max_chi2_q16;            /* 16: outline and inner part contradict each other above this */
     drogue_q16 min_chi2_gap_q16;        /* 9: the orientation is resolved when the other pose is worse by so much */
 } drogue_config;
@@ -57,7 +57,8 @@ typedef struct drogue_config {
 void drogue_config_default(drogue_config *config);
 
 /* 1 when every threshold is within its range: counts and lengths not negative, fit_error to 1024 px, low <= high, shares in [0, 1],
- * refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px, k1 in [0, 64], k2 in [0, 1). */
+ * refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px and its uncertainty in [0, 16] px^2, min_fill <=
+ * max_fill, outline_shading in (0, 1024], inner_std in (0, 16] px, inner_std_spread in [0, 16], k1 in [0, 64], k2 in [0, 1). */
 int drogue_config_valid(const drogue_config *config);
 
 #ifdef __cplusplus

@@ -53,7 +53,7 @@ typedef struct drogue_result {
     drogue_ellipse ellipse;       /* outline of the end plane, as seen (distorted) */
     drogue_ellipse ideal;         /* the same without distortion: what the pose is computed from */
     drogue_quality quality;       /* of the fit of the arcs */
-    drogue_polarity polarity;     /* DARK or BRIGHT: the outline's inside against its outside */
+    drogue_polarity polarity;     /* DARK or BRIGHT: the outline's inside against its outside; BOTH: it changes */
     uint32_t cluster_members;     /* candidates that agree with the winner, itself included */
     uint32_t refit_points;        /* points in the final fit */
     drogue_q16 cover_q16;         /* edge points that belong to the outline over its circumference, at most 1 */
@@ -61,7 +61,7 @@ typedef struct drogue_result {
     drogue_dark_part inner;       /* its centroid, as seen; meaningful when has_inner */
     drogue_pose pose;             /* the pose chosen, or the first of the two */
     drogue_pose alternative;      /* the other */
-    int32_t orientation_resolved; /* 1: the inner centre decided between the two */
+    int32_t orientation_resolved; /* 1: the inner part decided between the two */
     drogue_q16 ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 without one */
     int64_t covariance_q48[5][5];  /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric */
     int64_t position_std_m_q32[3]; /* roots of its first three diagonal entries, Q32 */

@@ -31,6 +31,21 @@ void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y);
 /* Add the moments of another set about the same origin in the same units. */
 void drogue_moments_add(drogue_moments *m, const drogue_moments *other);
 
+/* Scatter matrix of the monomials 1, x, y, x^2, xy, y^2 about the points' centre, packed by rows of its lower triangle
+ * (cholesky.h); x and y have changed roles where the return value is 1, so that x has the larger spread.
+ *
+ *  centre  out, mean of x and of y, rounded
+ *  m       n >= 1
+ */
+int drogue_moments_scatter(drogue_wide scatter[21], int64_t centre[2], const drogue_moments *m);
+
+/* Centre, semi-axes and angle of a conic about 'centre'; its unit is 2^-frac_bits px.
+ *
+ *  q       coefficients of 1, x, y, x^2, xy, y^2; those of x^2 and y^2 positive in sum
+ *  return  DROGUE_OK, DROGUE_E_DEGENERATE (no ellipse, or one whose parameters leave Q16)
+ */
+drogue_status drogue_conic_ellipse(drogue_ellipse *out, const drogue_wide q[6], const int64_t centre[2], int frac_bits);
+
 /* Fit an ellipse to summed moments.
  *
  *  out        centre, semi-axes, angle of the major axis; 0 for the angle of a circle

@@ -95,6 +95,12 @@ static inline drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b)
     return drogue_sat_s32(drogue_shr_round_s64((int64_t)a * b, 16));
 }
 
+/* a^2 + b^2, exact. */
+static inline uint64_t drogue_square_sum(int32_t a, int32_t b)
+{
+    return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b);
+}
+
 /* floor(num / den) for den > 0. */
 static inline int64_t drogue_floor_div_s64(int64_t num, int64_t den)
 {

@@ -40,11 +40,14 @@ typedef struct drogue_point {
     int32_t y;
 } drogue_point;
 
+#define DROGUE_FOURS(width_px) (((size_t)(width_px) + 3u) / 4u) /* words that hold a row of pixels */
+
 /* Bytes of memory for a workspace: usable in a static array's size. */
-#define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                             \
-    ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels)*16u + \
-     DROGUE_HULL_MAX * sizeof(drogue_point) + 256u * 4u +                                                 \
-     (size_t)(width_px) * (sizeof(drogue_merge) + 16u + 18u + 10u))
+#define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                  \
+    ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels)*16u +      \
+     DROGUE_HULL_MAX * sizeof(drogue_point) + 256u * 4u + (size_t)(width_px) * (sizeof(drogue_merge) + 18u) +  \
+     DROGUE_FOURS(width_px) * (5u * 4u + 3u * 8u + 4u * 8u + 8u * sizeof(drogue_slope)) + 5u * 4u + 3u * 16u + \
+     4u * 8u)
 
 /* The same for a region of the given longest side with the capacity that suits it. */
 #define DROGUE_WORKSPACE_BYTES_FOR(side_px) \
@@ -65,13 +68,12 @@ typedef struct drogue_workspace {
     drogue_merge *merges;       /* width */
     uint32_t *component_rows;   /* 2 x width */
     uint32_t *arc_rows;         /* 2 x width */
-    uint16_t *column;           /* width */
-    uint16_t *magnitude_rows;   /* 4 x width; the fourth stays 0 and stands for rows outside the image */
-    int16_t *gx_rows;           /* 2 x width */
-    int16_t *gy_rows;           /* 2 x width */
-    uint8_t *raw_rows;          /* 5 x width, ring of input rows */
-    uint8_t *smooth_rows;       /* 3 x width */
-    uint8_t *code_rows;         /* 2 x width: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1 in the ring */
+    uint8_t *
+        raw_rows; /* 5 x (fours + 1) words, ring of input rows, pixel 0 at byte 2; aligned for uint32_t, like the next */
+    uint8_t *smooth_rows;     /* 3 x 2 (fours + 2) words, ring of rows of lanes, pixel 0 at word 2 */
+    uint16_t *magnitude_rows; /* 4 x 4 (fours + 1), pixel 0 at 2; the fourth stays 0 and stands for rows outside */
+    drogue_slope *slope_rows; /* 2 x 4 fours */
+    uint8_t *code_rows;       /* 2 x width: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1 in the ring */
 } drogue_workspace;
 
 /* Bytes that drogue_workspace_init() needs; equals DROGUE_WORKSPACE_BYTES. */
@@ -107,6 +109,7 @@ typedef struct drogue_frontend {
     drogue_labels arc_labels;
     uint32_t edge_count;
     uint32_t edges_full;
+    uint32_t slope_count[2]; /* slopes in the even and in the odd row */
 } drogue_frontend;
 
 /* The lists a frame leaves in the workspace. */

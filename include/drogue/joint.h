@@ -51,9 +51,9 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
  *
  *  out      pose, covariance, chi2; undefined on failure
  *  start    a pose from drogue_pose_from_ellipse()
- *  steps    most Gauss-Newton steps, [0, 16]; each about squares what is left of the error. 0: the start itself, for its
- *           covariance and chi2. A step of less than 2^-20 rad and of the distance is the last one; covariance and chi2
- *           are then those of the point before it
+ *  steps    most Gauss-Newton steps after the first, [0, 16], each about squares what is left of the error; a step of
+ *           less than 2^-20 rad and of the distance is the last one. 0: none at all, the start itself. Covariance and
+ *           chi2 are those of the point before the last step
  *  return   DROGUE_OK; DROGUE_E_DEGENERATE, DROGUE_E_DOMAIN, DROGUE_E_BEHIND_CAMERA
  *  scaling  62-bit mantissas throughout; no overflow
  */

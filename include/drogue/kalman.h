@@ -5,6 +5,7 @@
 #ifndef DROGUE_KALMAN_H
 #define DROGUE_KALMAN_H
 
+#include "drogue/cholesky.h"
 #include "drogue/types.h"
 #include "drogue/wide.h"
 
@@ -33,6 +34,9 @@ typedef struct drogue_kalman {
 void drogue_kalman_init(drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
                         const drogue_q16 std_q16[DROGUE_PARAMETERS][3]);
 
+/* Start one parameter anew; the others stay as they are. */
+void drogue_kalman_restart(drogue_kalman *filter, int parameter, drogue_q16 value_q16, const drogue_q16 std_q16[3]);
+
 /* Predict (35), (36): constant acceleration over dt, whose change per step has the given standard deviation s:
  * process noise G s^2 G' with G = (dt^2 / 2, dt, 1).
  *
@@ -51,6 +55,19 @@ void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DRO
 
 /* State k (0 value, 1 rate, 2 acceleration) of every parameter, Q16, saturated. */
 void drogue_kalman_state(drogue_q16 out_q16[DROGUE_PARAMETERS], const drogue_kalman *filter, int k);
+
+/* Standard deviations of the values (state 0), Q32, saturated. */
+void drogue_kalman_std(int64_t out_q32[DROGUE_PARAMETERS], const drogue_kalman *filter);
+
+/* Squared Mahalanobis distance of a measurement from the filter's values: d' (P + N)^-1 d.
+ *
+ *  value    m and rad, Q16; angles are compared modulo 2 pi
+ *  noise    N, covariance of the measurement's n values, packed (cholesky.h), diagonal > 0. When P + N is not positive
+ *           definite to 2^-40, which rounded or false covariances can bring about, its diagonal alone counts
+ *  n        the first n parameters in the order above, [1, DROGUE_PARAMETERS]
+ */
+drogue_wide drogue_kalman_distance2(const drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
+                                    const drogue_wide noise[DROGUE_PACKED_MAX], int n);
 
 #ifdef __cplusplus
 }

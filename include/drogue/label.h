@@ -45,6 +45,12 @@ uint32_t drogue_labels_find(drogue_labels *labels, uint32_t label);
 void drogue_label_row(uint32_t *current, drogue_labels *labels, drogue_merge *merges, const uint32_t *above,
                       const uint8_t *code, const uint8_t *code_above, uint8_t mask, int32_t width_px);
 
+/* The same for a row of few pixels: 'points' names the 'count' columns, ascending, where 'code' is not 0.
+ * Only theirs are read and written of the rows of labels. */
+void drogue_label_points(uint32_t *current, drogue_labels *labels, drogue_merge *merges, const uint32_t *above,
+                         const uint8_t *code, const uint8_t *code_above, uint8_t mask, int32_t width_px,
+                         const drogue_slope *points, uint32_t count);
+
 /* Point every label straight at its root: after it parent[i] is the root of i. What a caller has summed
  * by label over the rows it then joins in one ascending pass, into parent[i] from i. */
 void drogue_labels_flatten(drogue_labels *labels);

@@ -30,12 +30,36 @@ static inline int64_t drogue_mask_distance2_x4(const drogue_mask *mask, int32_t 
     return dx * dx + dy * dy;
 }
 
+/* What the ring leaves to the columns of one row: bounds of (2x - centre2_x)^2. */
+typedef struct drogue_ring_row {
+    int64_t least_x9;
+    int64_t most;
+    int32_t centre2_x;
+} drogue_ring_row;
+
 /* Ring: longest / 3 <= distance <= longest / 2 (paper, section III-A-1). */
+static inline drogue_ring_row drogue_mask_ring_row(const drogue_mask *mask, int32_t y)
+{
+    int64_t side2 = (int64_t)mask->longest_px * mask->longest_px;
+    int64_t dy = 2 * (int64_t)y - mask->centre2_y;
+    drogue_ring_row row;
+    row.least_x9 = 4 * side2 - 9 * dy * dy;
+    row.most = side2 - dy * dy;
+    row.centre2_x = mask->centre2_x;
+    return row;
+}
+
+static inline int drogue_ring_row_holds(const drogue_ring_row *row, int32_t x)
+{
+    int64_t dx = 2 * x - row->centre2_x;
+    int64_t d = dx * dx;
+    return 9 * d >= row->least_x9 && d <= row->most;
+}
+
 static inline int drogue_mask_in_ring(const drogue_mask *mask, int32_t x, int32_t y)
 {
-    int64_t d = drogue_mask_distance2_x4(mask, x, y);
-    int64_t side2 = (int64_t)mask->longest_px * mask->longest_px;
-    return 9 * d >= 4 * side2 && d <= side2;
+    drogue_ring_row row = drogue_mask_ring_row(mask, y);
+    return drogue_ring_row_holds(&row, x);
 }
 
 /* Disc: distance <= longest / 3 (paper, section III-A-2). */

@@ -45,9 +45,13 @@ drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q1
 
 /* Which edge points belong to an outline: near it, with a gradient along its normal. */
 typedef struct drogue_band {
-    drogue_q16 half_width_px_q16; /* (0, 8]: largest first-order distance |F| / |grad F| */
-    drogue_q16 cos_q16;           /* [0, 1]: least cosine of the angle between gradient and normal, either way */
+    drogue_q16 half_width_px_q16; /* largest first-order distance |F| / |grad F| */
+    int32_t width2_px2_q24;       /* its square */
+    uint32_t cos2_q10;            /* squared least cosine of the angle between gradient and normal, either way */
 } drogue_band;
+
+/* Band of a half width in (0, 8] px and a least cosine in [0, 1]. */
+drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16);
 
 /* An edge point in an ellipse's frame. */
 typedef struct drogue_band_point {

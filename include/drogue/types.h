@@ -73,6 +73,15 @@ typedef struct drogue_ellipse {
     drogue_q16 angle_rad_q16;
 } drogue_ellipse;
 
+/* Pixel of a row, its Sobel gradient, and the subpixel offset across the edge once that is known. */
+typedef struct drogue_slope {
+    uint16_t x;
+    int16_t gx;
+    int16_t gy; /* y downward */
+    int8_t dx_q5;
+    int8_t dy_q5;
+} drogue_slope;
+
 /* One edge point. The pixel is (x_q5 + 16) >> 5 in region coordinates; the low bits are the subpixel
  * offset across the edge, at most 15/32 px each way. */
 typedef struct drogue_edge {

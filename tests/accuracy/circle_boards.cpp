@@ -11,17 +11,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include <getopt.h>
 
-#include <opencv2/imgcodecs.hpp>
-
+#include "boards.hpp"
 #include "measure.hpp"
 
 using namespace accuracy;
@@ -33,112 +28,7 @@ constexpr double bar_measured_percent = 98;
 constexpr double bar_z_percent = 0.33;
 constexpr double bar_axis_deg = 1.4;
 
-const Camera camera = {842.16254, 841.36851, 510.28250,  365.61146, -0.4352204,
-                       0.2898102, 0.0008622, -0.0001471, -0.1643185};
-
-struct Circle {
-    std::string image;
-    int col, row;
-    Ellipse hand;       /* as seen */
-    cv::Vec3d position; /* circle radii */
-    cv::Vec3d axis;     /* away from the camera */
-};
-
-struct Errors {
-    int circles = 0;
-    std::vector<double> dx, dy, dz, axis, ellipse, shift_x, shift_y;
-
-    void add(const Errors &other)
-    {
-        circles += other.circles;
-        dx.insert(dx.end(), other.dx.begin(), other.dx.end());
-        dy.insert(dy.end(), other.dy.begin(), other.dy.end());
-        dz.insert(dz.end(), other.dz.begin(), other.dz.end());
-        axis.insert(axis.end(), other.axis.begin(), other.axis.end());
-        ellipse.insert(ellipse.end(), other.ellipse.begin(), other.ellipse.end());
-        shift_x.insert(shift_x.end(), other.shift_x.begin(), other.shift_x.end());
-        shift_y.insert(shift_y.end(), other.shift_y.begin(), other.shift_y.end());
-    }
-
-    double measured_percent() const { return 100.0 * static_cast<double>(axis.size()) / circles; }
-};
-
-std::vector<Circle> read_truth(const std::string &path)
-{
-    const std::string header = "image,col,row,ell_x,ell_y,ell_a,ell_b,ell_theta,X_R,Y_R,Z_R,nx,ny,nz,";
-    std::ifstream in(path);
-    std::string line;
-    std::vector<Circle> circles;
-    if (!std::getline(in, line) || line.compare(0, header.size(), header) != 0) {
-        throw std::runtime_error(path + ": not the table expected");
-    }
-    while (std::getline(in, line)) {
-        std::istringstream fields(line);
-        std::string field;
-        Circle c;
-        std::vector<double> v;
-        std::getline(fields, c.image, ',');
-        while (std::getline(fields, field, ',')) {
-            v.push_back(std::stod(field));
-        }
-        if (v.size() < 13) {
-            throw std::runtime_error(path + ": a line is short");
-        }
-        c.col = static_cast<int>(v[0]);
-        c.row = static_cast<int>(v[1]);
-        c.hand = {v[2], v[3], v[4], v[5], v[6]};
-        c.position = {v[7], v[8], v[9]};
-        c.axis = -cv::normalize(cv::Vec3d(v[10], v[11], v[12]));
-        circles.push_back(c);
-    }
-    return circles;
-}
-
-/* Square of +-half semi-axes about the hand ellipse, rounded outward to whole pixels. */
-cv::Rect region_of(const Ellipse &e, double half)
-{
-    const int left = cvFloor(e.xc_px - half * e.a_px);
-    const int top = cvFloor(e.yc_px - half * e.a_px);
-    const int right = cvCeil(e.xc_px + half * e.a_px);
-    const int bottom = cvCeil(e.yc_px + half * e.a_px);
-    return {left, top, right - left + 1, bottom - top + 1};
-}
-
-void measure_circle(Errors &errors, std::map<std::string, int> &statuses, const cv::Mat &grey, const Circle &c,
-                    double half, bool verbose)
-{
-    const drogue_model model = {DROGUE_Q16_ONE, 0, 0};
-    const Measurement m = measure(grey, camera, model, region_of(c.hand, half));
-    errors.circles++;
-    if (verbose) {
-        std::printf("  %-12s %d,%-2d a %.2f b %.2f  %-12s", c.image.c_str(), c.col, c.row, c.hand.a_px, c.hand.b_px,
-                    drogue_status_name(m.raw.status));
-    }
-    if (!m.ok) {
-        statuses[drogue_status_name(m.raw.status)]++;
-    } else {
-        const bool first = angle_between_deg(m.pose.axis, c.axis) <= angle_between_deg(m.alternative.axis, c.axis);
-        const Pose &pose = first ? m.pose : m.alternative;
-        const cv::Vec3d miss = (pose.position_m - c.position) * (100 / c.position[2]);
-        errors.dx.push_back(std::fabs(miss[0]));
-        errors.dy.push_back(std::fabs(miss[1]));
-        errors.dz.push_back(std::fabs(miss[2]));
-        errors.axis.push_back(angle_between_deg(pose.axis, c.axis));
-        errors.ellipse.push_back(ellipse_error_px(m.seen, c.hand));
-        errors.shift_x.push_back(m.seen.xc_px - c.hand.xc_px);
-        errors.shift_y.push_back(m.seen.yc_px - c.hand.yc_px);
-        if (verbose) {
-            std::printf(" %+.3f %+.3f %+.3f  axis %.2f  ellipse %.3f  a %+.3f b %+.3f", miss[0], miss[1], miss[2],
-                        errors.axis.back(), errors.ellipse.back(), m.seen.a_px - c.hand.a_px,
-                        m.seen.b_px - c.hand.b_px);
-        }
-    }
-    if (verbose) {
-        std::printf("\n");
-    }
-}
-
-void print(const std::string &name, const Errors &e)
+void print(const std::string &name, const BoardErrors &e)
 {
     std::printf("%-12s %7d %9.1f %9.3f %7.3f %7.3f %8.2f %7.2f %7.2f %9.3f %+7.2f %+.2f\n", name.c_str(), e.circles,
                 e.measured_percent(), mean(e.dx), mean(e.dy), mean(e.dz), mean(e.axis), median(e.axis),
@@ -146,18 +36,19 @@ void print(const std::string &name, const Errors &e)
 }
 
 struct Options {
-    std::string folder = CIRCLE_BOARDS_DIR;
+    std::string folder = boards_folder;
     double half = 1.25;
     bool verbose = false;
 };
 
 void usage(FILE *to)
 {
-    std::fputs("usage: circle_boards [--half K] [--verbose] [FOLDER]\n"
-               "  --half K    regions of +-K semi-axes (1.25)\n"
-               "  --verbose   a line for each circle\n"
-               "  FOLDER      the photographs and truth.csv (" CIRCLE_BOARDS_DIR ")\n",
-               to);
+    std::fprintf(to,
+                 "usage: circle_boards [--half K] [--verbose] [FOLDER]\n"
+                 "  --half K    regions of +-K semi-axes (1.25)\n"
+                 "  --verbose   a line for each circle\n"
+                 "  FOLDER      the photographs and truth.csv (%s)\n",
+                 boards_folder);
 }
 
 Options parse(int argc, char **argv)
@@ -188,37 +79,19 @@ Options parse(int argc, char **argv)
 
 int run(const Options &options)
 {
-    if (!std::ifstream(options.folder + "/truth.csv")) {
+    if (!boards_there(options.folder)) {
         std::printf("circle_boards: SKIPPED, no truth.csv in %s\n", options.folder.c_str());
         return skipped;
     }
-    std::vector<std::string> names;
-    std::map<std::string, std::vector<Circle>> boards;
-    for (const Circle &c : read_truth(options.folder + "/truth.csv")) {
-        if (boards[c.image].empty()) {
-            names.push_back(c.image);
-        }
-        boards[c.image].push_back(c);
-    }
-    std::map<std::string, int> statuses;
-    Errors total;
+    const Boards boards = measure_boards(options.folder, options.half, options.verbose);
+    const BoardErrors &total = boards.total;
     std::printf("%-12s %7s %9s %9s %7s %7s %8s %7s %7s %9s %s\n", "image", "circles", "measured%", "dx %", "dy %",
                 "dz %", "axis deg", "median", "95th", "ellipse", "shift x, y");
-    for (const std::string &name : names) {
-        const cv::Mat colour = cv::imread(options.folder + "/" + name + ".png", cv::IMREAD_COLOR);
-        if (colour.empty()) {
-            throw std::runtime_error("cannot read " + name + ".png");
-        }
-        const cv::Mat grey = grey_of(colour);
-        Errors errors;
-        for (const Circle &c : boards[name]) {
-            measure_circle(errors, statuses, grey, c, options.half, options.verbose);
-        }
-        print(name, errors);
-        total.add(errors);
+    for (size_t i = 0; i < boards.names.size(); i++) {
+        print(boards.names[i], boards.errors[i]);
     }
     print("all", total);
-    for (const auto &[name, count] : statuses) {
+    for (const auto &[name, count] : boards.statuses) {
         std::printf("not measured: %s %d\n", name.c_str(), count);
     }
     const bool met = total.measured_percent() >= bar_measured_percent && mean(total.dz) <= bar_z_percent &&

@@ -27,16 +27,19 @@ cv::Point2d centre_of(const Ellipse &e) { return {e.xc_px, e.yc_px}; }
 
 double any_angle(Random &random) { return random.uniform(-CV_PI, CV_PI); }
 
-/* Mean grey of the canopy just inside the rim, unlit by the sensor's tricks. */
-double rim_grey(const Scene &scene)
+/* Mean grey of the canopy just inside the rim, between the ribs, unlit by the sensor's tricks, within an angle about a direction. */
+double rim_grey(const Scene &scene, const cv::Point2d &towards, double half_angle_rad)
 {
     double sum = 0;
     int points = 0;
     const Ellipse e = scene.rim();
     for (int i = 0; i < 360; i++) {
-        const cv::Point2d p = centre_of(e) + 0.985 * (e.at(i * CV_PI / 180) - centre_of(e));
-        const Hit hit = trace(scene, p);
-        if (hit.surface == Surface::inside || hit.surface == Surface::inside_rib) {
+        const cv::Point2d away = e.at(i * CV_PI / 180) - centre_of(e);
+        if (away.dot(towards) < std::cos(half_angle_rad) * cv::norm(away)) {
+            continue;
+        }
+        const Hit hit = trace(scene, centre_of(e) + 0.985 * away);
+        if (hit.surface == Surface::inside) {
             sum += hit.grey;
             points++;
         }
@@ -163,16 +166,16 @@ void add_low_contrast(Trial &t, Random &random, double strength)
     Scene &s = t.scene;
     if (random.uniform(0, 1) < 0.5) {
         s.look.canopy_grey = random.uniform(100, 190); /* room on both sides */
-        const double level = rim_grey(s);
+        const double level = rim_grey(s, towards, CV_PI);
         s.background.top_grey = s.background.bottom_grey = level;
         s.background.texture_grey = std::min(s.background.texture_grey, 5.0);
         s.background.ramp_at_px = centre_of(t.rim) + strength * signed_uniform(random, 0, 0.6) * a * towards;
         s.background.ramp_per_px = random.uniform(40, 80) / (strength * a) * towards;
     } else {
-        const double level = rim_grey(s) + signed_uniform(random, 0, 10);
-        const double half = random.uniform(0.3, 0.6) * a * strength;
+        const double half = random.uniform(0.4, 0.7) * a * strength;
+        const double level = rim_grey(s, towards, half / a) + random.uniform(-10, 10);
         s.background.clutter.push_back({centre_of(t.rim) + a * towards, half, half, 0, std::clamp(level, 0.0, 255.0),
-                                        true, random.uniform(0.1, 0.4) * a});
+                                        true, random.uniform(0.1, 0.3) * a});
     }
 }
 
@@ -259,6 +262,17 @@ Trial trial(uint64_t seed, Condition condition, int index)
     const double share = start + index * 0.6180339887498949; /* golden section: any run of indices is spread evenly */
     const double at = share - std::floor(share);
     return trial_at(seed, condition, index, nearest_m * std::pow(farthest_m / nearest_m, at));
+}
+
+Trial trial_of(const PlainScene &plain, int index)
+{
+    Trial t;
+    t.condition = Condition::plain;
+    t.index = index;
+    t.scene = plain.scene;
+    t.region = plain.region;
+    set_truth(t);
+    return t;
 }
 
 uint64_t fingerprint(const Trial &t)

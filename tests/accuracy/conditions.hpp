@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "drogue/types.h"
-#include "scene.hpp"
+#include "plain.hpp"
 
 namespace accuracy {
 
@@ -70,6 +70,9 @@ Trial trial(uint64_t seed, Condition condition, int index);
 
 /* The same at a given distance. */
 Trial trial_at(uint64_t seed, Condition condition, int index, double distance_m);
+
+/* A scene of the accuracy table. */
+Trial trial_of(const PlainScene &plain, int index);
 
 /* A number that changes with anything drawn for the trial: the key of stored pictures. */
 uint64_t fingerprint(const Trial &t);

@@ -83,6 +83,10 @@ Outcome judge(const Trial &t, const Measurement &m)
     o.ellipse_px = ellipse_error_px(m.ideal, t.rim);
     o.ellipse_share = o.ellipse_px / t.rim.a_px;
     o.verdict = o.ellipse_px <= std::max(1.0, 0.03 * t.rim.a_px) ? Verdict::right : Verdict::wrong;
+    const Drogue &d = t.scene.drogue;
+    const Ellipse disc = project_circle(t.scene.camera, t.scene.pose, d.inner_radius_m, d.inner_depth_m);
+    o.centroid_px =
+        o.inner ? std::hypot(m.inner_px.x - disc.xc_px, m.inner_px.y - disc.yc_px) : std::nan(""); /* no lens here */
     o.position_m = m.pose.position_m - t.pose.position_m;
     o.angles_rad = {yaw_of(m.pose.axis) - yaw_of(t.pose.axis), pitch_of(m.pose.axis) - pitch_of(t.pose.axis)};
     o.axis_deg = angle_between_deg(m.pose.axis, t.pose.axis);

@@ -25,6 +25,7 @@ struct Outcome {
     /* Zero when unmeasured: */
     double ellipse_px = 0;
     double ellipse_share = 0;    /* of the semi-major axis */
+    double centroid_px = 0;      /* of the inner part from the true centroid of the disc's image; NaN without one */
     cv::Vec3d position_m = {};   /* measured - true */
     cv::Vec2d angles_rad = {};   /* yaw and pitch, measured - true */
     double axis_deg = 0;         /* angle between measured and true axis, of the pose reported */

@@ -11,6 +11,7 @@ namespace accuracy {
 
 /* Numbers for tables; "-" when not finite. */
 std::string fixed(double value, int digits);
+std::string plain(double value);                   /* as short as it can be, to four digits: limits and marks */
 std::string significant(double value, int digits); /* that many significant digits, no exponent */
 
 struct Series {
@@ -74,7 +75,8 @@ private:
     std::string folder_, title_, body_;
     std::vector<Bar> bars_;
     std::map<std::string, std::string> known_;
-    int missed_ = 0;
+    int missed_ = 0;       /* and not known */
+    int known_missed_ = 0; /* missed as known */
     std::chrono::steady_clock::time_point begin_, spoken_;
 };
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Ray tracer, background, optics and sensor of the rendered scenes. */
+/* Ray tracer, optics and sensor of the rendered scenes. */
 #include "scene.hpp"
 
 #include <algorithm>
@@ -20,7 +20,17 @@ struct Lattice {
 constexpr Lattice outline_lattice = {233, 89}; /* pixels that hold background and drogue */
 constexpr Lattice detail_lattice = {89, 34};   /* edges within the drogue */
 
-enum : uint64_t { stream_texture = 1, stream_noise = 2 };
+std::vector<cv::Point2d> points_of(const Lattice &lattice)
+{
+    std::vector<cv::Point2d> points;
+    for (int i = -(lattice.points / 2); i <= lattice.points / 2; i++) {
+        const double dx = static_cast<double>(i) / lattice.points;
+        points.emplace_back(dx, std::remainder(dx * lattice.step, 1.0));
+    }
+    return points;
+}
+
+constexpr int64_t stream_noise = 2; /* 1 is the background's */
 
 /* Rays and light in the drogue's frame, where the axis is z and the end plane z = 0. */
 class Tracer {
@@ -64,6 +74,12 @@ private:
         const cv::Point2d to = p - probe.tip_px;
         const double t = std::clamp(to.dot(along) / along.dot(along), 0.0, 1.0);
         return cv::norm(to - t * along) <= probe.half_width_px;
+    }
+
+    double scallop_at(double part) const
+    {
+        const double half = std::sin(CV_PI * part);
+        return d_.scallop_m * half * half;
     }
 
     bool on_spoke(const cv::Vec3d &p) const
@@ -140,8 +156,7 @@ private:
             }
             const double turn = std::atan2(p[1], p[0]) / (2 * CV_PI) * d_.ribs + d_.rib_phase;
             const double part = turn - std::floor(turn + 0.5); /* [-0.5, 0.5), 0 in the middle of a rib */
-            const double half = std::sin(CV_PI * part);
-            if (p[2] < d_.scallop_m * half * half) {
+            if (d_.scallop_m > 0 && p[2] < scallop_at(part)) {
                 continue;
             }
             const bool rib = d_.ribs > 0 && std::fabs(part) < d_.rib_share / 2;
@@ -195,24 +210,12 @@ private:
     double slope_;
 };
 
-/* Value noise in [-1, 1] with a quintic fade between lattice values. */
-double value_noise(uint64_t seed, double x, double y)
-{
-    const double fx = std::floor(x);
-    const double fy = std::floor(y);
-    const auto ix = static_cast<int64_t>(fx);
-    const auto iy = static_cast<int64_t>(fy);
-    const auto fade = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
-    const auto at = [&](int64_t dx, int64_t dy) { return 2 * unit(hash_at(seed, ix + dx, iy + dy)) - 1; };
-    const double u = fade(x - fx);
-    const double v = fade(y - fy);
-    return (at(0, 0) * (1 - u) + at(1, 0) * u) * (1 - v) + (at(0, 1) * (1 - u) + at(1, 1) * u) * v;
-}
-
 /* Grey of each pixel averaged over its area. Pixels whose neighbourhood shows one surface need one ray. */
 cv::Mat trace_area(const Scene &scene, const cv::Rect &area)
 {
     const Tracer tracer(scene);
+    const std::vector<cv::Point2d> outline_points = points_of(outline_lattice);
+    const std::vector<cv::Point2d> detail_points = points_of(detail_lattice);
     const auto background = static_cast<uint8_t>(Surface::background);
     cv::Mat surface(area.height + 2, area.width + 2, CV_8U);
     cv::Mat grey(area.height + 2, area.width + 2, CV_64F);
@@ -226,47 +229,29 @@ cv::Mat trace_area(const Scene &scene, const cv::Rect &area)
     cv::Mat out(area.size(), CV_64F);
     for (int y = 0; y < area.height; y++) {
         for (int x = 0; x < area.width; x++) {
-            const cv::Mat near = surface(cv::Rect(x, y, 3, 3));
-            const uint8_t own = near.at<uint8_t>(1, 1);
-            const bool plain = cv::countNonZero(near == own) == 9;
-            const bool outline = cv::countNonZero(near == background) > 0;
+            const uint8_t own = surface.at<uint8_t>(y + 1, x + 1);
+            bool plain = true;
+            bool outline = false;
+            for (int k = 0; k < 9; k++) {
+                const uint8_t near = surface.at<uint8_t>(y + k / 3, x + k % 3);
+                plain = plain && near == own;
+                outline = outline || near == background;
+            }
             const double behind = outline ? background_grey(scene, area.x + x, area.y + y) : 0;
             double &result = out.at<double>(y, x);
             if (plain) {
                 result = own == background ? behind : grey.at<double>(y + 1, x + 1);
                 continue;
             }
-            const Lattice lattice = outline ? outline_lattice : detail_lattice;
             double sum = 0;
-            for (int i = -(lattice.points / 2); i <= lattice.points / 2; i++) {
-                const double dx = static_cast<double>(i) / lattice.points;
-                const double dy = std::remainder(dx * lattice.step, 1.0);
-                const Hit hit = tracer(cv::Point2d(area.x + x + dx, area.y + y + dy));
+            for (const cv::Point2d &d : outline ? outline_points : detail_points) {
+                const Hit hit = tracer(cv::Point2d(area.x + x + d.x, area.y + y + d.y));
                 sum += hit.surface == Surface::background ? behind : hit.grey;
             }
-            result = sum / lattice.points;
+            result = sum / (outline ? outline_lattice : detail_lattice).points;
         }
     }
     return out;
-}
-
-/* Share of a pixel that a thing covers. */
-double cover(const Clutter &c, double x_px, double y_px)
-{
-    const double dx = x_px - c.at_px.x;
-    const double dy = y_px - c.at_px.y;
-    const double u = std::cos(c.angle_rad) * dx + std::sin(c.angle_rad) * dy;
-    const double v = std::cos(c.angle_rad) * dy - std::sin(c.angle_rad) * dx;
-    double outside; /* distance from its outline, px */
-    if (c.round) {
-        const double k = std::hypot(u / c.half_length_px, v / c.half_width_px);
-        const double slope =
-            std::hypot(u / (c.half_length_px * c.half_length_px), v / (c.half_width_px * c.half_width_px));
-        outside = slope > 0 ? k * (k - 1) / slope : -c.half_width_px;
-    } else {
-        outside = std::max(std::fabs(u) - c.half_length_px, std::fabs(v) - c.half_width_px);
-    }
-    return std::clamp(0.5 - outside / c.soft_px, 0.0, 1.0);
 }
 
 /* Gaussian sampled out to four sigma, sum 1. */
@@ -321,12 +306,6 @@ cv::Mat smear(const cv::Mat &in, double length, double angle, int reach)
 
 } // namespace
 
-Background Background::sky() { return {205, 225, 6, 256, 3}; }
-
-Background Background::cloud() { return {125, 115, 20, 192, 4}; }
-
-Background Background::ground() { return {60, 50, 18, 48, 4}; }
-
 Look Look::dark() { return Look(); }
 
 Look Look::bright()
@@ -340,29 +319,6 @@ Look Look::bright()
 }
 
 Hit trace(const Scene &scene, const cv::Point2d &seen_px) { return Tracer(scene)(seen_px); }
-
-double background_grey(const Scene &scene, int x_px, int y_px)
-{
-    const Background &b = scene.background;
-    const double down = static_cast<double>(y_px) / scene.image_px.height;
-    double sum = 0;
-    double weights = 0;
-    for (int k = 0; k < b.octaves; k++) {
-        const double size = b.texture_px / (1 << k);
-        const double weight = 1.0 / (1 << k);
-        const uint64_t seed = hash_at(scene.seed, static_cast<int64_t>(stream_texture), k);
-        sum += weight * value_noise(seed, x_px / size, y_px / size);
-        weights += weight;
-    }
-    double grey = b.top_grey + (b.bottom_grey - b.top_grey) * down + (weights > 0 ? b.texture_grey * sum / weights : 0);
-    if (b.ramp_per_px != cv::Point2d(0, 0)) {
-        grey = std::clamp(grey + b.ramp_per_px.dot(cv::Point2d(x_px, y_px) - b.ramp_at_px), 0.0, 255.0);
-    }
-    for (const Clutter &c : b.clutter) {
-        grey += cover(c, x_px, y_px) * (c.grey - grey);
-    }
-    return grey;
-}
 
 cv::Mat render_light(const Scene &scene, const cv::Rect &region)
 {
@@ -391,7 +347,7 @@ cv::Mat render_light(const Scene &scene, const cv::Rect &region)
 cv::Mat render(const Scene &scene, const cv::Rect &region)
 {
     const cv::Mat light = render_light(scene, region);
-    const uint64_t seed = hash_at(scene.seed, static_cast<int64_t>(stream_noise), 0);
+    const uint64_t seed = hash_at(scene.seed, stream_noise, 0);
     cv::Mat out(region.size(), CV_8U);
     for (int y = 0; y < region.height; y++) {
         for (int x = 0; x < region.width; x++) {

@@ -155,6 +155,72 @@ void test_trace(const Camera &camera)
     truth("hose", hose.surface == Surface::hose && std::fabs(hose.point_m[2] - 1.5) < 1e-8);
 }
 
+/* Bars before the disc and dark patches are where the scene puts them, and nowhere when it has none. */
+void test_parts()
+{
+    Scene s = tilted();
+    s.drogue.spokes = 3;
+    s.drogue.spoke_width_m = 0.02;
+    s.drogue.spoke_phase_rad = 0.4;
+    s.drogue.patches = {{1.0, 0.3, 0.05, 0.15}, {3.1, 0.2, 0.1, 0.2}};
+    const Drogue &d = s.drogue;
+    const double slope = (d.coupling_radius_m - d.rim_radius_m) / d.inner_depth_m;
+    const auto disc = [&](double radius, double angle) {
+        return trace(s, s.camera.project(place(s.pose, d.inner_depth_m, radius, angle))).surface;
+    };
+    const auto wall = [&](double depth, double angle) {
+        const Surface at =
+            trace(s, s.camera.project(place(s.pose, depth, d.rim_radius_m + slope * depth, angle))).surface;
+        return at == Surface::inside_rib ? Surface::inside : at;
+    };
+    for (int i = 0; i < 3; i++) {
+        const double angle = 0.4 + i * 2 * CV_PI / 3;
+        const double half = std::asin(0.01 / 0.1); /* of the bar, seen at a radius of 0.1 m */
+        truth("middle of a spoke", disc(0.1, angle) == Surface::spoke);
+        truth("within a spoke", disc(0.1, angle + 0.98 * half) == Surface::spoke);
+        truth("beside a spoke", disc(0.1, angle + 1.02 * half) == Surface::inner);
+        truth("beside a spoke, other side", disc(0.1, angle - 1.02 * half) == Surface::inner);
+        truth("opposite a spoke", disc(0.1, angle + CV_PI) == Surface::inner);
+        truth("beyond the disc", disc(0.125, angle) == Surface::coupling);
+    }
+    truth("patch", wall(0.1, 1.0) == Surface::patch);
+    truth("patch's corners within", wall(0.051, 0.71) == Surface::patch && wall(0.149, 1.29) == Surface::patch);
+    truth("above and below the patch", wall(0.049, 1.0) == Surface::inside && wall(0.151, 1.0) == Surface::inside);
+    truth("beside the patch", wall(0.1, 0.69) == Surface::inside && wall(0.1, 1.31) == Surface::inside);
+    truth("patch across half a turn", wall(0.15, -3.1) == Surface::patch);
+    truth("beside that", wall(0.15, 3.31 - 2 * CV_PI) == Surface::inside);
+    s.drogue.patches.clear();
+    s.drogue.spokes = 0;
+    truth("none", wall(0.1, 1.0) == Surface::inside && disc(0.1, 0.4) == Surface::inner);
+}
+
+void test_background()
+{
+    Scene s;
+    s.background = {100, 100, 0, 64, 0};
+    s.background.ramp_at_px = {1000, 500};
+    s.background.ramp_per_px = {0.5, -0.25};
+    near("ramp", background_grey(s, 1040, 480), 125, 1e-9);
+    near("ramp stops at white", background_grey(s, 2040, 480), 255, 0);
+    s.background.ramp_per_px = {0, 0};
+    s.background.clutter.push_back({{300, 200}, 50, 20, CV_PI / 6, 180, true, 1});
+    s.background.clutter.push_back({{800, 700}, 60, 5, CV_PI / 2, 10, false, 4});
+    near("ellipse's middle", background_grey(s, 300, 200), 180, 1e-9);
+    double area = 0;
+    double bar = 0;
+    for (int y = 0; y < 1000; y++) {
+        for (int x = 0; x < 1000; x++) {
+            const double more = background_grey(s, x, y) - 100;
+            (x < 500 ? area : bar) += more;
+        }
+    }
+    near("ellipse's area", area / 80, CV_PI * 50 * 20, 5);
+    near("bar's area", bar / -90, 4 * 60 * 5, 20); /* soft corners */
+    near("bar's length lies along y", background_grey(s, 800, 755), 10, 1e-9);
+    near("bar's soft edge", background_grey(s, 805, 700), 55, 1e-9);
+    near("beside the bar", background_grey(s, 808, 700), 100, 1e-9);
+}
+
 void test_light()
 {
     Scene s;
@@ -312,6 +378,8 @@ int main()
     test_ellipse();
     test_trace(Camera{1465.5, 1465.5, 1023.5, 1023.5});
     test_trace(barrel);
+    test_parts();
+    test_background();
     test_light();
     test_picture();
     test_sensor();

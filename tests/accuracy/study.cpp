@@ -60,8 +60,16 @@ Arguments parse(int argc, char **argv)
     return a;
 }
 
-/* Bars that the library does not reach yet, and why. */
-void declare_known(Report &) {}
+/* Bars that the library does not reach yet, and why: take off the list what is met. */
+void declare_known(Report &report)
+{
+    report.known_missed("z at 3 m, median", "edges of curved outlines are drawn inward by 0.008 px");
+    report.known_missed("scenes not measured and right", "deep scallops and flips of polarity");
+    report.known_missed("scenes wrong but reported as ok", "flips of polarity round the rim");
+    report.known_missed("normalised error squared, mean", "the results hold no covariance");
+    report.known_missed("circle boards: measured", "two circles of 560");
+    report.known_missed("circle boards: z, mean", "0.26 %");
+}
 
 bool study(const Arguments &a)
 {
@@ -75,7 +83,13 @@ bool study(const Arguments &a)
     section_distances(report, options);
     section_conditions(report, options);
     section_extraction(report, options);
+    section_pose_noise(report, options);
+    section_approach(report, options);
+    section_table5(report, options);
     section_boards(report, options);
+    if (a.options.cache.empty()) {
+        std::filesystem::remove_all(options.cache);
+    }
     return report.finish();
 }
 

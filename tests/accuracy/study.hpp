@@ -33,5 +33,11 @@ void section_conditions(Report &report, const StudyOptions &options);
 void section_extraction(Report &report, const StudyOptions &options);
 /* Photographs of circle boards. */
 void section_boards(Report &report, const StudyOptions &options);
+/* The paper's Fig. 7 to 9, tables 1 to 3: the pose under noise on the ellipse. */
+void section_pose_noise(Report &report, const StudyOptions &options);
+/* The paper's Fig. 12 to 14, table 4: positions over the range, a sequence with swing. */
+void section_approach(Report &report, const StudyOptions &options);
+/* The paper's table 5: baselines, and parts of the method left out. */
+void section_table5(Report &report, const StudyOptions &options);
 
 } // namespace accuracy

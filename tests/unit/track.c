@@ -3,51 +3,20 @@
 #include "suite.h"
 
 #include "drogue/track.h"
-#include "geometry.h"
+#include "results.h"
 
 static const drogue_region first_region = {10, 20, 600, 500};
 static const drogue_model model = {22938, 13107, 16384};
 
+/* Without growth of the region, whose own test is below. */
 static drogue_track new_track(const drogue_camera *camera)
 {
     drogue_track_config config;
     drogue_track t;
     drogue_track_config_default(&config);
+    config.region_sigmas_q16 = 0;
     drogue_track_init(&t, &config, camera, &model, &first_region);
     return t;
-}
-
-static void set_pose(drogue_pose *p, const double position[3], double yaw, double pitch)
-{
-    double axis[3];
-    int k;
-    axis_of_angles(axis, yaw, pitch);
-    for (k = 0; k < 3; k++) {
-        p->position_m_q16[k] = q16_of(position[k]);
-        p->axis_q16[k] = q16_of(axis[k]);
-    }
-    p->yaw_rad_q16 = q16_of(yaw);
-    p->pitch_rad_q16 = q16_of(pitch);
-}
-
-static drogue_result seen(double x, double y, double z, double yaw, double pitch)
-{
-    drogue_result r;
-    const double position[3] = {x, y, z};
-    memset(&r, 0, sizeof r);
-    r.status = DROGUE_OK;
-    r.orientation_resolved = 1;
-    set_pose(&r.pose, position, yaw, pitch);
-    r.alternative = r.pose;
-    return r;
-}
-
-static drogue_result missed(drogue_status status)
-{
-    drogue_result r;
-    memset(&r, 0, sizeof r);
-    r.status = status;
-    return r;
 }
 
 static drogue_track_state step(drogue_track *t, const drogue_result *r)
@@ -77,8 +46,14 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.lateral_std_q16, q16_of(0.0005));
     ck_assert_int_eq(c.depth_std_q16, q16_of(0.002));
     ck_assert_int_eq(c.angle_std_rad_q16, q16_of(0.02));
+    ck_assert_uint_eq(c.agree_frames, 4);
+    ck_assert_int_eq(c.gate_q16, q16_of(20.515));
+    ck_assert_int_eq(c.position_gate_q16, q16_of(16.266));
+    ck_assert_int_eq(c.region_sigmas_q16, q16_of(3));
+    ck_assert_int_eq(c.position_floor_m_q16, q16_of(0.0001));
+    ck_assert_int_eq(c.angle_floor_rad_q16, q16_of(0.0005));
     for (k = 0; k < DROGUE_PARAMETERS; k++) {
-        ck_assert_int_eq(c.process_std_q16[k], q16_of(0.2));
+        ck_assert_int_eq(c.process_std_q16[k], q16_of(k < 2 ? 0.25 : k == 2 ? 0.02 : 0.04));
     }
     ck_assert_int_eq(c.start_rate_std_q16, q16_of(2));
     ck_assert_int_eq(c.start_accel_std_q16, q16_of(2));
@@ -252,6 +227,58 @@ START_TEST(region_allows_for_distortion)
 }
 END_TEST
 
+START_TEST(region_grows_with_uncertainty)
+{
+    const drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    drogue_track t = new_track(&camera);
+    drogue_result hit = seen(0.1, 0, 10, 0, 0), miss = missed(DROGUE_E_NO_ARCS);
+    drogue_region region;
+    int32_t side, reach;
+    int k;
+    t.config.region_sigmas_q16 = q16_of(3);
+    t.config.max_missed = 1000;
+    t.config.max_region_px = 300;
+    for (k = 0; k < 100; k++) {
+        (void)step(&t, &hit);
+    }
+    drogue_track_begin(&region, &t, 20000);
+    must_be_about(&region, 650, 512, 2.5 * 35 * 1.01); /* 5 mm a frame against a rim of 350 mm */
+    ck_assert_int_eq(t.search, 0);
+    ck_assert_int_eq(drogue_track_end(&t, &miss), DROGUE_COASTING);
+    side = region.width_px;
+    reach = t.reach.width_px;
+    for (k = 0; k < 200; k++) {
+        drogue_track_begin(&region, &t, 20000);
+        MUST(region.width_px >= side && region.width_px <= (int32_t)(2.75 * 35 + 1), "side %d after %d",
+             (int)region.width_px, (int)side);
+        MUST(t.reach.width_px >= reach && t.reach.width_px <= 300, "reach %d after %d", (int)t.reach.width_px,
+             (int)reach);
+        MUST(t.search ? region.width_px >= 96 : t.reach.width_px <= (2.5 + 0.8) * 35 + 1,
+             "search %d, side %d, reach %d", (int)t.search, (int)region.width_px, (int)t.reach.width_px);
+        (void)drogue_track_end(&t, &miss);
+        side = region.width_px;
+        reach = t.reach.width_px;
+    }
+    ck_assert_int_eq(t.search, 1);
+    ck_assert_int_eq(reach, 300);
+}
+END_TEST
+
+START_TEST(without_a_first_region_the_whole_frame)
+{
+    const drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    drogue_track_config config;
+    drogue_track t;
+    drogue_region region = {1, 2, 3, 4};
+    drogue_track_config_default(&config);
+    drogue_track_init(&t, &config, &camera, &model, NULL);
+    drogue_track_begin(&region, &t, 20000);
+    ck_assert_int_eq(region.width_px, 0);
+    ck_assert_int_eq(region.height_px, 0);
+    ck_assert_int_eq(t.search, 1);
+}
+END_TEST
+
 START_TEST(lost_when_it_flies_behind_the_camera)
 {
     const drogue_camera camera = pinhole(1000, 1000, 640, 512);
@@ -293,5 +320,5 @@ END_TEST
 
 SUITE_MAIN("track", defaults_are_the_documented_ones, names_of_states, states_in_turn, every_failure_is_a_miss,
            no_miss_allowed, region_follows_a_steady_drogue, region_is_clamped, region_leads_a_moving_drogue,
-           region_allows_for_distortion, lost_when_it_flies_behind_the_camera,
-           unresolved_poses_go_by_the_predicted_axis)
+           region_allows_for_distortion, region_grows_with_uncertainty, without_a_first_region_the_whole_frame,
+           lost_when_it_flies_behind_the_camera, unresolved_poses_go_by_the_predicted_axis)

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Search, then measure what was found. */
+#include "drogue/search.h"
+
+#include <string.h>
+
+static void clip(int32_t *at, int32_t *length, int32_t limit)
+{
+    const int64_t end = (int64_t)*at + *length;
+    *at = *at < 0 ? 0 : *at;
+    *length = (int32_t)((end > limit ? limit : end) - *at);
+}
+
+/* How much a result is worth: none without a pose, and the inner part counts more than the outline. */
+static int32_t worth(const drogue_result *r)
+{
+    if (r->status != DROGUE_OK) {
+        return 0;
+    }
+    return (r->orientation_resolved ? 2 : r->has_inner ? 1 : 0) * 2 * DROGUE_Q16_ONE + r->cover_q16 + 1;
+}
+
+/* Candidates of a part of the image, in coordinates of the image. */
+static drogue_status search_part(drogue_search *search, const drogue_image *image, const drogue_region *part)
+{
+    int32_t y;
+    int32_t i;
+    drogue_status status = drogue_search_begin(search, part->width_px);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    for (y = 0; y < part->height_px; y++) {
+        drogue_search_row(search, drogue_image_row(image, part->y_px + y) + part->x_px);
+    }
+    for (i = drogue_search_end(search) - 1; i >= 0; i--) {
+        drogue_sighting *c = &search->best[i];
+        c->x_px += part->x_px;
+        c->y_px += part->y_px;
+        c->region.x_px += part->x_px;
+        c->region.y_px += part->y_px;
+    }
+    return DROGUE_OK;
+}
+
+drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
+                             const drogue_config *config, const drogue_camera *camera, const drogue_model *model,
+                             const drogue_image *image, const drogue_region *region)
+{
+    drogue_region part;
+    drogue_region whole;
+    drogue_status status;
+    int32_t most = 0;
+    int32_t best = 0;
+    int32_t i;
+    memset(out, 0, sizeof *out);
+    whole.x_px = 0;
+    whole.y_px = 0;
+    whole.width_px = image->width_px;
+    whole.height_px = image->height_px;
+    part = region != NULL ? *region : whole;
+    whole = part;
+    clip(&part.x_px, &part.width_px, image->width_px);
+    clip(&part.y_px, &part.height_px, image->height_px);
+    if (image->data == NULL || image->stride < image->width_px) {
+        out->status = DROGUE_E_ARGUMENT;
+        return out->status;
+    }
+    if (part.width_px < 1 || part.height_px < 1) {
+        out->status = DROGUE_E_REGION;
+        return out->status;
+    }
+    status = search_part(search, image, &part);
+    if (status != DROGUE_OK) {
+        out->status = status;
+        return status;
+    }
+    for (i = 0; i <= search->count; i++) {
+        (void)drogue_measure(out, workspace, config, camera, model, image,
+                             i < search->count ? &search->best[i].region : &whole);
+        if (out->status == DROGUE_OK && (out->orientation_resolved || model->inner_radius_m_q16 == 0)) {
+            return DROGUE_OK;
+        }
+        if (worth(out) > most) {
+            most = worth(out);
+            best = i;
+        }
+    }
+    if (most > 0 && best < search->count) { /* again, so that the workspace holds its points */
+        (void)drogue_measure(out, workspace, config, camera, model, image, &search->best[best].region);
+    }
+    return out->status;
+}

@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Expectation of the inner part and its credibility. */
+#include "drogue/inner.h"
+
+#include "drogue/quality.h"
+#include "drogue/undistort.h"
+
+uint32_t drogue_inner_expect(drogue_ellipse expected[2], const drogue_pose poses[2], const drogue_camera *camera,
+                             const drogue_model *model, int32_t x_px, int32_t y_px)
+{
+    uint32_t count = 0;
+    int i;
+    for (i = 0; i < 2; i++) {
+        drogue_ellipse *e = &expected[count];
+        if (drogue_inner_disc_image(e, &poses[i], camera, model) == DROGUE_OK && e->a_px_q16 >= DROGUE_Q16_ONE &&
+            drogue_distort_point(&e->xc_px_q16, &e->yc_px_q16, camera) == DROGUE_OK) {
+            e->xc_px_q16 = drogue_q16_sub(e->xc_px_q16, drogue_q16_from_int(x_px));
+            e->yc_px_q16 = drogue_q16_sub(e->yc_px_q16, drogue_q16_from_int(y_px));
+            count++;
+        }
+    }
+    return count;
+}
+
+drogue_mask drogue_inner_disc(const drogue_ellipse *outline)
+{
+    drogue_mask disc; /* radius longest / 3 */
+    disc.centre2_x = (int32_t)drogue_shr_round_s64(outline->xc_px_q16, 15);
+    disc.centre2_y = (int32_t)drogue_shr_round_s64(outline->yc_px_q16, 15);
+    disc.longest_px = (int32_t)drogue_shr_round_s64((int64_t)outline->b_px_q16 * 5, 17);
+    return disc;
+}
+
+/* Does the expected disc lie wholly within the outline when its centre is the part's? */
+static int within_outline(const drogue_dark_part *part, const drogue_ellipse *expected, const drogue_ellipse *outline)
+{
+    drogue_ellipse_frame rim;
+    int32_t u_q24;
+    int32_t v_q24;
+    int64_t room_q24;
+    if (drogue_ellipse_frame_of(&rim, outline) != DROGUE_OK) {
+        return 0;
+    }
+    drogue_ellipse_frame_point(&u_q24, &v_q24, &rim, part->x_px_q16, part->y_px_q16);
+    room_q24 = (INT64_C(1) << 24) - drogue_div_round_s64((int64_t)expected->a_px_q16 << 24, outline->b_px_q16);
+    return room_q24 > 0 && (int64_t)u_q24 * u_q24 + (int64_t)v_q24 * v_q24 <= room_q24 * room_q24;
+}
+
+drogue_q16 drogue_inner_std(const drogue_dark_part *part, const drogue_ellipse *expected, const drogue_ellipse *outline,
+                            const drogue_config *config)
+{
+    const drogue_q16 fill = drogue_dark_fill(part, expected);
+    const uint64_t away2_q32 = drogue_square_sum(drogue_q16_sub(part->x_px_q16, expected->xc_px_q16),
+                                                 drogue_q16_sub(part->y_px_q16, expected->yc_px_q16));
+    const drogue_q16 gate = drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16);
+    const int64_t share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
+    const int64_t least = config->inner_std_px_q16;
+    const int64_t spread = drogue_q16_mul(part->spread_px_q16, config->inner_std_spread_q16);
+    if (fill < config->min_fill_q16 || fill > config->max_fill_q16 || away2_q32 > drogue_square_sum(gate, 0) ||
+        !within_outline(part, expected, outline)) {
+        return 0;
+    }
+    return drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)(share * share + least * least + spread * spread)));
+}

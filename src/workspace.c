@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Layout of line buffers, tables and lists in the caller's memory. */
+#include "drogue/frontend.h"
+
+static int capacity_valid(const drogue_capacity *c)
+{
+    const uint32_t most = (uint32_t)1 << 24;
+    return c->width_px >= 1 && c->width_px <= DROGUE_MAX_SIDE && c->edges >= 1 && c->edges <= most && c->labels >= 2 &&
+           c->labels <= most && c->arcs >= 1 && c->arcs <= most;
+}
+
+size_t drogue_workspace_bytes(const drogue_capacity *capacity)
+{
+    return DROGUE_WORKSPACE_BYTES(capacity->width_px, capacity->edges, capacity->labels, capacity->arcs);
+}
+
+drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, size_t bytes,
+                                    const drogue_capacity *capacity)
+{
+    uint8_t *at = memory;
+    size_t width;
+    size_t fours;
+    size_t labels;
+    if (!capacity_valid(capacity) || memory == NULL || ((uintptr_t)memory & (sizeof(uint32_t) - 1)) != 0) {
+        return DROGUE_E_ARGUMENT;
+    }
+    if (bytes < drogue_workspace_bytes(capacity)) {
+        return DROGUE_E_WORKSPACE;
+    }
+    width = capacity->width_px;
+    fours = DROGUE_FOURS(width);
+    labels = capacity->labels;
+    workspace->capacity = *capacity;
+    /* Widest elements first: every array is aligned for its type. */
+    workspace->edges = (drogue_edge *)(void *)at;
+    at += capacity->edges * sizeof(drogue_edge);
+    workspace->arcs = (drogue_arc *)(void *)at;
+    at += capacity->arcs * sizeof(drogue_arc);
+    workspace->component_parent = (uint32_t *)(void *)at;
+    at += labels * sizeof(uint32_t);
+    workspace->component_strong = (uint32_t *)(void *)at;
+    at += labels * sizeof(uint32_t);
+    workspace->arc_parent = (uint32_t *)(void *)at;
+    at += labels * sizeof(uint32_t);
+    workspace->arc_component = (uint32_t *)(void *)at;
+    at += labels * sizeof(uint32_t);
+    workspace->hull = (drogue_point *)(void *)at;
+    at += DROGUE_HULL_MAX * sizeof(drogue_point);
+    workspace->histogram = (uint32_t *)(void *)at;
+    at += 256 * sizeof(uint32_t);
+    workspace->merges = (drogue_merge *)(void *)at;
+    at += width * sizeof(drogue_merge);
+    workspace->component_rows = (uint32_t *)(void *)at;
+    at += 2 * width * sizeof(uint32_t);
+    workspace->arc_rows = (uint32_t *)(void *)at;
+    at += 2 * width * sizeof(uint32_t);
+    workspace->raw_rows = at;
+    at += 5 * (fours + 1) * sizeof(uint32_t);
+    workspace->smooth_rows = at;
+    at += 3 * 2 * (fours + 2) * sizeof(uint32_t);
+    workspace->magnitude_rows = (uint16_t *)(void *)at;
+    at += 4 * 4 * (fours + 1) * sizeof(uint16_t);
+    workspace->slope_rows = (drogue_slope *)(void *)at;
+    at += 2 * 4 * fours * sizeof(drogue_slope);
+    workspace->code_rows = at;
+    return DROGUE_OK;
+}

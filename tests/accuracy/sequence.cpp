@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Sequences through the tracker. */
+#include "sequence.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace accuracy {
+
+namespace {
+
+constexpr double turns_to_rad = 2 * CV_PI;
+
+/* A frame of which only those parts exist that were asked for. */
+class LazyFrame {
+public:
+    explicit LazyFrame(const cv::Size &size) : image_(size, CV_8U, cv::Scalar(0)) {}
+
+    void render_part(const Scene &scene, const cv::Rect &part)
+    {
+        const cv::Rect inside = part & cv::Rect({0, 0}, scene.image_px);
+        if (inside.area() > 0) {
+            render(scene, inside).copyTo(image_(inside));
+        }
+    }
+
+    drogue_image view() const { return {image_.data, image_.cols, image_.rows, static_cast<int32_t>(image_.step)}; }
+
+private:
+    cv::Mat image_;
+};
+
+/* A region and room about it: the library may look again in a region about an outline off the middle. */
+cv::Rect with_room(const drogue_region &r)
+{
+    const int room = r.width_px / 3;
+    return {r.x_px - room, r.y_px - room, r.width_px + 2 * room, r.height_px + 2 * room};
+}
+
+/* What the tracker may look at in its next frame: 'track' is a copy. */
+cv::Rect wanted(drogue_track track, uint32_t dt_us, const cv::Size &image)
+{
+    drogue_region region;
+    drogue_track_begin(&region, &track, dt_us);
+    if (track.state == DROGUE_LOST) {
+        return {{0, 0}, image};
+    }
+    return track.search ? with_room(region) | with_room(track.reach) : with_room(region);
+}
+
+Pose pose_of(const drogue_pose &p)
+{
+    return {{from_q16(p.position_m_q16[0]), from_q16(p.position_m_q16[1]), from_q16(p.position_m_q16[2])},
+            axis_of(from_q16(p.yaw_rad_q16), from_q16(p.pitch_rad_q16))};
+}
+
+drogue_camera camera_of(const Camera &c)
+{
+    return {to_q16(c.fx_px), to_q16(c.fy_px), to_q16(c.cx_px), to_q16(c.cy_px), to_q16(c.k1),
+            to_q16(c.k2),    to_q16(c.p1),    to_q16(c.p2),    to_q16(c.k3)};
+}
+
+/* Memory for the tracker's workspace and search. */
+class Tracker {
+public:
+    explicit Tracker(const Scene &scene)
+        : memory_(workspace_words(scene.image_px)),
+          search_memory_(DROGUE_SEARCH_BYTES(static_cast<size_t>(scene.image_px.width)))
+    {
+        const drogue_capacity capacity = capacity_for(scene.image_px);
+        const drogue_camera camera = camera_of(scene.camera);
+        const drogue_model model = {to_q16(scene.drogue.rim_radius_m), to_q16(scene.drogue.inner_radius_m),
+                                    to_q16(scene.drogue.inner_depth_m)};
+        drogue_track_config track_config;
+        if (drogue_workspace_init(&workspace_, memory_.data(), memory_.size() * sizeof(uint32_t), &capacity) !=
+                DROGUE_OK ||
+            drogue_search_init(&search_, search_memory_.data(), search_memory_.size(), scene.image_px.width) !=
+                DROGUE_OK) {
+            throw std::runtime_error("workspace refused");
+        }
+        drogue_config_default(&config_);
+        drogue_track_config_default(&track_config);
+        drogue_track_init(&track, &track_config, &camera, &model, nullptr);
+    }
+
+    void frame(drogue_result &result, const drogue_image &image, uint32_t dt_us)
+    {
+        drogue_region region;
+        drogue_track_frame(&result, &region, &track, &workspace_, &search_, &config_, &image, dt_us);
+    }
+
+    drogue_track track;
+
+private:
+    static drogue_capacity capacity_for(const cv::Size &image)
+    {
+        return DROGUE_CAPACITY_FOR(std::max(image.width, image.height));
+    }
+    static size_t workspace_words(const cv::Size &image)
+    {
+        const drogue_capacity capacity = capacity_for(image);
+        return drogue_workspace_bytes(&capacity) / sizeof(uint32_t) + 1;
+    }
+
+    std::vector<uint32_t> memory_;
+    std::vector<uint8_t> search_memory_;
+    drogue_workspace workspace_;
+    drogue_search search_;
+    drogue_config config_;
+};
+
+SequenceFrame describe(const drogue_track &track, const drogue_result &result)
+{
+    SequenceFrame f = {};
+    drogue_track_estimate e;
+    drogue_track_get(&e, &track);
+    f.state = track.state;
+    f.gated = track.gated != 0;
+    f.measured = result.status == DROGUE_OK;
+    f.raw = pose_of(result.pose);
+    f.filtered = {{from_q16(e.position_m_q16[0]), from_q16(e.position_m_q16[1]), from_q16(e.position_m_q16[2])},
+                  axis_of(from_q16(e.yaw_rad_q16), from_q16(e.pitch_rad_q16))};
+    for (int k = 0; k < 3; k++) {
+        f.filtered_std[k] = std::ldexp(static_cast<double>(e.position_std_m_q32[k]), -32);
+    }
+    f.filtered_std[3] = std::ldexp(static_cast<double>(e.yaw_std_rad_q32), -32);
+    f.filtered_std[4] = std::ldexp(static_cast<double>(e.pitch_std_rad_q32), -32);
+    return f;
+}
+
+} // namespace
+
+Pose Motion::at(double seconds) const
+{
+    const double yaw_per_m = 0.15; /* rad */
+    const double pitch_at_rest = 0.08;
+    const double span = from_m - to_m;
+    double covered = speed_mps * seconds;
+    if (shuttle) {
+        covered = std::fmod(covered, 2 * span);
+        covered = covered > span ? 2 * span - covered : covered;
+    }
+    const double x = amplitude_m * std::sin(turns_to_rad * 0.2 * seconds + phase_rad);
+    const double y = 0.7 * amplitude_m * std::sin(turns_to_rad * 0.15 * seconds + 1.3 * phase_rad + 1);
+    return {{x, y, from_m - covered}, axis_of(yaw_per_m * x, pitch_at_rest + yaw_per_m * y)};
+}
+
+SequenceRun run_sequence(const SequenceOptions &o)
+{
+    const auto dt_us = static_cast<uint32_t>(std::lround(1e6 / o.frames_per_second));
+    Tracker tracker(o.scene);
+    LazyFrame frame(o.scene.image_px);
+    Random random(o.seed);
+    SequenceRun run;
+    bool begun = false;
+    for (int i = 0; i < o.frames; i++) {
+        Scene scene = o.scene;
+        const double seconds = i * (dt_us * 1e-6);
+        const bool blanked = random.uniform(0, 1) < o.blanked_share;
+        const drogue_track_state before = tracker.track.state;
+        drogue_result result;
+        scene.pose = o.motion.at(seconds);
+        scene.seed = hash_at(o.seed, i, 0);
+        const Pose truth = scene.pose;
+        if (blanked) {
+            scene.pose.position_m = {0, 0, -1000}; /* behind the camera */
+        }
+        frame.render_part(scene, wanted(tracker.track, dt_us, scene.image_px));
+        tracker.frame(result, frame.view(), dt_us);
+        SequenceFrame f = describe(tracker.track, result);
+        f.seconds = seconds;
+        f.truth = truth;
+        f.blanked = blanked;
+        run.frames.push_back(f);
+        run.results.push_back(result);
+        run.losses += begun && before != DROGUE_LOST && f.state == DROGUE_LOST;
+        begun = begun || f.state == DROGUE_TRACKING;
+        if (o.progress) {
+            o.progress(static_cast<size_t>(i) + 1, static_cast<size_t>(o.frames));
+        }
+    }
+    return run;
+}
+
+cv::Vec<double, 5> pose_error(const Pose &estimate, const Pose &truth)
+{
+    const cv::Vec3d d = estimate.position_m - truth.position_m;
+    return {d[0], d[1], d[2], yaw_of(estimate.axis) - yaw_of(truth.axis),
+            pitch_of(estimate.axis) - pitch_of(truth.axis)};
+}
+
+SequenceErrors sequence_errors(const SequenceRun &run, int settle)
+{
+    SequenceErrors e;
+    for (size_t i = static_cast<size_t>(settle); i < run.frames.size(); i++) {
+        const SequenceFrame &f = run.frames[i];
+        if (f.measured && f.state == DROGUE_TRACKING) {
+            const auto raw = pose_error(f.raw, f.truth);
+            const auto filtered = pose_error(f.filtered, f.truth);
+            e.raw += raw.mul(raw);
+            e.filtered += filtered.mul(filtered);
+            e.frames++;
+        }
+    }
+    for (int k = 0; k < 5; k++) {
+        e.raw[k] = std::sqrt(e.raw[k] / e.frames);
+        e.filtered[k] = std::sqrt(e.filtered[k] / e.frames);
+    }
+    return e;
+}
+
+} // namespace accuracy

@@ -1,0 +1,374 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The search over drawn frames: discs inside rings of every size and shade, frames without any, limits. */
+#include "suite.h"
+
+#include "drogue/track.h"
+#include "results.h"
+#include "workspace.h"
+
+static const drogue_model model = {22938, 7864, 16384}; /* 0.35, 0.12, 0.25 m */
+
+typedef struct frame {
+    int32_t width, height;
+    uint8_t *pixels;
+} frame;
+
+typedef struct shades {
+    int background, canopy, inner;
+} shades;
+
+static const shades all_shades[3] = {{210, 60, 14}, {45, 140, 20}, {120, 75, 14}};
+
+static frame new_frame(int32_t width, int32_t height, int background, uint64_t seed)
+{
+    frame f = {width, height, NULL};
+    int32_t i;
+    f.pixels = (uint8_t *)malloc((size_t)width * (size_t)height);
+    if (f.pixels == NULL) {
+        abort();
+    }
+    for (i = 0; i < width * height; i++) {
+        f.pixels[i] = (uint8_t)(background + rng_range(&seed, -4, 4));
+    }
+    return f;
+}
+
+/* Part of a pixel inside an ellipse, about. */
+static double inside(const ellipse_real *e, double x, double y)
+{
+    const double c = cos(e->angle), s = sin(e->angle), u = c * (x - e->xc) + s * (y - e->yc),
+                 v = c * (y - e->yc) - s * (x - e->xc), r = hypot(u / e->a, v / e->b),
+                 scale = hypot(u, v) / fmax(r, 1e-9);
+    return fmin(fmax((1 - r) * (scale > 0 ? scale : e->b) + 0.5, 0), 1);
+}
+
+static void draw_ellipse(frame *f, const ellipse_real *e, int grey)
+{
+    int32_t x, y;
+    for (y = (int32_t)fmax(0, e->yc - e->a - 2); y < fmin(f->height, e->yc + e->a + 2); y++) {
+        for (x = (int32_t)fmax(0, e->xc - e->a - 2); x < fmin(f->width, e->xc + e->a + 2); x++) {
+            uint8_t *p = &f->pixels[(size_t)y * (size_t)f->width + (size_t)x];
+            double share = inside(e, x, y);
+            *p = (uint8_t)(*p + share * (grey - *p) + 0.5);
+        }
+    }
+}
+
+/* A drogue at a place, for the camera of 'camera_for': outline and inner part as projected circles. */
+static ellipse_real draw_drogue(frame *f, const double centre[3], double yaw, double pitch, const shades *s)
+{
+    double axis[3], inner_centre[3];
+    ellipse_real rim, inner;
+    int k;
+    axis_of_angles(axis, yaw, pitch);
+    for (k = 0; k < 3; k++) {
+        inner_centre[k] = centre[k] + 0.25 * axis[k];
+    }
+    if (!ellipse_of_circle(&rim, centre, axis, 0.35, 1000, 1000, f->width / 2.0, f->height / 2.0) ||
+        !ellipse_of_circle(&inner, inner_centre, axis, 0.12, 1000, 1000, f->width / 2.0, f->height / 2.0)) {
+        abort();
+    }
+    draw_ellipse(f, &rim, s->canopy);
+    draw_ellipse(f, &inner, s->inner);
+    return rim;
+}
+
+static drogue_camera camera_for(const frame *f) { return pinhole(1000, 1000, f->width / 2.0, f->height / 2.0); }
+
+static drogue_image image_of(const frame *f)
+{
+    drogue_image image;
+    image.data = f->pixels;
+    image.width_px = f->width;
+    image.height_px = f->height;
+    image.stride = f->width;
+    return image;
+}
+
+typedef struct test_search {
+    guarded memory;
+    drogue_search search;
+} test_search;
+
+static test_search new_search(int32_t width)
+{
+    test_search s;
+    s.memory = guarded_alloc(DROGUE_SEARCH_BYTES(width));
+    ck_assert_int_eq(drogue_search_init(&s.search, s.memory.data, s.memory.bytes, width), DROGUE_OK);
+    return s;
+}
+
+static void free_search(test_search *s)
+{
+    MUST(guarded_intact(&s->memory), "written past the memory");
+    guarded_free(&s->memory);
+}
+
+static int32_t run(drogue_search *s, const frame *f)
+{
+    int32_t y;
+    ck_assert_int_eq(drogue_search_begin(s, f->width), DROGUE_OK);
+    for (y = 0; y < f->height; y++) {
+        drogue_search_row(s, f->pixels + (size_t)y * (size_t)f->width);
+    }
+    return drogue_search_end(s);
+}
+
+/* Index of the sighting that suits an outline, or -1. */
+static int32_t rank_of(const drogue_search *s, const ellipse_real *rim)
+{
+    int32_t i;
+    for (i = 0; i < s->count; i++) {
+        const drogue_sighting *c = &s->best[i];
+        const double side = c->region.width_px / rim->a;
+        if (hypot(c->x_px - rim->xc, c->y_px - rim->yc) < 0.3 * rim->a && side > 2.1 && side < 2.9) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+START_TEST(every_size_tilt_and_shade)
+{
+    uint64_t rng = 3;
+    test_search s = new_search(1024);
+    int i, k, first = 0;
+    for (i = 0; i < 120; i++) {
+        const double z = 25 * pow(0.9 / 25, i / 119.0); /* 14 to 390 px */
+        const double room = fmax(0, 0.5 - 0.45 / z);
+        double at[4], centre[3];
+        frame f = new_frame(1024, 1024, all_shades[i % 3].background, (uint64_t)i);
+        ellipse_real rim;
+        int32_t rank;
+        for (k = 0; k < 4; k++) {
+            at[k] = rng_real(&rng, -1, 1);
+        }
+        centre[0] = z * room * at[0];
+        centre[1] = z * room * at[1];
+        centre[2] = z;
+        rim = draw_drogue(&f, centre, 0.4 * at[2], 0.4 * at[3], &all_shades[i % 3]);
+        (void)run(&s.search, &f);
+        rank = rank_of(&s.search, &rim);
+        MUST(rank >= 0,
+             "case %d: semi-axes %.1f and %.1f px at (%.1f, %.1f): not among %d, the first of radius %d at (%d, %d)", i,
+             rim.a, rim.b, rim.xc, rim.yc, (int)s.search.count, (int)s.search.best[0].radius_px,
+             (int)s.search.best[0].x_px, (int)s.search.best[0].y_px);
+        first += rank == 0;
+        free(f.pixels);
+    }
+    MUST(first >= 116, "first of the sightings in %d of 120", first);
+    free_search(&s);
+}
+END_TEST
+
+START_TEST(nothing_in_flat_and_noisy_frames)
+{
+    test_search s = new_search(640);
+    int k;
+    for (k = 0; k < 3; k++) {
+        frame f = new_frame(640, 480, 40 + 70 * k, 5 + (uint64_t)k);
+        ck_assert_int_eq(run(&s.search, &f), 0);
+        free(f.pixels);
+    }
+    free_search(&s);
+}
+END_TEST
+
+START_TEST(the_best_eight_in_order)
+{
+    frame f = new_frame(1280, 960, 210, 1);
+    test_search s = new_search(1280);
+    int i, k;
+    for (i = 0; i < 12; i++) {
+        const double centre[3] = {3.2 * (i % 4 - 1.5), 3.2 * (i / 4 - 1), 11};
+        shades shade = all_shades[0];
+        shade.canopy = 40 + 5 * i;
+        (void)draw_drogue(&f, centre, 0, 0, &shade);
+    }
+    ck_assert_int_eq(run(&s.search, &f), DROGUE_SEARCH_MAX);
+    for (i = 0; i + 1 < DROGUE_SEARCH_MAX; i++) {
+        ck_assert_uint_ge(s.search.best[i].score, s.search.best[i + 1].score);
+        for (k = i + 1; k < DROGUE_SEARCH_MAX; k++) {
+            MUST(abs(s.search.best[i].x_px - s.search.best[k].x_px) > 30 ||
+                     abs(s.search.best[i].y_px - s.search.best[k].y_px) > 30,
+                 "%d and %d are one", i, k);
+        }
+    }
+    free_search(&s);
+    free(f.pixels);
+}
+END_TEST
+
+START_TEST(any_size_of_frame)
+{
+    static const int32_t sizes[][2] = {{1, 1},   {1, 300}, {300, 1},  {2, 2},    {7, 9},
+                                       {64, 48}, {333, 2}, {511, 37}, {97, 1000}};
+    size_t i;
+    for (i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        frame f = new_frame(sizes[i][0], sizes[i][1], 100, i);
+        test_search s = new_search(sizes[i][0]);
+        uint64_t rng = i;
+        int32_t k;
+        for (k = 0; k < f.width * f.height; k++) { /* all contrast there can be */
+            f.pixels[k] = (uint8_t)rng_u64(&rng);
+        }
+        for (k = run(&s.search, &f) - 1; k >= 0; k--) {
+            MUST(s.search.best[k].region.width_px > 0 && s.search.best[k].region.width_px < 2600, "side %d",
+                 (int)s.search.best[k].region.width_px);
+        }
+        free_search(&s);
+        free(f.pixels);
+    }
+}
+END_TEST
+
+START_TEST(refusals)
+{
+    static uint8_t memory[DROGUE_SEARCH_BYTES(100)];
+    drogue_search s;
+    ck_assert_int_eq(drogue_search_init(&s, NULL, sizeof memory, 100), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_search_begin(&s, 1), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_search_init(&s, memory, sizeof memory, 0), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_search_init(&s, memory, sizeof memory, 32768), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_search_init(&s, memory, sizeof memory - 1, 100), DROGUE_E_WORKSPACE);
+    ck_assert_int_eq(drogue_search_init(&s, memory, sizeof memory, 100), DROGUE_OK);
+    ck_assert_int_eq(drogue_search_begin(&s, 101), DROGUE_E_WORKSPACE);
+    ck_assert_int_eq(drogue_search_begin(&s, 0), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_search_begin(&s, 100), DROGUE_OK);
+    ck_assert_int_eq(drogue_search_end(&s), 0);
+}
+END_TEST
+
+/* Everything that finds and follows a drogue in frames. */
+typedef struct rig {
+    test_workspace workspace;
+    test_search search;
+    drogue_config config;
+    drogue_camera camera;
+} rig;
+
+static rig new_rig(const frame *f)
+{
+    rig r;
+    r.workspace = test_workspace_of((uint32_t)f->width, (uint32_t)DROGUE_EDGES_FOR(f->width),
+                                    (uint32_t)DROGUE_LABELS_FOR(f->width), (uint32_t)DROGUE_ARCS_FOR(f->width));
+    r.search = new_search(f->width);
+    drogue_config_default(&r.config);
+    r.camera = camera_for(f);
+    return r;
+}
+
+static void free_rig(rig *r)
+{
+    test_workspace_free(&r->workspace);
+    free_search(&r->search);
+}
+
+START_TEST(acquire_measures_what_it_finds)
+{
+    int i;
+    for (i = 0; i < 6; i++) {
+        const double centre[3] = {0.6 - 0.2 * i, 0.1 * i, 3.0 + i};
+        frame f = new_frame(800, 600, all_shades[i % 3].background, (uint64_t)i);
+        rig r = new_rig(&f);
+        const drogue_image image = image_of(&f);
+        const drogue_region away = {0, 0, 30, 30}, outside = {-40, 0, 30, 30};
+        drogue_result result;
+        (void)draw_drogue(&f, centre, 0.2, -0.15, &all_shades[i % 3]);
+        ck_assert_int_eq(drogue_acquire(&result, &r.search.search, &r.workspace.workspace, &r.config, &r.camera, &model,
+                                        &image, NULL),
+                         DROGUE_OK);
+        MUST(fabs(real_of_q16(result.pose.position_m_q16[0]) - centre[0]) < 0.005 &&
+                 fabs(real_of_q16(result.pose.position_m_q16[1]) - centre[1]) < 0.005 &&
+                 fabs(real_of_q16(result.pose.position_m_q16[2]) - centre[2]) < 0.05,
+             "case %d: at (%g, %g, %g)", i, real_of_q16(result.pose.position_m_q16[0]),
+             real_of_q16(result.pose.position_m_q16[1]), real_of_q16(result.pose.position_m_q16[2]));
+        MUST(fabs(real_of_q16(result.pose.yaw_rad_q16) - 0.2) < 0.02 &&
+                 fabs(real_of_q16(result.pose.pitch_rad_q16) + 0.15) < 0.02,
+             "case %d: yaw %g, pitch %g", i, real_of_q16(result.pose.yaw_rad_q16),
+             real_of_q16(result.pose.pitch_rad_q16));
+        ck_assert_int_ne(drogue_acquire(&result, &r.search.search, &r.workspace.workspace, &r.config, &r.camera, &model,
+                                        &image, &away),
+                         DROGUE_OK);
+        ck_assert_int_eq(drogue_acquire(&result, &r.search.search, &r.workspace.workspace, &r.config, &r.camera, &model,
+                                        &image, &outside),
+                         DROGUE_E_REGION);
+        ck_assert_int_eq(result.status, DROGUE_E_REGION);
+        free_rig(&r);
+        free(f.pixels);
+    }
+}
+END_TEST
+
+/* From a whole frame, through blanks, a loss and a jump while lost. */
+START_TEST(track_frames)
+{
+    drogue_track_config config;
+    drogue_track t;
+    int k, searched = 0;
+    frame f = new_frame(640, 480, 0, 0);
+    rig r = new_rig(&f);
+    drogue_track_config_default(&config);
+    config.max_missed = 5;
+    drogue_track_init(&t, &config, &r.camera, &model, NULL);
+    free(f.pixels);
+    for (k = 0; k < 60; k++) {
+        const int blank = k < 2 || k == 12 || (k >= 20 && k < 24) || (k >= 30 && k < 40);
+        const double x = k < 35 ? -0.5 + 0.01 * k : 0.8, centre[3] = {x, 0.1, 5 - 0.02 * k};
+        drogue_track_state want = k < 2 || (k >= 35 && k < 40) ? DROGUE_LOST
+                                  : blank                      ? DROGUE_COASTING
+                                                               : DROGUE_TRACKING;
+        drogue_track_state state;
+        drogue_result result;
+        drogue_region region;
+        drogue_image image;
+        f = new_frame(640, 480, 210, (uint64_t)k);
+        image = image_of(&f);
+        if (!blank) {
+            (void)draw_drogue(&f, centre, 0.1, 0.1, &all_shades[0]);
+        }
+        state = drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search, &r.config, &image,
+                                   40000);
+        searched += t.search;
+        MUST(state == want, "frame %d: %s, not %s", k, drogue_track_state_name(state), drogue_track_state_name(want));
+        if (state == DROGUE_TRACKING) {
+            drogue_track_estimate e;
+            drogue_track_get(&e, &t);
+            MUST(fabs(real_of_q16(e.position_m_q16[0]) - x) < 0.01 &&
+                     fabs(real_of_q16(e.position_m_q16[2]) - centre[2]) < 0.05,
+                 "frame %d: x %g, not %g; z %g, not %g", k, real_of_q16(e.position_m_q16[0]), x,
+                 real_of_q16(e.position_m_q16[2]), centre[2]);
+        }
+        free(f.pixels);
+    }
+    ck_assert_int_ge(searched, 8); /* frames while lost at least */
+    free_rig(&r);
+}
+END_TEST
+
+/* A first region that holds nothing does not keep a lost track from finding the drogue elsewhere. */
+START_TEST(first_region_then_anywhere)
+{
+    const drogue_region first = {0, 0, 100, 100};
+    const double centre[3] = {0.5, 0.2, 5};
+    frame f = new_frame(640, 480, 210, 3);
+    rig r = new_rig(&f);
+    const drogue_image image = image_of(&f);
+    drogue_track_config config;
+    drogue_track t;
+    drogue_result result;
+    drogue_region region;
+    (void)draw_drogue(&f, centre, 0.1, 0.1, &all_shades[0]);
+    drogue_track_config_default(&config);
+    drogue_track_init(&t, &config, &r.camera, &model, &first);
+    ck_assert_int_eq(
+        drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search, &r.config, &image, 40000),
+        DROGUE_TRACKING);
+    ck_assert_int_eq(memcmp(&region, &first, sizeof first), 0);
+    free_rig(&r);
+    free(f.pixels);
+}
+END_TEST
+
+SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
+           any_size_of_frame, refusals, acquire_measures_what_it_finds, track_frames, first_region_then_anywhere)
