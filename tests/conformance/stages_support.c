@@ -60,7 +60,6 @@ int stage_support(stage_run *r)
 {
     const drogue_ellipse ellipse = stage_ellipse(stage_input32(r, 0));
     const int32_t *p = stage_input32(r, 2);
-    const drogue_band band = {p[0], p[1]};
     size_t count = r->in[1].count / 4;
     int32_t *summary = stage_output32(r, "summary", 6);
     int32_t *bins = stage_output32(r, "bins", 3 * DROGUE_SUPPORT_BINS);
@@ -69,6 +68,7 @@ int stage_support(stage_run *r)
     drogue_edge *edges = (drogue_edge *)stage_take(r, count * sizeof *edges);
     drogue_ellipse_frame frame;
     drogue_support support;
+    drogue_band band;
     uint32_t k;
     if (summary == NULL || bins == NULL || members == NULL || sums == NULL || edges == NULL) {
         return CONF_E_MEMORY;
@@ -78,6 +78,7 @@ int stage_support(stage_run *r)
         p[3] > 2) {
         return CONF_E_MALFORMED;
     }
+    band = drogue_band_of(p[0], p[1]);
     sums[0] = sums[1] = 0;
     summary[0] = (int32_t)drogue_ellipse_frame_of(&frame, &ellipse);
     if (summary[0] != DROGUE_OK) {

@@ -86,6 +86,11 @@ struct Verdict {
 Verdict judge_arc(const std::vector<cv::Point> &pixels, int centre2_x, int centre2_y, int direction,
                   int64_t min_short_q16);
 
+/* Arcs of each quadrant: of the four longest, the farthest with at least half the points of the longest, then the longest
+ * of the others; -1: none. Polarity 2: arcs of either. */
+using Choices = std::array<std::array<int, 2>, 4>;
+Choices select_arcs(const std::vector<Verdict> &verdicts, const std::vector<int> &points, int polarity);
+
 /* Direct fit (Halir and Flusser) in quadruple precision; points in px. Not ok: fewer than 6 points, points on a line
  * or on more than one conic, or exactly on one that is no ellipse, or a parameter beyond Q16. The angle of a circle
  * (equal in Q16) is 0. */
@@ -206,7 +211,7 @@ struct Joint {
     double chi2;
     Solved solved;
 };
-/* Gauss-Newton from a pose, at most 'steps' of them. */
+/* Gauss-Newton from a pose, at most 'steps' after the first; 0: none at all. */
 Joint solve_joint(const Pose &start, const Ellipse &e, const Covariance &outline, const Inner &inner, const Camera &c,
                   const Model &model, int steps);
 /* Image of the inner disc of a pose: centre exact, semi-axes to first order. */

@@ -267,6 +267,31 @@ Verdict judge_arc(const std::vector<cv::Point> &pixels, int centre2_x, int centr
     return v;
 }
 
+Choices select_arcs(const std::vector<Verdict> &verdicts, const std::vector<int> &points, int polarity)
+{
+    Choices chosen;
+    for (int q = 0; q < 4; q++) {
+        std::vector<size_t> own;
+        for (size_t i = 0; i < verdicts.size(); i++) {
+            if (verdicts[i].quadrant == q && (polarity == 2 || verdicts[i].polarity == polarity)) {
+                own.push_back(i);
+            }
+        }
+        std::stable_sort(own.begin(), own.end(), [&](size_t i, size_t k) { return points[i] > points[k]; });
+        own.resize(std::min<size_t>(own.size(), 4));
+        size_t far = 0;
+        for (size_t i = 1; i < own.size(); i++) {
+            if (2 * points[own[i]] >= points[own[0]] && verdicts[own[i]].distance2 > verdicts[own[far]].distance2) {
+                far = i;
+            }
+        }
+        const size_t other = far == 0 ? 1 : 0;
+        chosen[static_cast<size_t>(q)] = {far < own.size() ? static_cast<int>(own[far]) : -1,
+                                          other < own.size() ? static_cast<int>(own[other]) : -1};
+    }
+    return chosen;
+}
+
 Ellipse fit(const std::vector<cv::Point2d> &points)
 {
     quad mx = 0, my = 0, s[6][6] = {}, theta[6];

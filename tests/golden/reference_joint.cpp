@@ -270,12 +270,13 @@ Joint solve_joint(const Pose &start, const Ellipse &e, const Covariance &outline
             out.chi2 += r * r;
         }
         last = step == steps;
-        if (!last) {
+        if (steps > 0) {
             cv::solve(normal, right, move, cv::DECOMP_CHOLESKY);
-            last = true;
+            bool small = true;
             for (int k = 0; k < PARAMETERS; k++) {
-                last = last && std::fabs(move[k]) <= (k < 3 ? static_cast<double>(at[2]) : 1) * 0x1p-20;
+                small = small && std::fabs(move[k]) <= (k < 3 ? static_cast<double>(at[2]) : 1) * 0x1p-20;
             }
+            last = last || small;
             for (size_t k = 0; k < PARAMETERS; k++) {
                 const Real by = k < 3 ? move[static_cast<int>(k)] : std::clamp(move[static_cast<int>(k)], -0.5, 0.5);
                 at[k] = k < 3 ? at[k] + by : std::clamp<Real>(at[k] + by, -PI / 2, PI / 2);

@@ -211,7 +211,7 @@ void bound_poses(Bound &bound, const mirror::Task &task, const mirror::Result &r
             }
         },
         error);
-    if (r.has_inner) {
+    if (f.placed) {
         s.move([](mirror::Features &g, Real by) { g.inner.at.x += by; }, 2 / 65536.0L);
         s.move([](mirror::Features &g, Real by) { g.inner.at.y += by; }, 2 / 65536.0L);
         s.move([](mirror::Features &g, Real by) { g.inner.std += by; }, 3 / 65536.0L);
@@ -220,7 +220,7 @@ void bound_poses(Bound &bound, const mirror::Task &task, const mirror::Result &r
     for (size_t i = POSE; i < RESOLVED; i++) {
         bound[i] = s.at(i, 4);
     }
-    bound[AMBIGUITY] = r.has_inner ? s.at(AMBIGUITY, ambiguity_error(task, f)) : 0;
+    bound[AMBIGUITY] = f.placed ? s.at(AMBIGUITY, ambiguity_error(task, f)) : 0;
     for (size_t i = COVARIANCE; i < ALL; i++) {
         bound[i] = s.at(i, 4 + std::fabs(static_cast<Real>(own[i])) * 0x1p-20L);
     }

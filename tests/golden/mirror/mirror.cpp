@@ -92,8 +92,14 @@ drogue_status outline_twice(Result &out, Frame &f, const Task &task, const drogu
     if (better[2] > static_cast<int64_t>(task.capacity.width_px)) {
         return status;
     }
-    out.outline = Outline();
-    return outline_in(out, f, task, better, library != nullptr);
+    for (const std::array<int64_t, 4> &again : {better, task.region}) { /* when that fails, the first stands */
+        out.outline = Outline();
+        const drogue_status second = outline_in(out, f, task, again, library != nullptr);
+        if (second == DROGUE_OK || again == task.region) {
+            return second;
+        }
+    }
+    return status;
 }
 
 bool distorts(const reference::Camera &c) { return c.k1 != 0 || c.k2 != 0 || c.p1 != 0 || c.p2 != 0 || c.k3 != 0; }
@@ -114,13 +120,12 @@ void find_inner(Result &out, Ellipse &expected, const Frame &f, const std::array
             discs.push_back({at.x - out.region.x, at.y - out.region.y, e.a, e.b, 0, true});
         }
     }
-    if (discs.empty()) {
-        return;
-    }
     out.part = reference::dark_disc(f.view, rounded(2 * rim.xc), rounded(2 * rim.yc), rounded(2.5L * rim.b),
                                     static_cast<int>(task.config.min_dark_area_px), discs);
     out.has_inner = out.part.found;
-    expected = discs[static_cast<size_t>(out.part.which)];
+    if (out.has_inner) {
+        expected = discs[static_cast<size_t>(out.part.which)];
+    }
 }
 
 /* Of about the expected size, near the expected place, not cut by the rim? */
@@ -214,7 +219,7 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
         out.status = DROGUE_E_DOMAIN;
         return;
     }
-    if (out.has_inner) {
+    if (f.placed) {
         if (!reference::choose(pair, f.inner.at, task.model.inner_depth, task.camera, choice)) {
             out.status = DROGUE_E_BEHIND_CAMERA;
             out.ambiguity = 0;
@@ -235,8 +240,7 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
         trusted = p.solved == reference::Solved::ok &&
                   p.joint[p.best].chi2 <= static_cast<double>(real(config.max_chi2_q16));
     }
-    /* the library gives up when a solution fails; a contradiction alone is solved without the inner part */
-    if (!trusted && (!f.trusted || p.solved == reference::Solved::ok)) {
+    if (!trusted) {
         p = solve_both(pair, f, outline, {{0, 0}, 0}, task, nearer, library);
     }
     out.status = status_of(p.solved);
@@ -282,7 +286,7 @@ Result measure(const Task &task, const drogue_result *library, Features *feature
         out.status = DROGUE_E_NO_ELLIPSE;
         return out;
     }
-    Features from = {out.ideal, out.outline.support, {{0, 0}, 0}, false};
+    Features from = {out.ideal, out.outline.support, {{0, 0}, 0}, false, false};
     std::array<Pose, 2> pair;
     if (!reference::poses(out.ideal, camera, task.model.rim_radius, pair)) {
         out.status = DROGUE_E_DOMAIN;
@@ -295,10 +299,8 @@ Result measure(const Task &task, const drogue_result *library, Features *feature
             from.trusted = trust(out, expected, task.config);
             out.inner = {out.part.x + out.region.x, out.part.y + out.region.y};
             from.inner = {out.inner, inner_std(out, expected, task.config)};
-            if (!reference::undistort(camera, from.inner.at)) {
-                out.status = DROGUE_E_DOMAIN;
-                return out;
-            }
+            from.placed = reference::undistort(camera, from.inner.at);
+            from.trusted = from.trusted && from.placed;
         }
     }
     if (features != nullptr) {

@@ -21,7 +21,7 @@ using reference::Support;
 namespace {
 
 constexpr uint32_t NONE = DROGUE_NO_ARC;
-constexpr Real SETTLED = 1 / 256.0L; /* px */
+constexpr Real SETTLED = 1 / 64.0L; /* px */
 
 /* An edge point and what is decided about it: the library's choice where the margin is below what it resolves. */
 BandPoint decide(const Ellipse &e, const reference::Band &band, const Edge &edge, const drogue_edge &q,
@@ -104,16 +104,10 @@ private:
     std::array<std::array<uint32_t, DROGUE_ARC_CHOICES>, 4> choices_ = {};
 };
 
-struct Judged {
-    uint32_t arc, points;
-    Real distance2;
-};
-
-/* Of the four longest arcs of each quadrant the farthest with at least half the points of the longest, then the
- * longest of the others. */
 bool Finder::select()
 {
-    std::array<std::vector<Judged>, 4> by_quadrant;
+    std::vector<reference::Verdict> verdicts;
+    std::vector<int> counts;
     bool any = false;
     for (uint32_t i = 0; i < front_.list.arc_count; i++) {
         const drogue_arc &arc = front_.workspace.arcs[i];
@@ -122,22 +116,16 @@ bool Finder::select()
             const drogue_edge *e = &front_.workspace.edges[k];
             pixels.emplace_back(drogue_edge_x_px(e), drogue_edge_y_px(e));
         }
-        const reference::Verdict v = reference::judge_arc(pixels, mask_.centre2_x, mask_.centre2_y,
-                                                          static_cast<int>(arc.direction), config_.min_short_px_q16);
-        if (v.quadrant >= 0 && (config_.polarity == DROGUE_POLARITY_BOTH || v.polarity == config_.polarity)) {
-            by_quadrant[static_cast<size_t>(v.quadrant)].push_back({i, arc.count, v.distance2});
-            any = true;
-        }
+        verdicts.push_back(reference::judge_arc(pixels, mask_.centre2_x, mask_.centre2_y,
+                                                static_cast<int>(arc.direction), config_.min_short_px_q16));
+        counts.push_back(static_cast<int>(arc.count));
     }
+    const reference::Choices chosen = reference::select_arcs(verdicts, counts, config_.polarity);
     for (size_t q = 0; q < 4; q++) {
-        std::vector<Judged> &l = by_quadrant[q];
-        std::stable_sort(l.begin(), l.end(), [](const Judged &a, const Judged &b) { return a.points > b.points; });
-        l.resize(std::max<size_t>(2, std::min<size_t>(l.size(), 4)), {NONE, 0, -1});
-        size_t far = 0;
-        for (size_t i = 1; i < l.size(); i++) {
-            far = 2 * l[i].points >= l[0].points && l[i].distance2 > l[far].distance2 ? i : far;
+        for (size_t i = 0; i < 2; i++) {
+            choices_[q][i] = chosen[q][i] < 0 ? NONE : static_cast<uint32_t>(chosen[q][i]);
+            any = any || chosen[q][i] >= 0;
         }
-        choices_[q] = {l[far].arc, l[far == 0 ? 1 : 0].arc};
     }
     return any;
 }
@@ -432,7 +420,7 @@ Ellipse ideal_of(const Outline &outline, const FrontEnd &front, const drogue_con
     decisions_round library = {};
     if (follow.library != nullptr) {
         library.ellipse = follow.library->ellipse;
-        library.band = {follow.library->band_px_q16, config.refit_cos_q16};
+        library.band = drogue_band_of(follow.library->band_px_q16, config.refit_cos_q16);
     }
     const std::vector<BandPoint> points = collect(outline.ellipse, {outline.band, real(config.refit_cos_q16)}, front,
                                                   follow.library != nullptr ? &library : nullptr);
