@@ -94,7 +94,7 @@ enum {
  *  joint        ellipse; camera; bins: count sum (Q16) of each of 32; params: rim_radius inner_radius inner_depth, start
  *               x y z yaw pitch, inner x y std, shading blur, gradient (whole), steps (whole)
  *               -> joint: status, pose 8, chi2; disc: status xc yc a b of the start's inner disc; covariance (64 bits, Q48)
- *                  of x y z yaw pitch, packed by rows of the lower triangle; outline (64 bits, Q60): that of m0 .. m4
+ *                  of x y z yaw pitch, packed by rows of the lower triangle; outline (64 bits, Q48): that of m0 .. m4
  *  kalman       params: dt_us, process std 5, start std 5 x (value rate acceleration), start value 5;
  *               frames: value 5, std 5 each (all five std 0: frame missed, predicted only)
  *               -> states: per frame value 5, rate 5, acceleration 5; parameters in the order x y z pitch yaw

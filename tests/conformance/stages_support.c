@@ -119,11 +119,11 @@ static int support_of_words(drogue_support *support, const int32_t *bins, int32_
     return gradient >= 0;
 }
 
-static void put_packed(int64_t *at, const drogue_wide *packed, int frac)
+static void put_packed(int64_t *at, const drogue_wide *packed)
 {
     int k;
     for (k = 0; k < DROGUE_PACKED_MAX; k++) {
-        at[k] = drogue_wide_to_s64(packed[k], frac);
+        at[k] = drogue_wide_to_s64(packed[k], 48);
     }
 }
 
@@ -174,12 +174,12 @@ int stage_joint(stage_run *r)
     }
     out[0] = (int32_t)drogue_joint_outline_covariance(&outline, &support, p[11], p[12]);
     if (out[0] == DROGUE_OK) {
-        put_packed(outline_covariance, outline.covariance, 60);
+        put_packed(outline_covariance, outline.covariance);
         out[0] = (int32_t)drogue_joint_solve(&joint, &start, &outline, &inner, &camera, &model, p[14]);
     }
     if (out[0] == DROGUE_OK) {
         put_joint(out + 1, &joint);
-        put_packed(covariance, joint.covariance, 48);
+        put_packed(covariance, joint.covariance);
     }
     return 0;
 }

@@ -196,6 +196,8 @@ bool choose(const std::array<Pose, 2> &pair, Point p, Real depth, const Camera &
 using Covariance = cv::Matx<double, 5, 5>;
 /* Covariance of m0 .. m4 (drogue/joint.h) from the residuals of the bins; false when too few hold points. */
 bool outline_covariance(Covariance &out, const Ellipse &e, const Support &s, Real shading, Real blur);
+/* Trace of the counts' matrix times that of its inverse: at least its condition. */
+double condition_of(const Support &s);
 
 struct Model {
     Real rim_radius, inner_radius, inner_depth;

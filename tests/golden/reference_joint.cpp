@@ -202,6 +202,19 @@ void normal_equations(Covariance &normal, cv::Vec<double, 5> &right, const Rows 
     }
 }
 
+/* Points times products of 1, cos t, sin t, cos 2t, sin 2t in the middles of the bins. */
+Covariance information_of(const Support &s)
+{
+    Covariance information = Covariance::zeros();
+    for (int k = 0; k < SUPPORT_BINS; k++) {
+        const int n = s.count[static_cast<size_t>(k)][s.bright >> k & 1];
+        const auto t = static_cast<double>((k + 0.5L) * 2 * PI / SUPPORT_BINS);
+        const cv::Vec<double, 5> basis(1, std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t));
+        information += static_cast<double>(n) * Covariance(basis * basis.t());
+    }
+    return information;
+}
+
 Pose pose_at(const std::array<Real, PARAMETERS> &at)
 {
     const Frame f = frame_of(at);
@@ -212,22 +225,16 @@ Pose pose_at(const std::array<Real, PARAMETERS> &at)
 
 bool outline_covariance(Covariance &out, const Ellipse &e, const Support &s, Real shading, Real blur)
 {
-    Covariance information = Covariance::zeros();
-    Real scatter = 0;
     int bins = 0;
+    Real scatter = 0;
+    Covariance root;
     for (int k = 0; k < SUPPORT_BINS; k++) {
         const int n = s.count[static_cast<size_t>(k)][s.bright >> k & 1];
-        const Real t = (k + 0.5L) * 2 * PI / SUPPORT_BINS, sum = s.sum[static_cast<size_t>(k)];
-        if (n == 0) {
-            continue;
-        }
-        bins++;
-        scatter += sum * sum / n;
-        const cv::Vec<double, 5> basis(1, static_cast<double>(std::cos(t)), static_cast<double>(std::sin(t)),
-                                       static_cast<double>(std::cos(2 * t)), static_cast<double>(std::sin(2 * t)));
-        information += static_cast<double>(n) * Covariance(basis * basis.t());
+        const Real sum = s.sum[static_cast<size_t>(k)];
+        bins += n > 0;
+        scatter += n > 0 ? sum * sum / n : 0;
     }
-    Covariance root;
+    const Covariance information = information_of(s);
     if (bins <= PARAMETERS || !(s.gradient > 0) || !cholesky(root, information)) {
         return false;
     }
@@ -236,6 +243,12 @@ bool outline_covariance(Covariance &out, const Ellipse &e, const Support &s, Rea
           static_cast<double>(shade * shade) * Covariance::eye();
     out(0, 0) += static_cast<double>(blurred * blurred);
     return true;
+}
+
+double condition_of(const Support &s)
+{
+    const Covariance information = information_of(s);
+    return cv::trace(information) * cv::trace(information.inv(cv::DECOMP_CHOLESKY));
 }
 
 Joint solve_joint(const Pose &start, const Ellipse &e, const Covariance &outline, const Inner &inner, const Camera &c,

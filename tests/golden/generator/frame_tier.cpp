@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The reference tier of a frame by the mirror, and how far the library may be from it: the ellipse by what its fit may,
  * everything behind it by what such an ellipse, such a centroid and rounded residuals move it. */
-#include "frame_tier.hpp"
+#include "tiers.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "case.hpp"
-#include "frame_tier.hpp"
+#include "tiers.hpp"
 #include "reference.hpp"
 #include "stages.h"
 
@@ -18,8 +18,6 @@ namespace {
 using reference::q16;
 using reference::Real;
 using Words = std::vector<int64_t>;
-using Arrays = std::vector<Array>;
-using Tiers = std::vector<Expected>;
 
 constexpr uint32_t ANY_ANGLE = 205887; /* pi: the angle of a circle says nothing */
 
@@ -408,7 +406,9 @@ Tiers reference_of(const std::string &stage, const Arrays &inputs, const Arrays 
         {"mask", mask_tier},         {"arcs", arcs_tier},         {"constraints", constraints_tier},
         {"ellipse", ellipse_tier},   {"quality", quality_tier},   {"cluster", cluster_tier},
         {"centroid", centroid_tier}, {"eigen", eigen_tier},       {"undistort", undistort_tier},
-        {"pose", pose_tier},         {"kalman", kalman_tier},     {"frame", frame_tier}};
+        {"pose", pose_tier},         {"kalman", kalman_tier},     {"frame", frame_tier},
+        {"select", select_tier},     {"support", support_tier},   {"disc", disc_tier},
+        {"joint", joint_tier}};
     return tiers.at(stage)(inputs, exact);
 }
 
