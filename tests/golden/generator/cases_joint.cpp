@@ -234,10 +234,10 @@ void add_refusals(Set &set)
     w.params[5] = q16(-9);
     add_words(set, "start-behind-camera", Tier::must_reject, {"behind-camera"}, w);
     w.params[10] = 0;
-    add_words(set, "start-behind-camera-no-inner", Tier::stress, {"behind-camera"}, w);
+    add_words(set, "start-behind-camera-no-inner", Tier::must_reject, {"behind-camera"}, w);
     w = good;
     w.params[1] = q16(30);
-    add_words(set, "inner-around-the-camera", Tier::must_reject, {"domain"}, w);
+    add_words(set, "inner-around-the-camera", Tier::stress, {"saturation"}, w);
     w = good;
     w.params[13] = 0;
     add_words(set, "no-gradient", Tier::must_reject, {"degenerate"}, w);
@@ -251,7 +251,7 @@ void add_refusals(Set &set)
     w = good;
     w.params[8] = INT32_MAX;
     w.params[9] = INT32_MIN;
-    add_words(set, "inner-far-outside", Tier::stress, {"saturation"}, w);
+    add_words(set, "inner-far-outside", Tier::must_reject, {"saturation"}, w);
 }
 
 } // namespace

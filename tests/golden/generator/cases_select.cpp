@@ -137,7 +137,7 @@ void add_polarities(Set &set)
     j.arcs = {{{{120, 40}, {120, 41}, {120, 42}, {120, 43}, {120, 44}, {120, 45}}, 0}};
     add_job(set, "only-a-straight-one", Tier::must_reject, {"straight"}, j);
     j.arcs.push_back(corner(150, 40, 3, 3, 0));
-    add_job(set, "straight-and-short", Tier::boundary, {"straight"}, j);
+    add_job(set, "straight-and-short", Tier::must_reject, {"straight"}, j);
 }
 
 void add_random(Set &set)
@@ -165,7 +165,7 @@ void add_random(Set &set)
             j.arcs.push_back(mirrored(stair(110 + 8 * i, 30, 8 + 6 * i, q), q));
         }
     }
-    add_job(set, "stairs", Tier::ordinary, {"farthest-arc"}, j);
+    add_job(set, "stairs", Tier::must_reject, {"straight"}, j);
 }
 
 } // namespace
