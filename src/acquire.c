@@ -11,16 +11,10 @@ static void clip(int32_t *at, int32_t *length, int32_t limit)
     *length = (int32_t)((end > limit ? limit : end) - *at);
 }
 
-/* How much a result is worth: none without a pose, and the inner part counts more than the outline. */
-static int32_t worth(const drogue_result *r)
-{
-    if (r->status != DROGUE_OK) {
-        return 0;
-    }
-    return (r->orientation_resolved ? 2 : r->has_inner ? 1 : 0) * 2 * DROGUE_Q16_ONE + r->cover_q16 + 1;
-}
+/* How much a result is worth that leaves the orientation open: 0 without a pose. */
+static int32_t worth(const drogue_result *r) { return r->status != DROGUE_OK ? 0 : r->has_inner ? 2 : 1; }
 
-/* Candidates of a part of the image, in coordinates of the image. */
+/* Sightings in a part of the image, in coordinates of the image. */
 static drogue_status search_part(drogue_search *search, const drogue_image *image, const drogue_region *part)
 {
     int32_t y;

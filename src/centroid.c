@@ -420,6 +420,7 @@ static void components_within(drogue_dark_part *out, const dark_pass *p, const d
             y += w->arc_component[i];
         }
     }
+    DROGUE_NOTE("centroid: coordinate sum of components", x > y ? x : y, 33);
     if (out->area_px > 0) {
         out->x_px_q16 = mean_q16(x, out->area_px);
         out->y_px_q16 = mean_q16(y, out->area_px);
@@ -501,6 +502,10 @@ static void weigh(drogue_dark_part *part, const drogue_image *image, const drogu
         sum += row_sum;
         y_sum += (int64_t)row_sum * y;
     }
+    /* The range is at most 171 levels (2 / 3 of 255, and 1), over 2^22 pixels with coordinates below 2^11. */
+    DROGUE_NOTE("centroid: sum of darkness", sum, 30);
+    DROGUE_NOTE("centroid: x weighted by darkness", x_sum, 41);
+    DROGUE_NOTE("centroid: y weighted by darkness", y_sum, 41);
     if (sum > 0) {
         part->x_px_q16 = mean_q16(x_sum, sum);
         part->y_px_q16 = mean_q16(y_sum, sum);

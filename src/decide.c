@@ -39,24 +39,31 @@ static int same_solution(const drogue_joint *p, const drogue_joint *q)
 #define STEPS 5       /* most Gauss-Newton steps of the pose taken: the start is within a few degrees */
 #define OTHER_STEPS 1 /* of the other one, of which only matters how much worse it is and whether it is the same */
 
-/* Solve from the pose nearer to the inner part, and far enough from the other one to know how much worse it is. */
-static drogue_status solve_both(drogue_joint joint[2], uint32_t *best, const drogue_pose poses[2],
-                                const drogue_joint_outline *outline, const drogue_joint_inner *inner,
-                                const drogue_camera *camera, const drogue_model *model, uint32_t nearer)
+/* Solve for outline and inner part from the nearer pose, and far enough from the other one to know how much worse it is;
+ * the other way round when it is better. 0 when they contradict each other; 'resolved' tells whether that decides. */
+static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved, const drogue_pose poses[2],
+                          const drogue_joint_outline *outline, const drogue_joint_inner *inner,
+                          const drogue_config *config, const drogue_camera *camera, const drogue_model *model)
 {
-    const int with_inner = inner->std_px_q16 > 0;
-    drogue_status status =
-        drogue_joint_solve(&joint[nearer], &poses[nearer], outline, inner, camera, model, with_inner ? STEPS : 0);
-    *best = nearer;
-    if (status == DROGUE_OK) {
-        status = drogue_joint_solve(&joint[1 - nearer], &poses[1 - nearer], outline, inner, camera, model,
-                                    with_inner ? OTHER_STEPS : 0);
+    drogue_joint other;
+    drogue_status near_status;
+    const drogue_status far_status =
+        drogue_joint_solve(&other, &poses[1 - *index], outline, inner, camera, model, OTHER_STEPS);
+    near_status = drogue_joint_solve(best, &poses[*index], outline, inner, camera, model, STEPS);
+    if (far_status == DROGUE_OK && (near_status != DROGUE_OK || drogue_wide_cmp(other.chi2, best->chi2) < 0)) {
+        const drogue_joint turned = *best;
+        *index = 1 - *index;
+        if (drogue_joint_solve(best, &poses[*index], outline, inner, camera, model, STEPS) != DROGUE_OK) {
+            return 0;
+        }
+        other = turned;
+    } else if (near_status != DROGUE_OK) {
+        return 0;
     }
-    if (status == DROGUE_OK && drogue_wide_cmp(joint[1 - nearer].chi2, joint[nearer].chi2) < 0) {
-        *best = 1 - nearer;
-        status = drogue_joint_solve(&joint[*best], &poses[*best], outline, inner, camera, model, STEPS);
-    }
-    return status;
+    *resolved =
+        far_status != DROGUE_OK || near_status != DROGUE_OK || same_solution(best, &other) ||
+        drogue_wide_cmp(drogue_wide_sub(other.chi2, best->chi2), drogue_wide_from_q16(config->min_chi2_gap_q16)) >= 0;
+    return drogue_wide_cmp(best->chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
 }
 
 drogue_status drogue_decide(drogue_result *out, const drogue_pose poses[2], uint32_t nearer,
@@ -65,32 +72,25 @@ drogue_status drogue_decide(drogue_result *out, const drogue_pose poses[2], uint
 {
     const drogue_joint_inner none = {0, 0, 0};
     drogue_joint_outline outline;
-    drogue_joint joint[2];
-    drogue_status status;
-    uint32_t best = 0;
-    int trusted = inner->std_px_q16 > 0;
+    drogue_joint joint;
+    uint32_t index = nearer;
+    int32_t resolved = 0;
     outline.ellipse = out->ideal;
-    status = drogue_joint_outline_covariance(&outline, support, config->outline_shading_q16,
-                                             config->optics_blur_std_px2_q16);
-    if (status != DROGUE_OK) {
+    if (drogue_joint_outline_covariance(&outline, support, config->outline_shading_q16,
+                                        config->optics_blur_std_px2_q16) != DROGUE_OK) {
         return DROGUE_E_DOMAIN;
     }
-    if (trusted) {
-        status = solve_both(joint, &best, poses, &outline, inner, camera, model, nearer);
-        trusted =
-            status == DROGUE_OK && drogue_wide_cmp(joint[best].chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
+    if (inner->std_px_q16 == 0 ||
+        !solve_together(&joint, &index, &resolved, poses, &outline, inner, config, camera, model)) {
+        resolved = 0;
+        index = nearer;
+        if (drogue_joint_solve(&joint, &poses[nearer], &outline, &none, camera, model, 0) != DROGUE_OK) {
+            return DROGUE_E_DOMAIN;
+        }
     }
-    if (!trusted) {
-        status = solve_both(joint, &best, poses, &outline, &none, camera, model, nearer);
-    }
-    if (status != DROGUE_OK) {
-        return DROGUE_E_DOMAIN;
-    }
-    out->orientation_resolved = trusted && (same_solution(&joint[best], &joint[1 - best]) ||
-                                            drogue_wide_cmp(drogue_wide_sub(joint[1 - best].chi2, joint[best].chi2),
-                                                            drogue_wide_from_q16(config->min_chi2_gap_q16)) >= 0);
-    out->pose = joint[best].pose;
-    out->alternative = joint[1 - best].pose;
-    put_covariance(out, &joint[best]);
+    out->orientation_resolved = resolved;
+    out->pose = joint.pose;
+    out->alternative = poses[1 - index];
+    put_covariance(out, &joint);
     return DROGUE_OK;
 }

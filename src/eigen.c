@@ -5,21 +5,39 @@
 #define MAX_SWEEPS 8
 #define ONE_Q60 (INT64_C(1) << DROGUE_EIGEN_FRAC)
 
-static int64_t mul_q60(int64_t a, int64_t b) { return drogue_mul_shr_round_s64(a, b, DROGUE_EIGEN_FRAC); }
+static int64_t mul_q60(int64_t a, int64_t b) { return drogue_s128_shr_round(drogue_s128_mul(a, b), DROGUE_EIGEN_FRAC); }
+
+/* sqrt(a2 + b^2) */
+static void hypotenuse(drogue_wide *out, const drogue_wide *a2, const drogue_wide *b)
+{
+    *out = drogue_wide_sqrt(drogue_wide_add(*a2, drogue_wide_mul(*b, *b)));
+}
+
+/* a / (b + c) */
+static void share(drogue_wide *out, const drogue_wide *a, const drogue_wide *b, const drogue_wide *c)
+{
+    *out = drogue_wide_div(*a, drogue_wide_add(*b, *c));
+}
 
 /* Rotation that zeroes a_pq: t = tan, s = sin, r = tan(angle / 2), Q60, |angle| <= 45 degrees. */
 static void rotation(int64_t *t_q60, int64_t *s_q60, int64_t *r_q60, int64_t a_pp, int64_t a_pq, int64_t a_qq)
 {
     const drogue_wide one = drogue_wide_from_s64(1, 0);
     drogue_wide d = drogue_wide_from_s64(a_qq - a_pp, 0);
-    drogue_wide b = drogue_wide_from_s64(a_pq, 1);
-    drogue_wide h = drogue_wide_sqrt(drogue_wide_add(drogue_wide_mul(d, d), drogue_wide_mul(b, b)));
-    drogue_wide t = drogue_wide_div(b, d.mantissa < 0 ? drogue_wide_sub(d, h) : drogue_wide_add(d, h));
-    drogue_wide c = drogue_wide_div(one, drogue_wide_sqrt(drogue_wide_add(one, drogue_wide_mul(t, t))));
-    drogue_wide s = drogue_wide_mul(t, c);
+    drogue_wide t = drogue_wide_from_s64(a_pq, 1);
+    drogue_wide c = drogue_wide_mul(d, d); /* the hypotenuse, then the cosine */
+    hypotenuse(&c, &c, &t);
+    if (d.mantissa < 0) {
+        c = drogue_wide_neg(c);
+    }
+    share(&t, &t, &d, &c);
     *t_q60 = drogue_wide_to_s64(t, DROGUE_EIGEN_FRAC);
-    *s_q60 = drogue_wide_to_s64(s, DROGUE_EIGEN_FRAC);
-    *r_q60 = drogue_wide_to_s64(drogue_wide_div(s, drogue_wide_add(one, c)), DROGUE_EIGEN_FRAC);
+    hypotenuse(&c, &one, &t);
+    c = drogue_wide_div(one, c);
+    t = drogue_wide_mul(t, c); /* the sine */
+    *s_q60 = drogue_wide_to_s64(t, DROGUE_EIGEN_FRAC);
+    share(&t, &t, &one, &c);
+    *r_q60 = drogue_wide_to_s64(t, DROGUE_EIGEN_FRAC);
 }
 
 static void rotate(int64_t *g, int64_t *h, int64_t s_q60, int64_t r_q60)

@@ -111,8 +111,9 @@ static void constraint_matrix(drogue_sym3 *matrix, const drogue_wide h[6])
     (void)drogue_sym3_normalise(matrix, n);
 }
 
-/* The quadratic part: eigenvector of the largest eigenvalue of h K h'. */
-static drogue_status solve_quadratic_part(drogue_wide theta[6], const drogue_wide h[6], int singular)
+/* The quadratic part, eigenvector of the largest eigenvalue of h K h': the coefficients take the place of the last three
+ * entries of h, each when its column has served. */
+static drogue_status solve_quadratic_part(drogue_wide h[6], int singular)
 {
     drogue_sym3 matrix;
     drogue_eigen3 eigen;
@@ -129,7 +130,7 @@ static drogue_status solve_quadratic_part(drogue_wide theta[6], const drogue_wid
             drogue_wide v = drogue_wide_from_s64(eigen.vector_q60[0][k], -DROGUE_EIGEN_FRAC);
             sum = drogue_wide_add(drogue_wide_mul(h[DROGUE_PACKED(k, i)], v), sum);
         }
-        theta[3 + i] = sum;
+        h[3 + i] = sum;
     }
     return DROGUE_OK;
 }
@@ -162,8 +163,7 @@ static void exchange(drogue_wide *a, drogue_wide *b)
 drogue_status drogue_ellipse_fit(drogue_ellipse *out, const drogue_moments *m, int frac_bits)
 {
     drogue_wide scatter[21];
-    drogue_wide h[6];
-    drogue_wide theta[6];
+    drogue_wide theta[6]; /* h, then the conic */
     drogue_status status;
     int64_t centre[2];
     int singular = 0;
@@ -180,9 +180,9 @@ drogue_status drogue_ellipse_fit(drogue_ellipse *out, const drogue_moments *m, i
     DROGUE_NOTE("ellipse: third moment", m->m30, 63);
     DROGUE_NOTE("ellipse: fourth moment / 2^64", m->m40.hi, 14);
     swap = drogue_moments_scatter(scatter, centre, m);
-    status = reduce(h, &singular, scatter);
+    status = reduce(theta, &singular, scatter);
     if (status == DROGUE_OK) {
-        status = solve_quadratic_part(theta, h, singular);
+        status = solve_quadratic_part(theta, singular);
     }
     if (status != DROGUE_OK) {
         return status;

@@ -31,19 +31,46 @@ drogue_q16 drogue_q16_div(drogue_q16 a, drogue_q16 b)
     return drogue_sat_s32(drogue_div_round_s64(num, den));
 }
 
-uint32_t drogue_isqrt_u64(uint64_t v)
+/* floor(sqrt(v)), a binary digit at a time. */
+static uint32_t isqrt_u32(uint32_t v)
 {
-    uint64_t root = 0;
-    int bit;
-    for (bit = 62; bit >= 0; bit -= 2) {
-        uint64_t trial = root + ((uint64_t)1 << bit);
+    uint32_t root = 0;
+    uint32_t bit;
+    for (bit = UINT32_C(1) << 30; bit != 0; bit >>= 2) {
+        uint32_t trial = root + bit;
         root >>= 1;
         if (v >= trial) {
             v -= trial;
-            root += (uint64_t)1 << bit;
+            root += bit;
         }
     }
-    return (uint32_t)root;
+    return root;
+}
+
+uint32_t drogue_isqrt_u64(uint64_t v)
+{
+    /* Root of the upper half, then a division for the lower (Zimmermann 1999, Karatsuba square root). */
+    int shift;
+    uint32_t high;
+    uint32_t low;
+    uint32_t root;
+    uint32_t rest;
+    uint32_t digit;
+    if (v >> 32 == 0) {
+        return isqrt_u32((uint32_t)v);
+    }
+    shift = drogue_clz_u64(v) & ~1;
+    high = (uint32_t)((v << shift) >> 32);
+    low = (uint32_t)(v << shift);
+    root = isqrt_u32(high); /* 2^15 or more */
+    rest = ((high - root * root) << 15) | (low >> 17);
+    digit = rest / root;
+    rest -= digit * root;
+    root = (root << 16) + digit; /* modulo 2^32, when the digit is 2^16 */
+    if ((((uint64_t)rest << 17) | (low & 0x1FFFFu)) < (uint64_t)digit * digit) {
+        root--;
+    }
+    return root >> (shift / 2);
 }
 
 drogue_q16 drogue_q16_sqrt(drogue_q16 v)

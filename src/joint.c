@@ -60,6 +60,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
             continue;
         }
         bins++;
+        DROGUE_NOTE("joint: squared sum of a bin's offsets, Q32", sum_q16 * sum_q16, 61); /* support.c: 2^30 */
         scatter = add(scatter, drogue_wide_div(drogue_wide_from_s64(sum_q16 * sum_q16, -32), integer(n)));
         bin_direction(&c, &s, k);
         basis_q30[0] = INT64_C(1) << 30;
@@ -70,6 +71,8 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
         for (i = 0; i < FIT_PARAMETERS; i++) {
             for (j = 0; j <= i; j++) {
                 sum_q30[DROGUE_PACKED(i, j)] += n * drogue_shr_round_s64(basis_q30[i] * basis_q30[j], 30);
+                /* 2^22 points at most, basis functions at most 1 */
+                DROGUE_NOTE("joint: information, Q30", sum_q30[DROGUE_PACKED(i, j)], 53);
             }
         }
     }

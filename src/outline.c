@@ -12,38 +12,15 @@
 #define TRIES 3                            /* candidates refined before the best of them is taken */
 #define GOOD_COVER_Q16 DROGUE_Q16(3, 4)    /* no further try */
 #define ENOUGH_COVER_Q16 DROGUE_Q16(9, 10) /* no further candidate */
-#define SETTLED_Q16 DROGUE_Q16(1, 64)     /* px: an ellipse that a refit moves by less has settled */
+#define SETTLED_Q16 DROGUE_Q16(1, 64)      /* px: an ellipse that a refit moves by less has settled */
 
-/* The candidates' arcs, and what each of them sums to. */
-typedef struct arc_set {
-    const drogue_arc *arc[4][DROGUE_ARC_CHOICES]; /* NULL: none */
-    drogue_moments moments[4][DROGUE_ARC_CHOICES];
-} arc_set;
-
-/* Moments of an arc about the region's centre, unit 1/32 px. */
-static void arc_moments(drogue_moments *out, const drogue_edge *edges, const drogue_arc *arc)
+/* Add an arc to moments about the region's middle, unit 1/32 px. */
+static void add_arc(drogue_moments *sum, const drogue_edge *edges, const drogue_arc *arc)
 {
     const int32_t origin_q5 = (DROGUE_MAX_SIDE / 2) << EDGE_FRAC; /* makes the coordinates 16-bit for every region */
     uint32_t i;
-    drogue_moments_clear(out);
     for (i = arc->first; i < arc->first + arc->count; i++) {
-        drogue_moments_add_point(out, edges[i].x_q5 - origin_q5, edges[i].y_q5 - origin_q5);
-    }
-}
-
-static void gather(arc_set *set, const drogue_arc_choices *choices, const drogue_workspace *workspace)
-{
-    int k;
-    int i;
-    for (k = 0; k < 4; k++) {
-        for (i = 0; i < DROGUE_ARC_CHOICES; i++) {
-            const uint32_t index = choices->arc[k][i];
-            set->arc[k][i] = NULL;
-            if (index != DROGUE_NO_ARC && workspace->arcs[index].count <= DROGUE_MAX_FIT_POINTS / 4) {
-                set->arc[k][i] = &workspace->arcs[index];
-                arc_moments(&set->moments[k][i], workspace->edges, set->arc[k][i]);
-            }
-        }
+        drogue_moments_add_point(sum, edges[i].x_q5 - origin_q5, edges[i].y_q5 - origin_q5);
     }
 }
 
@@ -89,35 +66,52 @@ typedef struct context {
     const drogue_edge_list *list;
     const drogue_mask *mask;
     const drogue_config *config;
+    drogue_arc_choices choices;
 } context;
 
-/* Fit and score the union of the arcs chosen[k] - 1 of each quadrant k (0: none); 0 when it is no candidate. */
-static int try_arcs(drogue_candidate *out, const arc_set *set, const uint8_t chosen[4], const context *c)
+/* Arc of quadrant k in a candidate: choice number arcs >> 4 k, less one; NULL when it has none there. */
+static const drogue_arc *arc_of(const context *c, uint32_t arcs, int k)
+{
+    const uint32_t choice = (arcs >> (4 * k)) & 15u;
+    return choice != 0 ? &c->workspace->arcs[c->choices.arc[k][choice - 1]] : NULL;
+}
+
+/* Fit the union of arcs; 0 when that gives no plausible ellipse. */
+static int fit_arcs(drogue_ellipse *out, uint32_t *points, uint32_t arcs, const context *c)
+{
+    drogue_moments sum;
+    int k;
+    drogue_moments_clear(&sum);
+    for (k = 0; k < 4; k++) {
+        const drogue_arc *arc = arc_of(c, arcs, k);
+        if (arc != NULL) {
+            add_arc(&sum, c->workspace->edges, arc);
+        }
+    }
+    *points = (uint32_t)sum.n;
+    if (drogue_ellipse_fit(out, &sum, EDGE_FRAC) != DROGUE_OK) {
+        return 0;
+    }
+    out->xc_px_q16 = drogue_q16_add(out->xc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
+    out->yc_px_q16 = drogue_q16_add(out->yc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
+    return plausible(out, c->mask, c->config);
+}
+
+/* Fit and score the union of arcs; 0 when it is no candidate. */
+static int try_arcs(drogue_candidate *out, uint32_t arcs, const context *c)
 {
     const uint32_t stride = c->list->edge_count / LOOKS + 1;
-    drogue_moments sum;
     drogue_ellipse_frame frame;
     drogue_quality quality;
     drogue_support support;
     drogue_band band;
     drogue_q16 threshold;
     drogue_q16 fit_error;
+    uint32_t points;
     uint32_t near_count = 0;
     int k;
-    drogue_moments_clear(&sum);
-    out->arcs = 0;
-    for (k = 0; k < 4; k++) {
-        if (chosen[k] != 0) {
-            drogue_moments_add(&sum, &set->moments[k][chosen[k] - 1]);
-            out->arcs |= (uint32_t)chosen[k] << (4 * k);
-        }
-    }
-    if (drogue_ellipse_fit(&out->ellipse, &sum, EDGE_FRAC) != DROGUE_OK) {
-        return 0;
-    }
-    out->ellipse.xc_px_q16 = drogue_q16_add(out->ellipse.xc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
-    out->ellipse.yc_px_q16 = drogue_q16_add(out->ellipse.yc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
-    if (!plausible(&out->ellipse, c->mask, c->config) || drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
+    out->arcs = arcs;
+    if (!fit_arcs(&out->ellipse, &points, arcs, c) || drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
         return 0;
     }
     band = band_about(&out->ellipse, c->config->search_band_q16, c->config);
@@ -125,13 +119,14 @@ static int try_arcs(drogue_candidate *out, const arc_set *set, const uint8_t cho
     fit_error = fit_error > c->config->quality.fit_error_px_q16 ? fit_error : c->config->quality.fit_error_px_q16;
     threshold = drogue_quality_threshold(&out->ellipse, fit_error);
     for (k = 0; k < 4; k++) {
-        if (chosen[k] != 0) {
-            near_count += count_near(&frame, threshold, c->workspace->edges, set->arc[k][chosen[k] - 1]);
+        const drogue_arc *arc = arc_of(c, arcs, k);
+        if (arc != NULL) {
+            near_count += count_near(&frame, threshold, c->workspace->edges, arc);
         }
     }
     drogue_support_count(&support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);
     drogue_support_judge(&support, &out->ellipse, c->config->polarity, stride);
-    drogue_quality_of_cover(&quality, &out->ellipse, near_count, (uint32_t)sum.n, drogue_support_cover(&support),
+    drogue_quality_of_cover(&quality, &out->ellipse, near_count, points, drogue_support_cover(&support),
                             &c->config->quality);
     out->reliability_q16 = quality.reliability_q16;
     out->fit_ratio_q16 = quality.fit_ratio_q16;
@@ -140,30 +135,37 @@ static int try_arcs(drogue_candidate *out, const arc_set *set, const uint8_t cho
     return quality.fit_ratio_q16 >= c->config->min_fit_ratio_q16;
 }
 
+/* Can an arc be fitted? More points than moments hold are noise. */
+static int usable(const context *c, int k, int choice)
+{
+    const uint32_t index = c->choices.arc[k][choice];
+    return index != DROGUE_NO_ARC && c->workspace->arcs[index].count <= DROGUE_MAX_FIT_POINTS / 4;
+}
+
 /* The first arcs of all quadrants together; unless they cover enough, all pairs of arcs from two quadrants too. Returns
  * how many candidates there are. */
-static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const arc_set *set, const context *c)
+static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const context *c)
 {
-    uint8_t chosen[4];
+    uint32_t arcs = 0;
     uint32_t count;
     int k;
     int l;
     int i;
     for (k = 0; k < 4; k++) {
-        chosen[k] = set->arc[k][0] != NULL;
+        arcs |= (uint32_t)usable(c, k, 0) << (4 * k);
     }
-    count = (uint32_t)try_arcs(&candidates[0], set, chosen, c);
+    count = (uint32_t)try_arcs(&candidates[0], arcs, c);
     if (count == 1 && candidates[0].cover_q16 >= ENOUGH_COVER_Q16) {
         return 1;
     }
     for (k = 0; k < 4; k++) {
         for (l = k + 1; l < 4; l++) {
             for (i = 0; i < DROGUE_ARC_CHOICES * DROGUE_ARC_CHOICES; i++) {
-                memset(chosen, 0, sizeof chosen);
-                chosen[k] = (uint8_t)(1 + i / DROGUE_ARC_CHOICES);
-                chosen[l] = (uint8_t)(1 + i % DROGUE_ARC_CHOICES);
-                if (set->arc[k][chosen[k] - 1] != NULL && set->arc[l][chosen[l] - 1] != NULL) {
-                    count += (uint32_t)try_arcs(&candidates[count], set, chosen, c);
+                const int first = i / DROGUE_ARC_CHOICES;
+                const int second = i % DROGUE_ARC_CHOICES;
+                if (usable(c, k, first) && usable(c, l, second)) {
+                    arcs = (uint32_t)(first + 1) << (4 * k) | (uint32_t)(second + 1) << (4 * l);
+                    count += (uint32_t)try_arcs(&candidates[count], arcs, c);
                 }
             }
         }
@@ -291,19 +293,23 @@ static void refit(drogue_outline *outline, const context *x)
     for (round = 0; round <= config->refit_rounds && !done; round++) {
         drogue_ellipse ellipse;
         const drogue_q16 width = band.half_width_px_q16;
+        const uint32_t bright_bins = outline->support.bright_bins;
         if (collect_outline(&c, &outline->support, &outline->ellipse, &band, x) != DROGUE_OK) {
             return;
         }
         drogue_support_judge(&outline->support, &outline->ellipse, config->polarity, 1);
         outline->band_px_q16 = width;
-        if (round == config->refit_rounds || collection_fit(&ellipse, &c) != DROGUE_OK ||
-            !plausible(&ellipse, x->mask, config)) {
-            break;
-        }
-        narrow(&band, &outline->support, &ellipse, config);
-        done = band.half_width_px_q16 == width && settled(&ellipse, &outline->ellipse);
-        outline->ellipse = ellipse;
-        outline->refit_points = (uint32_t)c.moments.n;
+        if (round == config->refit_rounds) {
+            outline->support.bright_bins = bright_bins; /* that of the sums */
+        } else if (outline->support.bright_bins == bright_bins) {
+            if (collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, config)) {
+                break;
+            }
+            narrow(&band, &outline->support, &ellipse, config);
+            done = band.half_width_px_q16 == width && settled(&ellipse, &outline->ellipse);
+            outline->ellipse = ellipse;
+            outline->refit_points = (uint32_t)c.moments.n;
+        } /* else collect again with the polarities that the counts show */
     }
     outline->cover_q16 = drogue_support_cover(&outline->support);
     outline->polarity = outline->support.bright_bins == 0            ? DROGUE_POLARITY_DARK
@@ -312,13 +318,13 @@ static void refit(drogue_outline *outline, const context *x)
 }
 
 /* Describe and refine a candidate. */
-static void refine(drogue_outline *out, const drogue_candidate *candidate, const arc_set *set, const context *c)
+static void refine(drogue_outline *out, const drogue_candidate *candidate, const context *c)
 {
     int k;
     memset(out, 0, sizeof *out);
     for (k = 0; k < 4; k++) {
-        const uint32_t chosen = (candidate->arcs >> (4 * k)) & 15u;
-        out->arcs[k] = chosen != 0 ? (uint32_t)(set->arc[k][chosen - 1] - c->workspace->arcs) : DROGUE_NO_ARC;
+        const drogue_arc *arc = arc_of(c, candidate->arcs, k);
+        out->arcs[k] = arc != NULL ? (uint32_t)(arc - c->workspace->arcs) : DROGUE_NO_ARC;
     }
     drogue_quality_of_cover(&out->quality, &candidate->ellipse, (uint32_t)candidate->fit_ratio_q16, DROGUE_Q16_ONE,
                             candidate->cover_q16, &c->config->quality);
@@ -330,7 +336,7 @@ static void refine(drogue_outline *out, const drogue_candidate *candidate, const
 /* The most reliable candidate, refined; when that covers little, the next that differ from it, and the one of them that
  * covers most. */
 static drogue_status best_outline(drogue_outline *out, drogue_candidate candidates[DROGUE_MAX_CANDIDATES],
-                                  uint32_t count, const arc_set *set, const context *c)
+                                  uint32_t count, const context *c)
 {
     drogue_outline trial;
     int tries;
@@ -344,7 +350,7 @@ static drogue_status best_outline(drogue_outline *out, drogue_candidate candidat
             break;
         }
         chosen = candidates[best];
-        refine(&trial, &chosen, set, c);
+        refine(&trial, &chosen, c);
         trial.cluster_members = members;
         if (tries == 0 || trial.cover_q16 > out->cover_q16) {
             *out = trial;
@@ -362,9 +368,7 @@ static drogue_status best_outline(drogue_outline *out, drogue_candidate candidat
 drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                                   const drogue_mask *mask, const drogue_config *config)
 {
-    drogue_candidate candidates[DROGUE_MAX_CANDIDATES];
-    drogue_arc_choices choices;
-    arc_set set;
+    drogue_candidate *candidates = workspace->candidates;
     context c;
     drogue_status status;
     int k;
@@ -379,11 +383,10 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
     c.list = list;
     c.mask = mask;
     c.config = config;
-    status = drogue_select_arcs(&choices, workspace->hull, workspace->edges, workspace->arcs, list->arc_count, mask,
+    status = drogue_select_arcs(&c.choices, workspace->hull, workspace->edges, workspace->arcs, list->arc_count, mask,
                                 config->min_short_px_q16, config->polarity);
     if (status == DROGUE_OK) {
-        gather(&set, &choices, workspace);
-        status = best_outline(out, candidates, all_candidates(candidates, &set, &c), &set, &c);
+        status = best_outline(out, candidates, all_candidates(candidates, &c), &c);
         if (out->ellipse.b_px_q16 > 0) {
             undo_blur(&out->ellipse, config);
         }

@@ -77,7 +77,7 @@ static void follow_rays(rays *r, const drogue_search_level *level, const drogue_
         int32_t best = 0;
         int32_t t;
         r->used[i] = 0;
-        for (t = first - 1; t <= last + 1; t++) {
+        for (t = first; t <= last + 1; t++) {
             const int32_t x = disc->x + ((ray_x[i] * t + 128) >> 8);
             const int32_t y = disc->y + ((ray_y[i] * t + 128) >> 8);
             int32_t next;
@@ -85,7 +85,11 @@ static void follow_rays(rays *r, const drogue_search_level *level, const drogue_
                 break;
             }
             next = drogue_search_level_row(level, y)[x];
-            if (t > first && sign * (next - before) > best) { /* across the step at t - 1 */
+            if (t == first) { /* what is nearer may belong to the disc */
+                before = here = next;
+                continue;
+            }
+            if (sign * (next - before) > best) { /* across the step at t - 1 */
                 best = sign * (next - before);
                 r->x_q4[i] = (ray_x[i] * (t - 1)) >> 4;
                 r->y_q4[i] = (ray_y[i] * (t - 1)) >> 4;
@@ -101,14 +105,16 @@ static void follow_rays(rays *r, const drogue_search_level *level, const drogue_
 /* Keep the points within tolerance of the circle; returns their number. */
 static int32_t keep_near(rays *r, const drogue_rim *c, int64_t tolerance_q8)
 {
+    const int64_t room = 16 + ((c->radius_q4 * tolerance_q8) >> 8);
+    const int64_t most = c->radius_q4 + room;
+    const int64_t least = c->radius_q4 > room ? c->radius_q4 - room : 0;
     int32_t count = 0;
     int i;
     for (i = 0; i < RAYS; i++) {
         const int64_t dx = r->x_q4[i] - c->x_q4;
         const int64_t dy = r->y_q4[i] - c->y_q4;
-        const int64_t off = (int64_t)drogue_isqrt_u64((uint64_t)(dx * dx + dy * dy)) - c->radius_q4;
-        const int64_t most = 16 + ((c->radius_q4 * tolerance_q8) >> 8);
-        r->used[i] = r->step[i] > 0 && off <= most && off >= -most;
+        const int64_t distance2 = dx * dx + dy * dy;
+        r->used[i] = r->step[i] > 0 && distance2 >= least * least && distance2 <= most * most;
         count += r->used[i];
     }
     return count;

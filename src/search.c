@@ -52,37 +52,57 @@ drogue_status drogue_search_begin(drogue_search *search, int32_t width_px)
     return DROGUE_OK;
 }
 
-/* Put a sighting in its place; of two about the same outline the better stays. */
+/* Are these about the same outline? */
+static int same_outline(const drogue_sighting *b, const drogue_sighting *c)
+{
+    const int32_t larger = b->radius_px > c->radius_px ? b->radius_px : c->radius_px;
+    const int32_t smaller = b->radius_px > c->radius_px ? c->radius_px : b->radius_px;
+    const int32_t dx = b->x_px - c->x_px;
+    const int32_t dy = b->y_px - c->y_px;
+    return 2 * larger < 3 * smaller && 2 * dx < larger && -2 * dx < larger && 2 * dy < larger && -2 * dy < larger;
+}
+
+/* Keep a sighting if it is among the best; of two of the same outline the better. They are sorted at the end. */
 static void keep_sighting(drogue_search *search, const drogue_sighting *c)
 {
-    int32_t at = 0;
+    int32_t lowest = 0;
     int32_t i;
-    for (i = 0; i < search->count; i++) {
-        const drogue_sighting *b = &search->best[i];
-        const int32_t larger = b->radius_px > c->radius_px ? b->radius_px : c->radius_px;
-        const int32_t smaller = b->radius_px > c->radius_px ? c->radius_px : b->radius_px;
-        const int32_t dx = b->x_px - c->x_px;
-        const int32_t dy = b->y_px - c->y_px;
-        if (2 * larger < 3 * smaller && 2 * dx < larger && -2 * dx < larger && 2 * dy < larger && -2 * dy < larger) {
-            if (b->score >= c->score) {
+    for (i = search->count - 1; i >= 0; i--) {
+        if (same_outline(&search->best[i], c)) {
+            if (search->best[i].score >= c->score) {
                 return;
             }
             search->count--;
-            memmove(&search->best[i], &search->best[i + 1], (size_t)(search->count - i) * sizeof *c);
-            i--;
+            search->best[i] = search->best[search->count];
         }
     }
-    while (at < search->count && search->best[at].score >= c->score) {
-        at++;
-    }
-    if (at == DROGUE_SEARCH_MAX) {
+    if (search->count < DROGUE_SEARCH_MAX) {
+        search->best[search->count++] = *c;
         return;
     }
-    if (search->count < DROGUE_SEARCH_MAX) {
-        search->count++;
+    for (i = 1; i < search->count; i++) {
+        if (search->best[i].score < search->best[lowest].score) {
+            lowest = i;
+        }
     }
-    memmove(&search->best[at + 1], &search->best[at], (size_t)(search->count - 1 - at) * sizeof *c);
-    search->best[at] = *c;
+    if (c->score > search->best[lowest].score) {
+        search->best[lowest] = *c;
+    }
+}
+
+static void sort_sightings(drogue_search *search)
+{
+    int32_t i;
+    int32_t k;
+    for (i = 0; i < search->count; i++) {
+        for (k = i + 1; k < search->count; k++) {
+            if (search->best[k].score > search->best[i].score) {
+                const drogue_sighting t = search->best[i];
+                search->best[i] = search->best[k];
+                search->best[k] = t;
+            }
+        }
+    }
 }
 
 static void judge_disc(drogue_search *search, int k, const drogue_dark_disc *disc)
@@ -258,5 +278,6 @@ int32_t drogue_search_end(drogue_search *search)
         }
         judge_above(search, k, INT32_MAX);
     }
+    sort_sightings(search);
     return search->count;
 }

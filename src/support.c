@@ -47,8 +47,14 @@ int drogue_support_add(drogue_support *support, const drogue_band_point *p, cons
     }
     support->bin[k].sum_q16 += offset_q16;
     support->squares_q32 += (int64_t)offset_q16 * offset_q16;
+    /* F is at most 1. A bin's points of one sign lie in a strip of less than 10 px across a region of 2048 px: at most
+     * 2^15. There is one point a pixel: all bins hold at most 2^22. */
+    DROGUE_NOTE("support: offset, Q16", offset_q16, 16);
+    DROGUE_NOTE("support: sum of a bin's offsets, Q16", support->bin[k].sum_q16, 31);
+    DROGUE_NOTE("support: sum of squared offsets, Q32", support->squares_q32, 53);
     support->gradient +=
         (uint64_t)(edge->gx < 0 ? -edge->gx : edge->gx) + (uint64_t)(edge->gy < 0 ? -edge->gy : edge->gy);
+    DROGUE_NOTE("support: sum of gradients", support->gradient, 33);
     support->points++;
     return 1;
 }

@@ -20,6 +20,7 @@ void drogue_track_config_default(drogue_track_config *config)
 {
     config->max_missed = 10;
     config->agree_frames = 4;
+    config->reconsider_frames = 50;
     config->gate_q16 = DROGUE_Q16(20515, 1000);
     config->position_gate_q16 = DROGUE_Q16(16266, 1000);
     config->region_scale_q16 = DROGUE_Q16(5, 2);
@@ -34,8 +35,8 @@ void drogue_track_config_default(drogue_track_config *config)
     config->process_std_q16[DROGUE_X] = DROGUE_Q16(1, 4);
     config->process_std_q16[DROGUE_Y] = DROGUE_Q16(1, 4);
     config->process_std_q16[DROGUE_Z] = DROGUE_Q16(2, 100);
-    config->process_std_q16[DROGUE_PITCH] = DROGUE_Q16(4, 100);
-    config->process_std_q16[DROGUE_YAW] = DROGUE_Q16(4, 100);
+    config->process_std_q16[DROGUE_PITCH] = DROGUE_Q16(16, 100);
+    config->process_std_q16[DROGUE_YAW] = DROGUE_Q16(16, 100);
     config->start_rate_std_q16 = DROGUE_Q16(2, 1);
     config->start_accel_std_q16 = DROGUE_Q16(2, 1);
 }
@@ -227,11 +228,28 @@ static int look(drogue_result *result, const drogue_region *region, const drogue
     return 0;
 }
 
+/* Is it time to look whether the drogue is elsewhere? */
+static int in_doubt(drogue_track *track)
+{
+    if (track->state == DROGUE_LOST || track->model.inner_radius_m_q16 <= 0 || track->config.reconsider_frames == 0 ||
+        track->open_frames < track->config.reconsider_frames) {
+        return 0;
+    }
+    track->open_frames = 0;
+    return 1;
+}
+
 drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *region, drogue_track *track,
                                       drogue_workspace *workspace, drogue_search *search, const drogue_config *config,
                                       const drogue_image *image, uint32_t dt_us)
 {
     drogue_track_begin(region, track, dt_us);
+    if (in_doubt(track) &&
+        drogue_acquire(result, search, workspace, config, &track->camera, &track->model, image, NULL) == DROGUE_OK &&
+        result->orientation_resolved) {
+        track->state = DROGUE_LOST; /* begin anew from this */
+        return drogue_track_end(track, result);
+    }
     if (look(result, region, track, workspace, search, config, image) && track->state == DROGUE_LOST &&
         track->model.inner_radius_m_q16 > 0 && !looks_whole(result)) {
         return track->state;

@@ -139,6 +139,7 @@ static drogue_track_state believe(drogue_track *track, const measurement *m)
 static void take_over(drogue_track *track, int orientation_known)
 {
     track->orientation_known = orientation_known;
+    track->open_frames = 0;
     track->turned = 0;
     track->agreeing = 0;
     track->missed = 0;
@@ -175,14 +176,18 @@ static drogue_track_state end_unresolved(drogue_track *track, const measurement 
     const drogue_wide d = drogue_kalman_distance2(&track->filter, pose->value_q16, pose->noise, DROGUE_PARAMETERS);
     const drogue_wide e = drogue_kalman_distance2(&track->filter, twin->value_q16, twin->noise, DROGUE_PARAMETERS);
     const measurement *nearer = drogue_wide_cmp(e, d) < 0 ? twin : pose;
-    return passes(&track->filter, nearer, DROGUE_PARAMETERS, track->config.gate_q16) ? believe(track, nearer)
-                                                                                     : refuse(track, nearer, 0);
+    if (!passes(&track->filter, nearer, DROGUE_PARAMETERS, track->config.gate_q16)) {
+        return refuse(track, nearer, 0);
+    }
+    track->open_frames++;
+    return believe(track, nearer);
 }
 
 static drogue_track_state end_resolved(drogue_track *track, const measurement *pose, const measurement *twin)
 {
     const drogue_track_config *c = &track->config;
     int fits;
+    track->open_frames = 0;
     if (passes(&track->filter, pose, DROGUE_PARAMETERS, c->gate_q16)) {
         track->orientation_known = 1;
         track->turned = 0;

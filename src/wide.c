@@ -6,38 +6,38 @@
 
 drogue_s128 drogue_s128_mul(int64_t a, int64_t b)
 {
-    uint64_t a0 = (uint32_t)a;
-    uint64_t b0 = (uint32_t)b;
-    int64_t a1 = a >> 32;
-    int64_t b1 = b >> 32;
-    uint64_t low = a0 * b0;
-    int64_t mid = a1 * (int64_t)b0 + (int64_t)(low >> 32);
-    int64_t mid_low = (int64_t)a0 * b1 + (int64_t)((uint64_t)mid & 0xFFFFFFFFu);
+    const uint32_t a0 = (uint32_t)a;
+    const uint32_t b0 = (uint32_t)b;
+    const uint32_t a1 = (uint32_t)((uint64_t)a >> 32);
+    const uint32_t b1 = (uint32_t)((uint64_t)b >> 32);
+    uint64_t low = (uint64_t)a0 * b0;
+    uint64_t mid = (uint64_t)a1 * b0 + (low >> 32);
+    uint64_t mid_low = (uint64_t)a0 * b1 + (uint32_t)mid;
+    uint64_t high = (uint64_t)a1 * b1 + (mid >> 32) + (mid_low >> 32);
     drogue_s128 r;
-    r.hi = a1 * b1 + (mid >> 32) + (mid_low >> 32);
-    r.lo = (uint64_t)a * (uint64_t)b;
+    high -= a < 0 ? (uint64_t)b : 0; /* a as an unsigned number is 2^64 more */
+    high -= b < 0 ? (uint64_t)a : 0;
+    r.hi = (int64_t)high;
+    r.lo = (mid_low << 32) | (uint32_t)low;
     return r;
 }
 
 /* v / 2^n rounded, ties toward +infinity, for 1 <= n <= 127; the result must fit 64 bits. */
 static int64_t s128_shr_round(drogue_s128 v, int n)
 {
-    uint64_t below; /* the bit under the last one kept */
-    int64_t kept;
     if (n < 64) {
-        kept = (int64_t)(((uint64_t)v.hi << (64 - n)) | (v.lo >> n));
-        below = (v.lo >> (n - 1)) & 1u;
-    } else if (n == 64) {
-        kept = v.hi;
-        below = v.lo >> 63;
-    } else {
-        kept = v.hi >> (n - 64);
-        below = ((uint64_t)v.hi >> (n - 65)) & 1u;
+        return drogue_s128_shr_round(v, n);
     }
-    return kept + (int64_t)below;
+    if (n == 64) {
+        return v.hi + (int64_t)(v.lo >> 63);
+    }
+    return (v.hi >> (n - 64)) + (int64_t)(((uint64_t)v.hi >> (n - 65)) & 1u);
 }
 
-int64_t drogue_mul_shr_round_s64(int64_t a, int64_t b, int n) { return s128_shr_round(drogue_s128_mul(a, b), n); }
+int64_t drogue_mul_shr_round_s64(int64_t a, int64_t b, int n)
+{
+    return drogue_s128_shr_round(drogue_s128_mul(a, b), n);
+}
 
 /* Finish a mantissa that rounding may have carried to 2^62. */
 static drogue_wide wide_finish(int64_t mantissa, int32_t exponent)
@@ -68,12 +68,24 @@ drogue_wide drogue_wide_from_s64(int64_t v, int32_t exponent)
 
 drogue_wide drogue_wide_from_s128(drogue_s128 v, int32_t exponent)
 {
-    drogue_s128 magnitude = v.hi < 0 ? drogue_s128_sub(drogue_s128_from_s64(0), v) : v;
-    int shift; /* bits to drop */
-    if (magnitude.hi == 0 && (magnitude.lo >> 63) == 0) {
-        return drogue_wide_from_s64((int64_t)v.lo, exponent);
+    /* |v| / 2^64 */
+    uint64_t high = v.hi >= 0 ? (uint64_t)v.hi : v.lo != 0 ? ~(uint64_t)v.hi : (uint64_t)0 - (uint64_t)v.hi;
+    int shift;             /* bits to drop */
+    if (high >> 61 == 1) { /* what most sums of two mantissas need */
+        return wide_finish(v.hi + (int64_t)(v.lo >> 63), exponent + 64);
     }
-    shift = magnitude.hi == 0 ? 2 : 66 - drogue_clz_u64((uint64_t)magnitude.hi);
+    if (high >> 62 == 1) {
+        return wide_finish((v.hi >> 1) + (v.hi & 1), exponent + 65);
+    }
+    if (high == 0) {
+        uint64_t low = v.hi < 0 ? (uint64_t)0 - v.lo : v.lo;
+        if ((low >> 63) == 0) {
+            return drogue_wide_from_s64((int64_t)v.lo, exponent);
+        }
+        shift = 2;
+    } else {
+        shift = 66 - drogue_clz_u64(high);
+    }
     return wide_finish(s128_shr_round(v, shift), exponent + shift);
 }
 
@@ -129,8 +141,10 @@ drogue_wide drogue_wide_mul(drogue_wide a, drogue_wide b)
 {
     const int64_t half = INT64_C(1) << 59; /* 2^123 / 2^64 */
     drogue_s128 product = drogue_s128_mul(a.mantissa, b.mantissa);
-    int shift = (product.hi >= half || product.hi < -half) ? 62 : 61;
-    return wide_finish(s128_shr_round(product, shift), a.exponent + b.exponent + shift);
+    if (product.hi >= half || product.hi < -half) {
+        return wide_finish(drogue_s128_shr_round(product, 62), a.exponent + b.exponent + 62);
+    }
+    return wide_finish(drogue_s128_shr_round(product, 61), a.exponent + b.exponent + 61);
 }
 
 drogue_wide drogue_wide_div(drogue_wide a, drogue_wide b)

@@ -10,6 +10,7 @@
 #include <stddef.h>
 
 #include "drogue/canny.h"
+#include "drogue/cluster.h"
 #include "drogue/gradient.h"
 #include "drogue/label.h"
 #include "drogue/mask.h"
@@ -27,12 +28,16 @@ typedef struct drogue_capacity {
     uint32_t arcs;     /* arcs of the least length and more; [1, 2^24] */
 } drogue_capacity;
 
-/* Capacity that suits a region of the given longest side: 14 edge points, 6 labels and 1 arc a pixel of side. */
-#define DROGUE_EDGES_FOR(side_px) (14u * (size_t)(side_px))
+/* Capacity that suits a region of the given longest side: 11 edge points and 6 labels a pixel of side (noise of 8 grey
+ * levels needs up to 10.6 and 5.6, the frames in vectors/ 6.3 and 2.1), and 96 arcs: no more than 88 of an eighth of the
+ * side fit into the edge points. */
+#define DROGUE_EDGES_FOR(side_px) (11u * (size_t)(side_px))
 #define DROGUE_LABELS_FOR(side_px) (6u * (size_t)(side_px) + 2u)
-#define DROGUE_ARCS_FOR(side_px) ((size_t)(side_px))
+#define DROGUE_ARCS_FOR(side_px) ((size_t)96u)
 
-#define DROGUE_HULL_MAX 1024 /* vertices of a strictly convex lattice polygon in 2048 x 2048: at most 569 */
+#define DROGUE_HULL_MAX 576 /* vertices of a strictly convex lattice polygon in 2048 x 2048: at most 569 */
+
+#define DROGUE_MAX_CANDIDATES 25 /* 6 pairs of quadrants with two arcs each, and the first arcs of all quadrants */
 
 /* Point of a convex hull, whole pixels. */
 typedef struct drogue_point {
@@ -42,12 +47,17 @@ typedef struct drogue_point {
 
 #define DROGUE_FOURS(width_px) (((size_t)(width_px) + 3u) / 4u) /* words that hold a row of pixels */
 
-/* Bytes of memory for a workspace: usable in a static array's size. */
-#define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                  \
-    ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels)*16u +      \
-     DROGUE_HULL_MAX * sizeof(drogue_point) + 256u * 4u + (size_t)(width_px) * (sizeof(drogue_merge) + 18u) +  \
+/* Bytes of the row buffers; the hull, which is needed after them, lies in the same place. */
+#define DROGUE_ROWS_BYTES(width_px)                                                                            \
+    ((size_t)(width_px) * (sizeof(drogue_merge) + 18u) +                                                       \
      DROGUE_FOURS(width_px) * (5u * 4u + 3u * 8u + 4u * 8u + 8u * sizeof(drogue_slope)) + 5u * 4u + 3u * 16u + \
      4u * 8u)
+#define DROGUE_HULL_BYTES (DROGUE_HULL_MAX * sizeof(drogue_point))
+
+/* Bytes of memory for a workspace: usable in a static array's size. */
+#define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                         \
+    ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels)*16u + 256u * 4u + \
+     (DROGUE_ROWS_BYTES(width_px) > DROGUE_HULL_BYTES ? DROGUE_ROWS_BYTES(width_px) : DROGUE_HULL_BYTES))
 
 /* The same for a region of the given longest side with the capacity that suits it. */
 #define DROGUE_WORKSPACE_BYTES_FOR(side_px) \
@@ -57,17 +67,18 @@ typedef struct drogue_point {
  * 'edges' and 'arcs' hold its edge points and arcs; everything else is scratch. */
 typedef struct drogue_workspace {
     drogue_capacity capacity;
-    drogue_edge *edges;         /* edges */
-    drogue_arc *arcs;           /* arcs */
-    uint32_t *component_parent; /* labels; these four also serve the dark components */
-    uint32_t *component_strong; /* labels */
-    uint32_t *arc_parent;       /* labels */
-    uint32_t *arc_component;    /* labels */
-    drogue_point *hull;         /* DROGUE_HULL_MAX */
-    uint32_t *histogram;        /* 256 */
-    drogue_merge *merges;       /* width */
-    uint32_t *component_rows;   /* 2 x width */
-    uint32_t *arc_rows;         /* 2 x width */
+    drogue_edge *edges;           /* edges */
+    drogue_arc *arcs;             /* arcs */
+    uint32_t *component_parent;   /* labels; these four also serve the dark components */
+    uint32_t *component_strong;   /* labels */
+    uint32_t *arc_parent;         /* labels */
+    uint32_t *arc_component;      /* labels */
+    uint32_t *histogram;          /* 256 */
+    drogue_point *hull;           /* DROGUE_HULL_MAX, in the place of the rows below */
+    drogue_candidate *candidates; /* DROGUE_MAX_CANDIDATES, in the place of the hull when that has served */
+    drogue_merge *merges;         /* width */
+    uint32_t *component_rows;     /* 2 x width */
+    uint32_t *arc_rows;           /* 2 x width */
     uint8_t *
         raw_rows; /* 5 x (fours + 1) words, ring of input rows, pixel 0 at byte 2; aligned for uint32_t, like the next */
     uint8_t *smooth_rows;     /* 3 x 2 (fours + 2) words, ring of rows of lanes, pixel 0 at word 2 */

@@ -13,8 +13,6 @@
 extern "C" {
 #endif
 
-#define DROGUE_MAX_CANDIDATES 25 /* 6 pairs of quadrants with two arcs each, and the first arcs of all quadrants */
-
 typedef struct drogue_outline {
     drogue_ellipse ellipse;   /* region coordinates, as seen, what blur took put back */
     drogue_quality quality;   /* of the winning candidate; l_r is the share of the circumference that is covered */

@@ -36,6 +36,8 @@ const char *drogue_track_state_name(drogue_track_state state);
 typedef struct drogue_track_config {
     uint32_t max_missed;             /* 10 frames: after more in a row, missed or refused, the track is lost */
     uint32_t agree_frames;           /* 4 frames: so many refused in a row that agree are believed; at least 1 */
+    uint32_t reconsider_frames;      /* 50 frames: after so many in a row whose inner part, known to the model, does not
+                                   decide, drogue_track_frame() searches the whole frame for one that does; 0: never */
     drogue_q16 gate_q16;             /* 20.515: chi-square of 5 degrees of freedom at 0.1 % */
     drogue_q16 position_gate_q16;    /* 16.266: the same of 3, where the angles are not compared */
     drogue_q16 region_scale_q16;     /* 2.5: side of the next region in predicted major semi-axes */
@@ -48,7 +50,7 @@ typedef struct drogue_track_config {
     drogue_q16 position_floor_m_q16; /* 0.0001 m: added in quadrature to the measured standard deviations */
     drogue_q16 angle_floor_rad_q16;  /* 0.0005 rad */
     drogue_q16 process_std_q16[DROGUE_PARAMETERS]; /* change of acceleration per frame: x, y 0.25 m/s^2, z 0.02 m/s^2,
-                                                      angles 0.04 rad/s^2; for a swing to 1.1 m at 0.2 Hz and an
+                                                      angles 0.16 rad/s^2; for a swing to 1.1 m at 0.2 Hz and an
                                                       approach at constant speed, 25 to 50 frames a second */
     drogue_q16 start_rate_std_q16;                 /* 2 m/s and rad/s: of the unknown rate at the start */
     drogue_q16 start_accel_std_q16;                /* 2 m/s^2 and rad/s^2 */
@@ -67,6 +69,7 @@ typedef struct drogue_track {
     int32_t search;      /* 1: the drogue may be anywhere in 'reach', more than drogue_measure() can cover */
     drogue_region reach; /* square that holds the predicted outline to region_sigmas; like first_region when lost */
     int32_t orientation_known; /* 1: a resolved measurement has chosen between the twin poses */
+    uint32_t open_frames;      /* unresolved measurements believed in a row */
     uint32_t turned;           /* resolved measurements in a row that gave way to their twins */
     uint32_t agreeing;         /* refused measurements in a row that agree; 'second' holds them */
     int32_t second_known;      /* orientation_known of 'second' */
@@ -110,7 +113,8 @@ void drogue_track_get(drogue_track_estimate *out, const drogue_track *track);
 
 /* A frame in one call: begin; measure where the drogue is expected, and when that fails and 'search' is set search
  * where it may be; end. While lost the first region is measured, then the whole frame searched; a drogue of known inner part that a search finds starts a
- * track only when its inner part resolved the orientation, or was seen within an outline of three quarters.
+ * track only when its inner part resolved the orientation, or was seen within an outline of three quarters. A
+ * track of something else, which shows no inner part, gives way after reconsider_frames when the drogue is in sight.
  *
  *  result  out, the frame's measurement; its region is where it was taken
  *  region  out, the region asked for

@@ -64,6 +64,12 @@ static inline int drogue_s128_cmp(drogue_s128 a, drogue_s128 b)
     return a.lo < b.lo ? -1 : a.lo > b.lo ? 1 : 0;
 }
 
+/* v / 2^n rounded to nearest, ties toward +infinity; 1 <= n <= 63, the result must fit 64 bits. */
+static inline int64_t drogue_s128_shr_round(drogue_s128 v, int n)
+{
+    return (int64_t)(((uint64_t)v.hi << (64 - n)) | (v.lo >> n)) + (int64_t)((v.lo >> (n - 1)) & 1u);
+}
+
 /* a * b / 2^n rounded to nearest, ties toward +infinity; 1 <= n <= 63, the result must fit 64 bits. */
 int64_t drogue_mul_shr_round_s64(int64_t a, int64_t b, int n);
 

@@ -4,6 +4,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "drogue/wide.h"
@@ -149,6 +150,96 @@ void decimal_format_degrees(char out[DECIMAL_TEXT], drogue_q16 angle_rad_q16, in
     /* 180 / pi * 10^6 over 2^16, Q32. */
     int64_t millionths = drogue_mul_shr_round_s64(angle_rad_q16, INT64_C(3754936206169), 32);
     decimal_format(out, drogue_div_round_s64(millionths, power_of_ten(6 - decimals)), decimals);
+}
+
+#define WHOLE_PLACES 19 /* of a magnitude up to 2^62 */
+#define MOST_PLACES (WHOLE_PLACES + 59)
+
+/* All digits of magnitude / 2^frac_bits, the first at 10^18: frac_bits places after the point are exact. */
+static int exact_digits(char digits[MOST_PLACES], uint64_t magnitude, int frac_bits)
+{
+    const uint64_t mask = (UINT64_C(1) << frac_bits) - 1;
+    uint64_t whole = magnitude >> frac_bits;
+    uint64_t fraction = magnitude & mask;
+    int i;
+    for (i = WHOLE_PLACES - 1; i >= 0; i--) {
+        digits[i] = (char)(whole % 10);
+        whole /= 10;
+    }
+    for (i = WHOLE_PLACES; i < WHOLE_PLACES + frac_bits; i++) {
+        fraction *= 10;
+        digits[i] = (char)(fraction >> frac_bits);
+        fraction &= mask;
+    }
+    return i;
+}
+
+/* The first 'count' digits from 'first' on as a number, rounded. */
+static int64_t rounded(const char *digits, int length, int first, int count, int negative)
+{
+    int64_t v = 0;
+    int next = 0;
+    int more = 0;
+    int i;
+    for (i = first; i < first + count; i++) {
+        v = v * 10 + (i < length ? digits[i] : 0);
+    }
+    if (i < length) {
+        next = digits[i];
+        for (i++; i < length; i++) {
+            more |= digits[i];
+        }
+    }
+    return v + (next > 5 || (next == 5 && (more != 0 || !negative)));
+}
+
+/* v / 10^decimals without zeros at the end. */
+static void format_trimmed(char out[DECIMAL_TEXT], int64_t v, int decimals, int negative)
+{
+    while (decimals > 1 && v % 10 == 0) {
+        v /= 10;
+        decimals--;
+    }
+    snprintf(out, DECIMAL_TEXT, "%s%" PRId64 ".%0*" PRId64, negative ? "-" : "", v / power_of_ten(decimals), decimals,
+             v % power_of_ten(decimals));
+}
+
+void decimal_format_binary(char out[DECIMAL_TEXT], int64_t value, int frac_bits, int digits)
+{
+    const int negative = value < 0;
+    char all[MOST_PLACES];
+    const int length = exact_digits(all, drogue_abs_u64(value), frac_bits);
+    int first = 0;
+    int power; /* of ten, of the first digit */
+    int64_t v;
+    if (value == 0) {
+        snprintf(out, DECIMAL_TEXT, "0.0");
+        return;
+    }
+    while (all[first] == 0) {
+        first++;
+    }
+    power = WHOLE_PLACES - 1 - first;
+    v = rounded(all, length, first, digits, negative);
+    if (v == power_of_ten(digits)) {
+        v /= 10;
+        power++;
+    }
+    if (power >= -4 && power < 6) {
+        for (; digits - 1 - power < 1; digits++) {
+            v *= 10;
+        }
+        format_trimmed(out, v, digits - 1 - power, negative);
+    } else {
+        format_trimmed(out, v, digits - 1, negative);
+        snprintf(out + strlen(out), DECIMAL_TEXT - strlen(out), "e%s%02d", power < 0 ? "-" : "+", abs(power));
+    }
+}
+
+void decimal_format_degrees_q32(char out[DECIMAL_TEXT], int64_t angle_rad_q32, int digits)
+{
+    /* 180 / pi, Q48 */
+    decimal_format_binary(out, drogue_mul_shr_round_s64(angle_rad_q32, INT64_C(16127328204063727), 32), 48, digits);
 }
 
 void decimal_trim(char text[DECIMAL_TEXT])

@@ -28,7 +28,8 @@ int frame_workspace_fit(frame_workspace *w, const char *path, int32_t width_px, 
     capacity.arcs = pixels / (min_arc_px > 0 ? min_arc_px : 1) + 1;
     bytes = drogue_workspace_bytes(&capacity);
     if (bytes > w->bytes) {
-        frame_workspace_free(w);
+        free(w->memory);
+        w->bytes = 0;
         w->memory = calloc(1, bytes);
         if (w->memory == NULL) {
             return complain(path, "out of memory");
@@ -44,6 +45,30 @@ void frame_workspace_free(frame_workspace *w)
     free(w->memory);
     w->memory = NULL;
     w->bytes = 0;
+    free(w->search_memory);
+    w->search_memory = NULL;
+}
+
+/* Room to search a picture and to measure any part of it that the library takes. */
+static int fit_whole(frame_workspace *w, const char *path, const picture *grey)
+{
+    const int32_t width = grey->width_px < DROGUE_MAX_SIDE ? grey->width_px : DROGUE_MAX_SIDE;
+    const int32_t height = grey->height_px < DROGUE_MAX_SIDE ? grey->height_px : DROGUE_MAX_SIDE;
+    const int32_t widest = grey->width_px < INT16_MAX ? grey->width_px : INT16_MAX; /* wider ones are not searched */
+    const size_t bytes = DROGUE_SEARCH_BYTES(widest);
+    drogue_config config;
+    drogue_config_default(&config);
+    if (frame_workspace_fit(w, path, width, height, config.min_arc_px)) {
+        return EXIT_BAD;
+    }
+    if (w->search_memory == NULL) {
+        w->search_memory = malloc(bytes);
+        if (w->search_memory == NULL) {
+            return complain(path, "out of memory");
+        }
+        (void)drogue_search_init(&w->search, w->search_memory, bytes, widest);
+    }
+    return EXIT_MEASURED;
 }
 
 drogue_image frame_image(const picture *grey)
@@ -89,5 +114,43 @@ int frame_measure(drogue_result *out, frame_workspace *w, const options *o, cons
         return EXIT_BAD;
     }
     (void)drogue_measure(out, &w->workspace, &config, &o->camera, &o->model, &image, region);
+    return EXIT_MEASURED;
+}
+
+static drogue_region whole_image(const picture *grey)
+{
+    drogue_region whole = {0, 0, 0, 0};
+    whole.width_px = grey->width_px;
+    whole.height_px = grey->height_px;
+    return whole;
+}
+
+int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w, const options *o, const char *path,
+                  const picture *grey)
+{
+    drogue_image image = frame_image(grey);
+    drogue_config config;
+    drogue_config_default(&config);
+    if (fit_whole(w, path, grey)) {
+        return EXIT_BAD;
+    }
+    (void)drogue_acquire(out, &w->search, &w->workspace, &config, &o->camera, &o->model, &image, NULL);
+    *region = out->status == DROGUE_OK ? out->region : whole_image(grey);
+    return EXIT_MEASURED;
+}
+
+int frame_track(drogue_result *out, drogue_region *region, drogue_track *track, frame_workspace *w, const options *o,
+                const char *path, const picture *grey)
+{
+    drogue_image image = frame_image(grey);
+    drogue_config config;
+    drogue_config_default(&config);
+    if (fit_whole(w, path, grey)) {
+        return EXIT_BAD;
+    }
+    (void)drogue_track_frame(out, region, track, &w->workspace, &w->search, &config, &image, o->frame_us);
+    if (region->width_px == 0) {
+        *region = out->status == DROGUE_OK ? out->region : whole_image(grey);
+    }
     return EXIT_MEASURED;
 }

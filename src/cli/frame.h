@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "drogue/drogue.h"
+#include "drogue/track.h"
 #include "options.h"
 #include "png_io.h"
 
@@ -14,6 +14,8 @@ typedef struct frame_workspace {
     void *memory;
     size_t bytes;
     drogue_workspace workspace;
+    void *search_memory;
+    drogue_search search;
 } frame_workspace;
 
 /* Make room for any region of so many pixels, every pixel a candidate edge point.
@@ -33,6 +35,22 @@ drogue_image frame_image(const picture *grey);
  *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when the part in the image exceeds DROGUE_MAX_SIDE
  */
 int frame_region(drogue_region *out, const options *o, const char *path, const picture *grey);
+
+/* Search one whole frame and measure what is found.
+ *
+ *  region  out, where it was measured; the whole image when nothing was
+ *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory
+ */
+int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w, const options *o, const char *path,
+                  const picture *grey);
+
+/* One frame of a track.
+ *
+ *  region  out, asked for; where it was measured when the whole image was searched
+ *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory
+ */
+int frame_track(drogue_result *out, drogue_region *region, drogue_track *track, frame_workspace *w, const options *o,
+                const char *path, const picture *grey);
 
 /* Measure one frame; what the library found, or why it found nothing, is in the result.
  *

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* JSON by hand: the numbers keep every bit of their Q16 with six decimals, without floating point. */
+/* JSON by hand, without floating point: the numbers keep every bit of their Q16 with six decimals, (co)variances six
+ * significant digits. */
 #include "json.h"
 
 #include "decimal.h"
 
-enum { JSON_DECIMALS = 6 };
+enum { JSON_DECIMALS = 6, JSON_DIGITS = 6 };
 
 /* Length of the UTF-8 character at the start of a text; 0 when there is none (RFC 3629). */
 static int utf8_length(const unsigned char *s)
@@ -79,6 +80,11 @@ static void put_vector(FILE *out, const char *key, const drogue_q16 v[3])
     fputc(']', out);
 }
 
+static const char *polarity_name(drogue_polarity polarity)
+{
+    return polarity == DROGUE_POLARITY_DARK ? "dark" : polarity == DROGUE_POLARITY_BRIGHT ? "bright" : "mixed";
+}
+
 static void put_outline(FILE *out, const drogue_result *r)
 {
     /* The outline can be known when its pose is not. */
@@ -98,7 +104,7 @@ static void put_outline(FILE *out, const drogue_result *r)
     put_degrees(out, "angle_deg", r->ellipse.angle_rad_q16);
     fputs("},", out);
     put_q16(out, "reliability", r->quality.reliability_q16);
-    fprintf(out, ",\"polarity\":\"%s\",", r->polarity == DROGUE_POLARITY_DARK ? "dark" : "bright");
+    fprintf(out, ",\"polarity\":\"%s\",", polarity_name(r->polarity));
 }
 
 static void put_inner_centre(FILE *out, const drogue_result *r)
@@ -114,11 +120,39 @@ static void put_inner_centre(FILE *out, const drogue_result *r)
     fputs("},", out);
 }
 
+static void put_binary(FILE *out, const char *before, int64_t value, int frac_bits)
+{
+    char text[DECIMAL_TEXT];
+    decimal_format_binary(text, value, frac_bits, JSON_DIGITS);
+    fprintf(out, "%s%s", before, text);
+}
+
+static void put_uncertainty(FILE *out, const drogue_result *r)
+{
+    char text[DECIMAL_TEXT];
+    int i;
+    int j;
+    fputs("\"covariance\":[", out);
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j < 5; j++) {
+            put_binary(out, j > 0 ? "," : i > 0 ? ",[" : "[", r->covariance_q48[i][j], 48);
+        }
+        fputc(']', out);
+    }
+    fputs("],\"position_std_m\":[", out);
+    for (i = 0; i < 3; i++) {
+        put_binary(out, i > 0 ? "," : "", r->position_std_m_q32[i], 32);
+    }
+    decimal_format_degrees_q32(text, r->axis_std_rad_q32, JSON_DIGITS);
+    fprintf(out, "],\"axis_std_deg\":%s", text);
+}
+
 static void put_pose(FILE *out, const drogue_result *r)
 {
     if (r->status != DROGUE_OK) {
         fputs("\"position_m\":null,\"axis\":null,\"yaw_deg\":null,\"pitch_deg\":null,\"alternative\":null,"
-              "\"orientation_resolved\":null,\"ambiguity\":null",
+              "\"orientation_resolved\":null,\"ambiguity\":null,\"covariance\":null,\"position_std_m\":null,"
+              "\"axis_std_deg\":null",
               out);
         return;
     }
@@ -135,6 +169,8 @@ static void put_pose(FILE *out, const drogue_result *r)
     put_vector(out, "axis", r->alternative.axis_q16);
     fprintf(out, "},\"orientation_resolved\":%s,", r->orientation_resolved ? "true" : "false");
     put_q16(out, "ambiguity", r->ambiguity_q16);
+    fputc(',', out);
+    put_uncertainty(out, r);
 }
 
 void json_measurement(FILE *out, const char *path, const drogue_result *result)
@@ -148,26 +184,64 @@ void json_measurement(FILE *out, const char *path, const drogue_result *result)
     fputc('}', out);
 }
 
-void json_track_line(FILE *out, const char *path, const drogue_result *result, drogue_track_state state,
+/* round(v * unit / 2^32) for a v >= 0 that may be as large as there is */
+static int64_t scaled_q32(int64_t v_q32, int64_t unit)
+{
+    return (v_q32 >> 32) * unit + (((v_q32 & INT64_C(0xFFFFFFFF)) * unit + (INT64_C(1) << 31)) >> 32);
+}
+
+static void put_metres_q32(FILE *out, int64_t v_q32)
+{
+    char text[DECIMAL_TEXT];
+    decimal_format(text, scaled_q32(v_q32, 1000000), JSON_DECIMALS);
+    put_number(out, text);
+}
+
+static void put_degrees_q32(FILE *out, const char *key, int64_t angle_rad_q32)
+{
+    char text[DECIMAL_TEXT];
+    decimal_format(text, scaled_q32(angle_rad_q32, 57295780), JSON_DECIMALS);
+    fprintf(out, ",\"%s\":", key);
+    put_number(out, text);
+}
+
+static void put_estimate(FILE *out, const drogue_track_estimate *estimate)
+{
+    int i;
+    put_vector(out, "position_m", estimate->position_m_q16);
+    fputc(',', out);
+    put_vector(out, "velocity_mps", estimate->velocity_mps_q16);
+    fputc(',', out);
+    put_vector(out, "axis", estimate->axis_q16);
+    fputc(',', out);
+    put_degrees(out, "yaw_deg", estimate->yaw_rad_q16);
+    fputc(',', out);
+    put_degrees(out, "pitch_deg", estimate->pitch_rad_q16);
+    fprintf(out, ",\"orientation_resolved\":%s,\"position_std_m\":[",
+            estimate->orientation_resolved ? "true" : "false");
+    for (i = 0; i < 3; i++) {
+        fputs(i > 0 ? "," : "", out);
+        put_metres_q32(out, estimate->position_std_m_q32[i]);
+    }
+    fputc(']', out);
+    put_degrees_q32(out, "yaw_std_deg", estimate->yaw_std_rad_q32);
+    put_degrees_q32(out, "pitch_std_deg", estimate->pitch_std_rad_q32);
+    put_degrees_q32(out, "axis_std_deg", estimate->axis_std_rad_q32);
+}
+
+void json_track_line(FILE *out, const char *path, const drogue_result *result, const drogue_track *track,
                      const drogue_region *region, const drogue_track_estimate *estimate)
 {
     fputs("{\"image\":", out);
     json_string(out, path);
-    fprintf(out, ",\"state\":\"%s\",\"raw\":", drogue_track_state_name(state));
+    fprintf(out, ",\"state\":\"%s\",\"gated\":%s,\"raw\":", drogue_track_state_name(track->state),
+            track->gated ? "true" : "false");
     json_measurement(out, path, result);
-    if (state == DROGUE_LOST) {
+    if (track->state == DROGUE_LOST) {
         fputs(",\"filtered\":null", out);
     } else {
         fputs(",\"filtered\":{", out);
-        put_vector(out, "position_m", estimate->position_m_q16);
-        fputc(',', out);
-        put_vector(out, "velocity_mps", estimate->velocity_mps_q16);
-        fputc(',', out);
-        put_vector(out, "axis", estimate->axis_q16);
-        fputc(',', out);
-        put_degrees(out, "yaw_deg", estimate->yaw_rad_q16);
-        fputc(',', out);
-        put_degrees(out, "pitch_deg", estimate->pitch_rad_q16);
+        put_estimate(out, estimate);
         fputc('}', out);
     }
     fprintf(out, ",\"roi\":[%ld,%ld,%ld,%ld]}\n", (long)region->x_px, (long)region->y_px, (long)region->width_px,

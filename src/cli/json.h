@@ -18,7 +18,7 @@ void json_measurement(FILE *out, const char *path, const drogue_result *result);
  *  region    asked for in this frame, before it was clipped
  *  estimate  of the filter, not used while lost
  */
-void json_track_line(FILE *out, const char *path, const drogue_result *result, drogue_track_state state,
+void json_track_line(FILE *out, const char *path, const drogue_result *result, const drogue_track *track,
                      const drogue_region *region, const drogue_track_estimate *estimate);
 
 #endif

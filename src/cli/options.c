@@ -18,6 +18,7 @@ enum {
     OPTION_JSON,
     OPTION_OVERLAY,
     OPTION_FPS,
+    OPTION_MAX_MISSED,
     OPTION_LOW,
     OPTION_HIGH,
     OPTION_SMOOTH,
@@ -27,19 +28,13 @@ enum {
 };
 
 static const struct option LONG_OPTIONS[] = {
-    {"camera", required_argument, NULL, OPTION_CAMERA},
-    {"distortion", required_argument, NULL, OPTION_DISTORTION},
-    {"roi", required_argument, NULL, OPTION_ROI},
-    {"drogue", required_argument, NULL, OPTION_DROGUE},
-    {"json", no_argument, NULL, OPTION_JSON},
-    {"overlay", required_argument, NULL, OPTION_OVERLAY},
-    {"fps", required_argument, NULL, OPTION_FPS},
-    {"low", required_argument, NULL, OPTION_LOW},
-    {"high", required_argument, NULL, OPTION_HIGH},
-    {"smooth", no_argument, NULL, OPTION_SMOOTH},
-    {"help", no_argument, NULL, OPTION_HELP},
-    {"version", no_argument, NULL, OPTION_VERSION},
-    {NULL, 0, NULL, 0},
+    {"camera", required_argument, NULL, OPTION_CAMERA}, {"distortion", required_argument, NULL, OPTION_DISTORTION},
+    {"roi", required_argument, NULL, OPTION_ROI},       {"drogue", required_argument, NULL, OPTION_DROGUE},
+    {"json", no_argument, NULL, OPTION_JSON},           {"overlay", required_argument, NULL, OPTION_OVERLAY},
+    {"fps", required_argument, NULL, OPTION_FPS},       {"max-missed", required_argument, NULL, OPTION_MAX_MISSED},
+    {"low", required_argument, NULL, OPTION_LOW},       {"high", required_argument, NULL, OPTION_HIGH},
+    {"smooth", no_argument, NULL, OPTION_SMOOTH},       {"help", no_argument, NULL, OPTION_HELP},
+    {"version", no_argument, NULL, OPTION_VERSION},     {NULL, 0, NULL, 0},
 };
 
 #define BIT(option) (1u << (option))
@@ -59,7 +54,8 @@ typedef struct command_use {
 
 static const command_use COMMANDS[] = {
     {"measure", COMMAND_MEASURE, 1, 1, POSE_OPTIONS, BIT(OPTION_CAMERA), "one image"},
-    {"track", COMMAND_TRACK, 1, 0, POSE_OPTIONS | BIT(OPTION_FPS), BIT(OPTION_CAMERA), "at least one image"},
+    {"track", COMMAND_TRACK, 1, 0, POSE_OPTIONS | BIT(OPTION_FPS) | BIT(OPTION_MAX_MISSED), BIT(OPTION_CAMERA),
+     "at least one image"},
     {"edges", COMMAND_EDGES, 2, 2, BIT(OPTION_LOW) | BIT(OPTION_HIGH) | BIT(OPTION_SMOOTH),
      BIT(OPTION_LOW) | BIT(OPTION_HIGH), "an image and a file to write"},
 };
@@ -236,6 +232,30 @@ static int parse_rate(uint32_t *frame_us, const char *text)
     return EXIT_MEASURED;
 }
 
+#define MOST_MISSED 1000000
+
+static int parse_max_missed(uint32_t *frames, const char *text)
+{
+    size_t length = strlen(text);
+    decimal number;
+    decimal_window whole;
+    decimal_status status = decimal_parse(&number, text, length);
+    if (status == DECIMAL_OK) {
+        whole = decimal_digits(&number, 6, 0);
+        if (whole.below) {
+            return complain("--max-missed", "'%s' is not a whole number", text);
+        }
+        if (whole.above || whole.value > MOST_MISSED || (number.negative && whole.value != 0)) {
+            status = DECIMAL_OUT_OF_RANGE;
+        }
+    }
+    if (status != DECIMAL_OK) {
+        return bad_number("--max-missed", text, length, status, "[0, 1000000]");
+    }
+    *frames = (uint32_t)whole.value;
+    return EXIT_MEASURED;
+}
+
 static int parse_option(options *out, uint64_t thresholds[2], int option, const char *value)
 {
     switch (option) {
@@ -246,6 +266,7 @@ static int parse_option(options *out, uint64_t thresholds[2], int option, const 
     case OPTION_JSON: out->json = 1; return EXIT_MEASURED;
     case OPTION_OVERLAY: out->overlay = value; return EXIT_MEASURED;
     case OPTION_FPS: return parse_rate(&out->frame_us, value);
+    case OPTION_MAX_MISSED: out->max_missed_given = 1; return parse_max_missed(&out->max_missed, value);
     case OPTION_LOW: return parse_billionths(&thresholds[0], "--low", value);
     case OPTION_HIGH: return parse_billionths(&thresholds[1], "--high", value);
     case OPTION_SMOOTH: out->smooth = 1; return EXIT_MEASURED;

@@ -19,6 +19,8 @@ typedef struct options {
     int json;
     const char *overlay; /* NULL: none */
     uint32_t frame_us;   /* from one frame to the next */
+    uint32_t max_missed; /* frames in a row that a track survives */
+    int max_missed_given;
     int32_t canny_low;
     int32_t canny_high;
     int smooth;

@@ -41,7 +41,9 @@ static void put_outline(const drogue_result *r)
     puts(" degrees");
     put_label("reliability");
     put_q16("", r->quality.reliability_q16);
-    printf(", %s inside\n", r->polarity == DROGUE_POLARITY_DARK ? "dark" : "bright");
+    printf(", %s inside\n", r->polarity == DROGUE_POLARITY_DARK     ? "dark"
+                            : r->polarity == DROGUE_POLARITY_BRIGHT ? "bright"
+                                                                    : "dark and bright");
 }
 
 static void put_pose(const drogue_pose *pose, const char *unit)

@@ -29,7 +29,10 @@ static int begin_sequence(sequence *s, const char *path, const picture *grey)
         return EXIT_BAD;
     }
     drogue_track_config_default(&config);
-    drogue_track_init(&s->track, &config, &s->o->camera, &s->o->model, &first);
+    if (s->o->max_missed_given) {
+        config.max_missed = s->o->max_missed;
+    }
+    drogue_track_init(&s->track, &config, &s->o->camera, &s->o->model, s->o->region_given ? &first : NULL);
     s->width_px = grey->width_px;
     s->height_px = grey->height_px;
     return EXIT_MEASURED;
@@ -69,13 +72,12 @@ static int track_frame(sequence *s, int index, const picture *grey)
         return complain(path, "%dx%d pixels, unlike the first frame's %dx%d", grey->width_px, grey->height_px,
                         s->width_px, s->height_px);
     }
-    drogue_track_begin(&region, &s->track, s->o->frame_us);
-    if (frame_measure(&result, &s->w, s->o, path, grey, &region)) {
+    if (frame_track(&result, &region, &s->track, &s->w, s->o, path, grey)) {
         return EXIT_BAD;
     }
-    state = drogue_track_end(&s->track, &result);
+    state = s->track.state;
     drogue_track_get(&estimate, &s->track);
-    json_track_line(stdout, path, &result, state, &region, &estimate);
+    json_track_line(stdout, path, &result, &s->track, &region, &estimate);
     if (flush_output()) {
         return EXIT_BAD;
     }

@@ -63,12 +63,10 @@ Arguments parse(int argc, char **argv)
 /* Bars that the library does not reach yet, and why: take off the list what is met. */
 void declare_known(Report &report)
 {
-    report.known_missed("z at 3 m, median", "edges of curved outlines are drawn inward by 0.008 px");
-    report.known_missed("scenes not measured and right", "deep scallops and flips of polarity");
-    report.known_missed("scenes wrong but reported as ok", "flips of polarity round the rim");
-    report.known_missed("normalised error squared, mean", "the results hold no covariance");
-    report.known_missed("circle boards: measured", "two circles of 560");
-    report.known_missed("circle boards: z, mean", "0.26 %");
+    report.known_missed(
+        "circle boards: z, mean",
+        "every board but one reads 0.2 to 0.35 % near: the discs are that much larger than the truth has "
+        "them, in the hand-labelled ellipses too; about its mean z scatters by 0.14 %");
 }
 
 bool study(const Arguments &a)
@@ -87,6 +85,7 @@ bool study(const Arguments &a)
     section_pose_noise(report, options);
     section_approach(report, options);
     section_table5(report, options);
+    section_sequences(report, options);
     section_boards(report, options);
     if (a.options.cache.empty()) {
         std::filesystem::remove_all(options.cache);

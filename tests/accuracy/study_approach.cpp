@@ -20,14 +20,15 @@ constexpr int paper_measurements = 103;
 /* Fig. 12: what was measured over what is. */
 void plot_positions(Report &report, const std::vector<Trial> &trials, const std::vector<Outcome> &outcomes)
 {
-    Plot plot = {"approach_positions",
-                 "Measured and true position, in the order of the distance (the paper's Fig. 12).",
-                 "picture",
-                 "position, m",
-                 {},
-                 false,
-                 false,
-                 {"set key top left", "set pointsize 0.8"}};
+    Plot plot = {
+        "approach_positions",
+        "Measured and true position, in the order of the distance (the paper's Fig. 12).",
+        "picture",
+        "position, m",
+        {},
+        false,
+        false,
+        {"set pointsize 0.8", "set yrange [-7:27]", "set xrange [0:" + std::to_string(trials.size() + 1) + "]"}};
     for (int axis = 0; axis < 3; axis++) {
         const std::string letter = letters[static_cast<size_t>(axis)];
         Series truth = {letter + ", true", {}, {}, "lines"};
@@ -56,7 +57,7 @@ void plot_errors(Report &report, const std::vector<Outcome> &outcomes, bool rela
                  {},
                  false,
                  true,
-                 {"set key outside top center horizontal", "set format y '%g'", "set xrange [4:26]"}};
+                 {"set format y '%g'", "set xrange [4:26]"}};
     for (int axis = 0; axis < 3; axis++) {
         Series s = {letters[static_cast<size_t>(axis)], {}, {}, "points"};
         for (const Outcome &o : outcomes) {
@@ -238,8 +239,7 @@ void plot_sequence(Report &report, const std::vector<Step> &steps, int axis)
                  {raw, filtered, place},
                  false,
                  false,
-                 {"set key outside top center horizontal", "set ytics nomirror", "set y2tics",
-                  "set y2label '" + letter + ", m'"}});
+                 {"set ytics nomirror", "set y2tics", "set y2label '" + letter + ", m'"}});
 }
 
 void sequence_table(Report &report, const std::vector<Step> &steps)

@@ -53,7 +53,7 @@ void plot_axis(Report &report, const Experiment &e, const std::vector<NoiseCell>
                  series,
                  false,
                  true,
-                 {"set key outside right", "set xrange [4:26]"}});
+                 {"set xrange [4:26]"}});
 }
 
 /* Errors of the angles over all distances at one sigma. */

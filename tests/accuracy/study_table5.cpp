@@ -148,23 +148,36 @@ void plot_table(Report &report, const Comparison &c)
                   "set xrange [-0.8:11.8]"}});
 }
 
+/* Which baselines a bar is about. The paper's four differ from ours by factors; the closed form, from the same outline,
+ * by a few per cent. */
+enum class Against { the_paper_s, shiu_ahmad };
+
 /* The whole method against the best of the baselines, column by column. */
-void judge_columns(Report &report, const Comparison &c, size_t ours, const std::string &where)
+void judge_columns(Report &report, const Comparison &c, size_t ours, Against against, const std::string &where)
 {
     const char *const column[4] = {"x", "y", "z", "average"};
     const std::array<double, 4> error = c[ours].mean_percent();
     for (size_t i = 0; i < 4; i++) {
         double best = std::numeric_limits<double>::infinity();
-        std::string name;
         for (size_t k = 0; k < methods; k++) {
-            if (method_table[k].baseline() && c[k].mean_percent()[i] < best) {
-                best = c[k].mean_percent()[i];
-                name = method_table[k].name;
+            const Method &m = method_table[k];
+            if (m.baseline() && (m.paper[i] > 0) == (against == Against::the_paper_s)) {
+                best = std::min(best, c[k].mean_percent()[i]);
             }
         }
-        report.at_most(std::string("Mean error of ") + column[i] + ", " + where + ", against the best baseline's (" +
-                           name + ")",
+        report.at_most(std::string("Table 5, ") + where + ": mean error, " + column[i] + ", against " +
+                           (against == Against::shiu_ahmad ? "Shiu and Ahmad" : "the best of Martinez, Yin, Ma, Sun"),
                        error[i], best, "%");
+    }
+}
+
+void judge(Report &report, const StudyOptions &options, const Comparison &c, size_t ours, const std::string &where)
+{
+    judge_columns(report, c, ours, Against::the_paper_s, where);
+    if (options.quick) {
+        report.not_judged("Table 5, " + where + ": against Shiu and Ahmad", "few pictures, small differences");
+    } else {
+        judge_columns(report, c, ours, Against::shiu_ahmad, where);
     }
 }
 
@@ -192,9 +205,8 @@ void section_table5(Report &report, const StudyOptions &options)
                 "than 3 % of the distance:");
     median_table(report, all);
     approach_table(report, approaches, parts);
-    report.at_most("Mean position error over 5-25 m, approaches, with the filter", all[ours_whole].mean_percent()[3],
-                   0.15, "%");
-    judge_columns(report, all, ours_whole, "approaches, with the filter");
+    report.at_most("Table 5, approaches, filter: mean error, average", all[ours_whole].mean_percent()[3], 0.15, "%");
+    judge(report, options, all, ours_whole, "approaches, filter");
 
     std::vector<Trial> trials;
     for (const Trial &t : study_trials(options)) {
@@ -210,7 +222,7 @@ void section_table5(Report &report, const StudyOptions &options)
     mean_table(report, single, false);
     report.text("And in medians:");
     median_table(report, single);
-    judge_columns(report, single, ours_single, "scenes of all conditions");
+    judge(report, options, single, ours_single, "scenes, no filter");
 }
 
 } // namespace accuracy

@@ -225,6 +225,96 @@ START_TEST(windows_of_digits)
 }
 END_TEST
 
+static void must_print_binary(int64_t value, int frac_bits, int digits, const char *expected)
+{
+    char text[DECIMAL_TEXT];
+    decimal_format_binary(text, value, frac_bits, digits);
+    ck_assert_str_eq(text, expected);
+}
+
+START_TEST(binary_as_expected)
+{
+    const int64_t one = INT64_C(1) << 48;
+    must_print_binary(0, 48, 6, "0.0");
+    must_print_binary(one, 48, 6, "1.0");
+    must_print_binary(-one, 48, 6, "-1.0");
+    must_print_binary(one / 4, 48, 6, "0.25");
+    must_print_binary(1, 48, 6, "3.55271e-15");
+    must_print_binary(-1, 48, 6, "-3.55271e-15");
+    must_print_binary(1, 1, 6, "0.5");
+    must_print_binary(1, 59, 9, "1.73472348e-18");
+    must_print_binary(905377, 48, 6, "3.21655e-09"); /* 3.216545... */
+    must_print_binary(905377, 48, 4, "3.217e-09");
+    must_print_binary(INT64_C(123) << 32, 32, 6, "123.0");
+    must_print_binary(INT64_C(123456) << 32, 32, 6, "123456.0");
+    must_print_binary(INT64_C(999999) << 32, 32, 6, "999999.0");
+    must_print_binary((INT64_C(999999) << 32) + (INT64_C(1) << 31), 32, 6, "1.0e+06"); /* a tie, upward */
+    must_print_binary(-((INT64_C(999999) << 32) + (INT64_C(1) << 31)), 32, 6, "-999999.0");
+    must_print_binary(-((INT64_C(999999) << 32) + (INT64_C(1) << 31)) - 1, 32, 6, "-1.0e+06");
+    must_print_binary(INT64_C(1234567) << 32, 32, 6, "1.23457e+06");
+    must_print_binary(INT64_C(5) << 46, 48, 2, "1.3"); /* 1.25: ties toward +infinity */
+    must_print_binary(-(INT64_C(5) << 46), 48, 2, "-1.2");
+    must_print_binary(-(INT64_C(5) << 46) - 1, 48, 2, "-1.3");
+    must_print_binary(28147497671, 48, 6, "0.0001"); /* 1.00000000000e-4, not 9.99999e-05 */
+    must_print_binary(28147497000, 48, 6, "0.0001"); /* rounds up to it */
+    must_print_binary(28147400000, 48, 6, "9.99997e-05");
+    must_print_binary(INT64_MAX, 48, 6, "32768.0");
+    must_print_binary(INT64_MIN, 48, 6, "-32768.0");
+    must_print_binary(INT64_MAX, 1, 9, "4.61168602e+18");
+    must_print_binary(INT64_MIN, 1, 9, "-4.61168602e+18");
+}
+END_TEST
+
+/* Against printf on a long double, which holds the number exactly, away from ties. */
+START_TEST(binary_agrees_with_long_double)
+{
+    uint64_t seed = 5;
+    int i, compared = 0;
+    for (i = 0; i < 200000; i++) {
+        const int64_t value = rng_s64_any_width(&seed);
+        const int frac_bits = rng_range(&seed, 1, 59), digits = rng_range(&seed, 2, 9);
+        const long double exact = ldexpl((long double)value, -frac_bits);
+        char text[DECIMAL_TEXT], expected[64];
+        long double got, unit;
+        decimal_format_binary(text, value, frac_bits, digits);
+        got = strtold(text, NULL);
+        if (value == 0) {
+            continue;
+        }
+        unit = powl(10.0L, floorl(log10l(fabsl(exact))) - digits + 1);
+        MUST(fabsl(got - exact) <= 0.5000001L * unit, "%lld / 2^%d prints as %s", (long long)value, frac_bits, text);
+        MUST(text[strspn(text, "-")] >= '0' && text[strspn(text, "-")] <= '9' && strchr(text, '.') != NULL,
+             "%s is no JSON number", text);
+        snprintf(expected, sizeof expected, "%.*Le", digits - 1, exact);
+        if (fabsl(fabsl(exact) / unit - floorl(fabsl(exact) / unit) - 0.5L) > 1e-6L) {
+            MUST(fabsl(strtold(expected, NULL) - got) < 1e-6L * unit, "%s, not %s", text, expected);
+            compared++;
+        }
+    }
+    ck_assert_int_gt(compared, 180000);
+}
+END_TEST
+
+START_TEST(degrees_q32_agree_with_double)
+{
+    uint64_t seed = 6;
+    char text[DECIMAL_TEXT];
+    int i;
+    for (i = 0; i < 100000; i++) {
+        const int64_t angle = rng_s64_any_width(&seed) >> 23;
+        const double expected = (double)angle / 4294967296.0 * 180.0 / TEST_PI;
+        decimal_format_degrees_q32(text, angle, 6);
+        MUST(fabs(strtod(text, NULL) - expected) <= 5.1e-6 * fabs(expected), "%lld LSB print as %s degrees, not %.9g",
+             (long long)angle, text, expected);
+    }
+    decimal_format_degrees_q32(text, INT64_C(13493037705), 6); /* pi */
+    ck_assert_str_eq(text, "180.0");
+    decimal_format_degrees_q32(text, 0, 6);
+    ck_assert_str_eq(text, "0.0");
+}
+END_TEST
+
 SUITE_MAIN("decimal", numbers_as_people_write_them, garbage_is_no_number, range_ends_where_q16_ends,
            ties_go_toward_plus_infinity, agrees_with_double, printed_numbers_come_back, printed_as_expected,
-           degrees_agree_with_double, windows_of_digits)
+           degrees_agree_with_double, windows_of_digits, binary_as_expected, binary_agrees_with_long_double,
+           degrees_q32_agree_with_double)

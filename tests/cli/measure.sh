@@ -29,15 +29,37 @@ near "$(json ambiguity)" 0.5 0.5
 near "$(json ellipse.angle_deg)" 0 90.001
 # Each number has a decimal and no more digits than it needs.
 tr ',:[]{}' '\n\n\n\n\n\n' <out | grep -E '^-?[0-9]' >numbers
-same "$(grep -cE '^-?(0|[1-9][0-9]*)\.([0-9]|[0-9]{1,5}[1-9])$' numbers)" "$(wc -l <numbers | tr -d ' ')"
+same "$(grep -cE '^-?(0|[1-9][0-9]*)\.([0-9]|[0-9]{1,8}[1-9])(e[-+][0-9]{2})?$' numbers)" "$(wc -l <numbers | tr -d ' ')"
+# The covariance is symmetric, and its diagonal the square of what is stated beside it.
+for i in 0 1 2 3 4; do
+    for j in 0 1 2 3 4; do
+        same "$(json covariance.$i.$j)" "$(json covariance.$j.$i)"
+    done
+done
+for i in 0 1 2; do
+    near "$(json position_std_m.$i) ^ 2 / $(json covariance.$i.$i)" 1 0.0001
+done
+near "$(json axis_std_deg)" "sqrt($(json covariance.3.3) + $(json covariance.4.4)) * 180 / atan2(0, -1)" 0.0002
+near "$(json axis_std_deg)" 1.5 1 # head-on, and the inner part is only 2 cm behind
+near "$(json position_std_m.2)" 0.003 0.0025
+"$json_check" covariance.5 <out >/dev/null 2>&1 && fail 'covariance of more than five rows'
+"$json_check" covariance.4.5 <out >/dev/null 2>&1 && fail 'covariance of more than five columns'
 # yaw and pitch belong to the axis: n = (sin yaw cos pitch, sin pitch, cos yaw cos pitch).
 near "$(json axis.1)" "sin($(json pitch_deg) * atan2(0, -1) / 180)" 0.0001
 near "$(json axis.0)" "sin($(json yaw_deg) * atan2(0, -1) / 180) * cos($(json pitch_deg) * atan2(0, -1) / 180)" 0.0001
 
+# Without a region the drogue is searched for.
+run 0 measure scene.png $camera $model --json --overlay found.png
+near "$(json ellipse.xc)" 161.25 0.02
+near "$(json ellipse.a)" 80 0.05
+near "$(json inner_centre.x)" 161.25 0.05
+near "$(json position_m.2)" 3.5 0.005
+
 # The keys are all there when nothing is found.
 run 1 measure black.png $camera --json
 same "$(json status)" '"no_edges"'
-for key in ellipse reliability polarity inner_centre position_m axis yaw_deg pitch_deg alternative orientation_resolved ambiguity; do
+for key in ellipse reliability polarity inner_centre position_m axis yaw_deg pitch_deg alternative orientation_resolved ambiguity \
+    covariance position_std_m axis_std_deg; do
     same "$(json $key)" null
 done
 
@@ -109,7 +131,7 @@ cmp -s out first || fail 'another answer with --overlay'
 same "$(png_side found.png 16)" 640
 [ "$(png_side found.png 20)" -gt 480 ] || fail 'no room for words'
 run 0 measure scene.png $camera $roi --overlay unresolved.png
-run 1 measure scene.png $camera --overlay nothing.png
+run 1 measure scene.png $camera --roi 0,0,30,30 --overlay nothing.png
 cmp -s found.png unresolved.png && fail 'overlays do not show the orientation'
 cmp -s found.png nothing.png && fail 'overlays do not show what was found'
 run 1 measure one.png $camera --overlay over.png

@@ -20,7 +20,7 @@ same "$(json raw.status | sed -n '1p;2p;6p' | words)" '"no_edges" "ok" "no_edges
 same "$(json filtered | grep -c null)" 3
 same "$(json raw.position_m | grep -c null)" 13
 same "$(json roi | sed -n '1p;2p;17p;18p' | words)" '[60,18,200,200] [60,18,200,200] [60,18,200,200] [60,18,200,200]'
-json roi | sed -n 4p | grep -qE '^\[6[0-9],1[89],200,200\]$' || fail "region of the third frame: $(json roi | sed -n 4p)"
+json roi | sed -n 4p | grep -qE '^\[6[0-9],1[0-9],2[01][0-9],2[01][0-9]\]$' || fail "region of the third frame: $(json roi | sed -n 4p)"
 "$json_check" filtered.position_m filtered.velocity_mps filtered.axis filtered.yaw_deg filtered.pitch_deg <out >/dev/null 2>&1 &&
     fail 'a lost frame has an estimate'
 sed -n 5p out >fifth && mv fifth out
@@ -31,7 +31,38 @@ near "$(json filtered.velocity_mps.1)" 0 0.01
 near "$(json filtered.axis.2)" 1 0.001
 near "$(json filtered.yaw_deg)" 0 1
 near "$(json filtered.pitch_deg)" 0 1
+near "$(json filtered.position_std_m.0)" 0.0005 0.0005
+near "$(json filtered.position_std_m.1)" 0.0005 0.0005
+near "$(json filtered.position_std_m.2)" 0.003 0.003
+near "$(json filtered.axis_std_deg)" 1 1
+near "$(json filtered.axis_std_deg) ^ 2" "$(json filtered.yaw_std_deg) ^ 2 + $(json filtered.pitch_std_deg) ^ 2" 0.001
+same "$(json gated)" false
+same "$(json filtered.orientation_resolved)" true
 cp out at_30
+
+# As many missed frames as asked for.
+# shellcheck disable=SC2086
+run 0 track $seen frame04.png frame05.png frame06.png $camera $roi $model --max-missed 2
+same "$(json state | words)" '"tracking" "tracking" "tracking" "tracking" "coasting" "coasting" "lost"'
+run 0 track frame00.png frame04.png $camera $roi $model --max-missed=0
+same "$(json state | words)" '"tracking" "lost"'
+
+# Standard deviations grow while it is not seen.
+# shellcheck disable=SC2086
+run 0 track $seen frame04.png frame05.png frame06.png $camera $roi $model
+json filtered.position_std_m.0 | sed -n '4,$p' >grown
+sort -g grown | cmp -s - grown || fail "standard deviations while coasting: $(words <grown)"
+same "$(sort -gu grown | wc -l | tr -d ' ')" 4
+
+# Without a region the whole frame is searched, and followed from there.
+# shellcheck disable=SC2086
+run 0 track frame04.png $seen $camera $model
+same "$(json state | words)" '"lost" "tracking" "tracking" "tracking" "tracking"'
+same "$(json roi | sed -n 1p)" '[0,0,320,240]'
+json roi | sed -n 2p | grep -qE '^\[[0-9]+,[0-9]+,([12][0-9][0-9]),\1\]$' || fail "region of the search: $(json roi | sed -n 2p)"
+sed -n 5p out >fifth && mv fifth out
+near "$(json filtered.position_m.2)" 3.5 0.01
+near "$(json filtered.velocity_mps.0)" '3.5 * 2 / 800 * 30' 0.02
 
 # The rate of frames is the clock; 30 is the default, decimals count.
 # shellcheck disable=SC2086

@@ -89,6 +89,12 @@ for rate in 0 -1 nan '' 30,30 1e-9 0.0001 1e9 3000000 30fps 1e99; do
     run 2 track scene.png $camera --fps "$rate"
     says '--fps'
 done
+for count in -1 1.5 nan '' 1,2 1000001 1e9 x 3f; do
+    run 2 track scene.png $camera --max-missed "$count"
+    says '--max-missed'
+done
+run 2 measure scene.png $camera --max-missed 3
+says 'takes no option --max-missed'
 for level in -1 nan '' 1,2 1e9 -0.0000000000001 x; do
     run 2 edges scene.png out.png --low "$level" --high 100
     says '--low'

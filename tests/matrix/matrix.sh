@@ -5,6 +5,7 @@
 # the row says: compiler, optimisation, pointer size, byte order and core are read back from it.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit
+. tests/matrix/machine.sh
 work=${DROGUE_MATRIX_DIR:-build/matrix}
 jobs=${DROGUE_MATRIX_JOBS:-$(nproc)}
 most_s=900 # of one row's run
@@ -56,20 +57,19 @@ lookup() {
     reports=${reports# }
     read -ra flags <<<"$target"
     dialect=() link=() run=()
-    local semihosting=(-semihosting-config "enable=on,target=native" -nographic -monitor none -serial none -kernel)
     case $where in
     host) ;;
     qemu-*) link=(-static) run=("$where") ;;
     mps2-*)
         dialect=(--specs=rdimon.specs)
         link=(-nostartfiles -T tests/matrix/mps2.ld tests/matrix/start_mps2.c)
-        run=(qemu-system-arm -M "$where" "${semihosting[@]}")
+        machine "$where"
         ;;
     virt)
         dialect=(--specs=picolibc.specs)
         link=(--oslib=semihost --crt0=semihost "-Wl,--defsym=__flash=0x80000000,--defsym=__flash_size=16M"
             "-Wl,--defsym=__ram=0x81000000,--defsym=__ram_size=16M,--defsym=__stack_size=64K")
-        run=(qemu-system-riscv32 -M virt -m 64M -bios none "${semihosting[@]}")
+        machine virt
         ;;
     *)
         echo "matrix: no row '$1'" >&2

@@ -2,36 +2,10 @@
 /* Otsu's threshold as exact fractions, and the dark part against one image operation after the other. */
 #include "suite.h"
 
+#include "dark_model.h"
 #include "drogue/centroid.h"
 #include "images.h"
-#include "quad.h"
 #include "workspace.h"
-
-/* Least level of the largest variance between the classes, in quadruple precision. */
-static uint8_t model_otsu(const uint32_t *histogram)
-{
-    quad total = 0, sum = 0, below = 0, sum_below = 0, best = 0;
-    int level, at = 0;
-    for (level = 0; level < 256; level++) {
-        total += histogram[level];
-        sum += (quad)histogram[level] * level;
-    }
-    for (level = 0; level < 255; level++) {
-        quad p, variance;
-        below += histogram[level];
-        sum_below += (quad)histogram[level] * level;
-        if (below > 0 && below < total) {
-            p = below * sum - total * sum_below;
-            variance = p * p / (below * (total - below));
-            if (variance >
-                best * (1 + (quad)1e-28L)) { /* equals differ by rounding alone, unequals by 2^-88 and more */
-                best = variance;
-                at = level;
-            }
-        }
-    }
-    return (uint8_t)at;
-}
 
 START_TEST(otsu_of_random_histograms)
 {
@@ -70,26 +44,6 @@ START_TEST(otsu_of_two_levels_and_fewer)
     }
 }
 END_TEST
-
-static int dark_at(const uint8_t *p, int32_t width, int32_t height, int32_t x, int32_t y, int outside)
-{
-    return x < 0 || y < 0 || x >= width || y >= height ? outside : p[y * width + x];
-}
-
-/* Minimum or maximum over 3x3; pixels outside count as 'outside'. */
-static void filter3(uint8_t *out, const uint8_t *in, int32_t width, int32_t height, int outside)
-{
-    int32_t i, k;
-    for (i = 0; i < width * height; i++) {
-        int all = 1, any = 0;
-        for (k = 0; k < 9; k++) {
-            int v = dark_at(in, width, height, i % width + k % 3 - 1, i / width + k / 3 - 1, outside);
-            all &= v;
-            any |= v;
-        }
-        out[i] = (uint8_t)(outside ? all : any);
-    }
-}
 
 /* Largest 8-connected component; of equals the first. Returns its area. */
 static uint32_t model_largest(double *x, double *y, const uint8_t *dark, int32_t width, int32_t height)

@@ -77,8 +77,8 @@ END_TEST
 
 START_TEST(extremes_do_not_overflow)
 {
-    const drogue_candidate far = {{INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX, 102944}, 0, 0, 0};
-    const drogue_candidate near = {{INT32_MIN, INT32_MIN, 1, 1, -102943}, 0, 0, 0};
+    const drogue_candidate far = {{INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX, 102944}, 0, 0, 0, 0, 0};
+    const drogue_candidate near = {{INT32_MIN, INT32_MIN, 1, 1, -102943}, 0, 0, 0, 0, 0};
     ck_assert(!same(far, near));
     ck_assert(same(far, far));
     ck_assert(same(near, near));

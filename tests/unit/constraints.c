@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Smallest rectangles against every hull edge tried, verdicts on arcs, choice of the farthest. */
+/* Smallest rectangles against every hull edge tried, verdicts on arcs, choice of two of each quadrant. */
 #include "suite.h"
 
 #include "drogue/constraints.h"
@@ -240,46 +240,129 @@ START_TEST(verdict_on_every_direction_in_every_quadrant)
 }
 END_TEST
 
-START_TEST(farthest_of_each_quadrant_and_polarity)
+/* A run of edge points along two rows, as many as wanted: its middle is about (x + (count / 2 - 1) / 2, y + 0.5). */
+static void put_run(drogue_edge *e, drogue_arc *arc, uint32_t first, uint32_t count, int32_t x, int32_t y,
+                    uint32_t direction)
+{
+    uint32_t k;
+    for (k = 0; k < count; k++) {
+        e[first + k] = edge_at(x + (int32_t)(k % (count / 2)), y + (int32_t)(k / (count / 2)), NULL);
+    }
+    arc->first = first;
+    arc->count = count;
+    arc->direction = direction;
+}
+
+/* The choice by its words: of the four longest arcs (the first of equals) those with half the longest one's points, of
+ * these the farthest, then the longest of the others. */
+static int model_choices(drogue_arc_choices *out, drogue_point *hull, const drogue_edge *e, const drogue_arc *arcs,
+                         uint32_t count, const drogue_mask *mask, drogue_q16 min_short, drogue_polarity polarity)
+{
+    drogue_arc_verdict v[100];
+    int32_t q;
+    uint32_t i;
+    int any = 0;
+    for (i = 0; i < count; i++) {
+        drogue_judge_arc(&v[i], hull, e, &arcs[i], mask, min_short);
+        if (polarity != DROGUE_POLARITY_BOTH && v[i].polarity != polarity) {
+            v[i].quadrant = -1;
+        }
+    }
+    for (q = 0; q < 4; q++) {
+        uint32_t longest[4], found = 0, far = 0, k;
+        while (found < 4) {
+            uint32_t best = DROGUE_NO_ARC;
+            for (i = 0; i < count; i++) {
+                int taken = 0;
+                for (k = 0; k < found; k++) {
+                    taken |= longest[k] == i;
+                }
+                if (v[i].quadrant == q && !taken && (best == DROGUE_NO_ARC || arcs[i].count > arcs[best].count)) {
+                    best = i;
+                }
+            }
+            if (best == DROGUE_NO_ARC) {
+                break;
+            }
+            longest[found++] = best;
+        }
+        for (k = 1; k < found; k++) {
+            if (2 * arcs[longest[k]].count >= arcs[longest[0]].count &&
+                v[longest[k]].distance2_q32 > v[longest[far]].distance2_q32) {
+                far = k;
+            }
+        }
+        out->arc[q][0] = found > 0 ? longest[far] : DROGUE_NO_ARC;
+        out->arc[q][1] = found > 1 ? longest[far == 0 ? 1 : 0] : DROGUE_NO_ARC;
+        any |= found > 0;
+    }
+    return any;
+}
+
+START_TEST(choices_of_each_quadrant)
+{
+    enum { MOST_ARCS = 100 };
+    const drogue_mask mask = drogue_mask_of_size(200, 200);
+    drogue_point hull[DROGUE_HULL_MAX];
+    static drogue_edge e[30 * MOST_ARCS];
+    static drogue_arc arcs[MOST_ARCS];
+    drogue_arc_choices got, model;
+    uint64_t rng = 3;
+    uint32_t i;
+    int round, p, second = 0, nearer = 0, none = 0;
+    for (round = 0; round < 1500; round++) {
+        uint32_t count = (uint32_t)rng_range(&rng, 0, round & 1 ? MOST_ARCS : 6), total = 0;
+        for (i = 0; i < count; i++) { /* a coarse grid and few lengths give equals */
+            uint32_t points = 2u * (uint32_t)rng_range(&rng, 2, round % 3 ? 4 : 15);
+            put_run(e, &arcs[i], total, points, 10 * rng_range(&rng, 0, 18), 10 * rng_range(&rng, 0, 19),
+                    (uint32_t)rng_range(&rng, 0, 3));
+            total += points;
+        }
+        for (p = 0; p <= DROGUE_POLARITY_BOTH; p++) {
+            int any = model_choices(&model, hull, e, arcs, count, &mask, 65536, (drogue_polarity)p);
+            MUST(drogue_select_arcs(&got, hull, e, arcs, count, &mask, 65536, (drogue_polarity)p) ==
+                     (any ? DROGUE_OK : DROGUE_E_NO_ARCS),
+                 "round %d, polarity %d: status", round, p);
+            MUST(memcmp(&got, &model, sizeof got) == 0, "round %d, polarity %d: choice", round, p);
+            none += !any;
+            for (i = 0; i < 4; i++) {
+                second += got.arc[i][1] != DROGUE_NO_ARC;
+                nearer += got.arc[i][1] != DROGUE_NO_ARC && arcs[got.arc[i][1]].count > arcs[got.arc[i][0]].count;
+            }
+        }
+    }
+    ck_assert_int_gt(second, 1000);
+    ck_assert_int_gt(nearer, 500); /* a farther, shorter arc came first */
+    ck_assert_int_gt(none, 50);
+}
+END_TEST
+
+/* A stub far out neither takes the quadrant from the outline's long arc nor hides it; an arc as long as half of it does
+ * go first, and the long one stays second. */
+START_TEST(stub_beyond_the_outline)
 {
     const drogue_mask mask = drogue_mask_of_size(200, 200);
     drogue_point hull[DROGUE_HULL_MAX];
-    static drogue_edge e[400];
-    static drogue_arc arcs[100];
-    drogue_farthest got, model;
-    uint64_t rng = 3;
-    uint32_t i, p, q;
-    int round;
-    for (round = 0; round < 300; round++) {
-        uint32_t count = (uint32_t)rng_range(&rng, 0, round & 1 ? 100 : 6);
-        int64_t far[2][4] = {{-1, -1, -1, -1}, {-1, -1, -1, -1}};
-        memset(&model, 0xFF, sizeof model);
-        for (i = 0; i < count; i++) { /* a coarse grid gives equals */
-            int32_t x = 10 * rng_range(&rng, 0, 19), y = 10 * rng_range(&rng, 0, 19);
-            double dx = x + 1 - 99.5, dy = y + 0.5 - 99.5;
-            int quadrant = drogue_quadrant(dx > 0 ? 1 : -1, dy > 0 ? 1 : -1), turn;
-            int64_t d = (int64_t)(dx * dx * 4 + dy * dy * 4);
-            put_arc(e, &arcs[i], 4 * i, x, y, (uint32_t)rng_range(&rng, 0, 3));
-            turn = (quadrant - (int)arcs[i].direction) & 3;
-            if ((turn & 1) == 0 && d > far[turn / 2][quadrant]) {
-                far[turn / 2][quadrant] = d;
-                model.arc[turn / 2][quadrant] = i;
-            }
-        }
-        i = 0;
-        for (p = 0; p < 2; p++) {
-            for (q = 0; q < 4; q++) {
-                i += model.arc[p][q] != DROGUE_NO_ARC;
-            }
-        }
-        ck_assert_int_eq(drogue_select_farthest(&got, hull, e, arcs, count, &mask, 65536),
-                         i > 0 ? DROGUE_OK : DROGUE_E_NO_ARCS);
-        ck_assert_int_eq(memcmp(&got, &model, sizeof got), 0);
-    }
-    ck_assert_int_eq(drogue_select_farthest(&got, hull, e, arcs, 0, &mask, 0), DROGUE_E_NO_ARCS);
+    static drogue_edge e[100];
+    drogue_arc arcs[3];
+    drogue_arc_choices got;
+    put_run(e, &arcs[0], 0, 40, 110, 60, 0);
+    put_run(e, &arcs[1], 40, 18, 180, 5, 0); /* stub: less than half */
+    put_run(e, &arcs[2], 58, 20, 170, 20, 0);
+    ck_assert_int_eq(drogue_select_arcs(&got, hull, e, arcs, 2, &mask, 65536, DROGUE_POLARITY_BOTH), DROGUE_OK);
+    ck_assert_uint_eq(got.arc[0][0], 0);
+    ck_assert_uint_eq(got.arc[0][1], 1);
+    ck_assert_int_eq(drogue_select_arcs(&got, hull, e, arcs, 3, &mask, 65536, DROGUE_POLARITY_BOTH), DROGUE_OK);
+    ck_assert_uint_eq(got.arc[0][0], 2);
+    ck_assert_uint_eq(got.arc[0][1], 0);
+    ck_assert_int_eq(drogue_select_arcs(&got, hull, e, arcs, 3, &mask, 65537, DROGUE_POLARITY_BOTH), DROGUE_E_NO_ARCS);
+    ck_assert_int_eq(drogue_select_arcs(&got, hull, e, arcs, 3, &mask, 65536, DROGUE_POLARITY_BRIGHT),
+                     DROGUE_E_NO_ARCS);
+    ck_assert_int_eq(drogue_select_arcs(&got, hull, e, arcs, 0, &mask, 0, DROGUE_POLARITY_BOTH), DROGUE_E_NO_ARCS);
+    ck_assert_uint_eq(got.arc[3][1], DROGUE_NO_ARC);
 }
 END_TEST
 
 SUITE_MAIN("constraints", rectangle_of_random_points, rectangle_of_arcs, rectangle_of_points_on_a_line,
            hull_of_the_most_corners, first_of_equal_rectangles_wins, no_points, a_point_twice_is_one, quadrants,
-           verdict_on_every_direction_in_every_quadrant, farthest_of_each_quadrant_and_polarity)
+           verdict_on_every_direction_in_every_quadrant, choices_of_each_quadrant, stub_beyond_the_outline)

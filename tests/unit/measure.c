@@ -11,6 +11,9 @@ enum { WIDTH = 320, HEIGHT = 280, FINE = 4 };
 typedef struct scene {
     double position[3], yaw, pitch;
     double outside, canopy, inside; /* grey levels */
+    double depth;                   /* of the inner part, m */
+    double inner_shift[2];          /* m, in the image's x and y */
+    double slope[2];                /* of the background, grey levels a pixel */
 } scene;
 
 static const drogue_model model = {22938, 13107, 16384}; /* 0.35 m, 0.2 m, 0.25 m behind the end plane */
@@ -37,7 +40,7 @@ static void draw(const scene *s)
     int32_t x, y, k;
     axis_of_angles(axis, s->yaw, s->pitch);
     for (k = 0; k < 3; k++) {
-        inner[k] = s->position[k] + 0.25 * axis[k];
+        inner[k] = s->position[k] + s->depth * axis[k] + (k < 2 ? s->inner_shift[k] : 0);
     }
     for (y = 0; y < HEIGHT; y++) {
         for (x = 0; x < WIDTH; x++) {
@@ -46,16 +49,30 @@ static void draw(const scene *s)
                 double u = x + (k % FINE + 0.5) / FINE - 0.5, v = y + (k / FINE + 0.5) / FINE - 0.5, ray[3] = {0, 0, 1};
                 ray[0] = (u - 160) / f;
                 ray[1] = (v - 140) / f;
-                sum += !hits(ray, s->position, axis, 0.35) ? s->outside
-                       : hits(ray, inner, axis, 0.2)       ? s->inside
-                                                           : s->canopy;
+                sum += !hits(ray, s->position, axis, 0.35)
+                           ? s->outside + s->slope[0] * (u - 160) + s->slope[1] * (v - 140)
+                       : hits(ray, inner, axis, 0.2) ? s->inside
+                                                     : s->canopy;
             }
-            pixels[y * WIDTH + x] = (uint8_t)(sum / (FINE * FINE) + 0.5);
+            pixels[y * WIDTH + x] = (uint8_t)(fmin(fmax(sum / (FINE * FINE), 0), 255) + 0.5);
         }
     }
 }
 
-static const scene usual = {{0.01, -0.02, 4.4}, 0.2, -0.1, 200, 110, 10};
+static const scene usual = {{0.01, -0.02, 4.4}, 0.2, -0.1, 200, 110, 10, 0.25, {0, 0}, {0, 0}};
+
+/* Angle between the axes, rad. */
+static double axis_error(const drogue_pose *p, const scene *s)
+{
+    double axis[3], off2 = 0;
+    int k;
+    axis_of_angles(axis, s->yaw, s->pitch);
+    for (k = 0; k < 3; k++) {
+        double d = real_of_q16(p->axis_q16[k]) - axis[k];
+        off2 += d * d;
+    }
+    return 2 * asin(fmin(1, sqrt(off2) / 2));
+}
 
 static test_workspace usual_workspace(void) { return test_workspace_of(WIDTH, 8192, 4096, 512); }
 
@@ -319,34 +336,264 @@ START_TEST(geometry_out_of_range)
     m.rim_radius_m_q16 = INT32_MAX;
     ck_assert_int_eq(measure(&r, &t, &config, &m, &whole), DROGUE_E_DOMAIN);
     m = model;
-    m.inner_depth_m_q16 = -8 * 65536; /* the inner part behind the camera */
-    ck_assert_int_eq(measure(&r, &t, &config, &m, &whole), DROGUE_E_BEHIND_CAMERA);
+    m.inner_depth_m_q16 = -8 * 65536; /* the inner part behind the camera: it is not there, the outline is */
+    ck_assert_int_eq(measure(&r, &t, &config, &m, &whole), DROGUE_OK);
+    ck_assert_int_eq(r.has_inner, 0);
+    ck_assert_int_eq(r.orientation_resolved, 0);
     test_workspace_free(&t);
 }
 END_TEST
 
-/* With the inner part in the end plane both poses predict it in one place: it decides nothing. */
+/* How far the poses' explanations must differ is configured. With the inner part in the end plane only perspective tells
+ * the two poses apart, by a pixel or two: an inner centroid that is less sure than that decides nothing. */
 START_TEST(inner_part_that_cannot_decide)
 {
     test_workspace t = usual_workspace();
     const drogue_model flat = {22938, 13107, 0};
+    scene s = usual;
     drogue_config c;
-    drogue_result r;
+    drogue_result r, resolved;
     drogue_config_default(&c);
     draw(&usual);
-    ck_assert_int_eq(measure(&r, &t, &c, &model, &whole), DROGUE_OK);
-    ck_assert_int_eq(r.orientation_resolved, 1);
-    c.max_ambiguity_q16 = r.ambiguity_q16;
-    ck_assert_int_eq(measure(&r, &t, &c, &model, &whole), DROGUE_OK);
-    ck_assert_int_eq(r.orientation_resolved, 1);
-    c.max_ambiguity_q16 = r.ambiguity_q16 - 1;
+    ck_assert_int_eq(measure(&resolved, &t, &c, &model, &whole), DROGUE_OK);
+    ck_assert_int_eq(resolved.orientation_resolved, 1);
+    c.min_chi2_gap_q16 = INT32_MAX;
+    c.inner_std_px_q16 = 16 * 65536; /* so unsure that neither pose is much worse */
     ck_assert_int_eq(measure(&r, &t, &c, &model, &whole), DROGUE_OK);
     ck_assert_int_eq(r.orientation_resolved, 0);
+    ck_assert_int_eq(r.has_inner, 1);
+    ck_assert(r.axis_std_rad_q32 > resolved.axis_std_rad_q32);
     drogue_config_default(&c);
     c.inner_gate_q16 = 65536;
+    s.depth = 0;
+    draw(&s);
+    ck_assert_int_eq(measure(&r, &t, &c, &flat, &whole), DROGUE_OK);
+    ck_assert_int_eq(r.has_inner, 1);
+    ck_assert(!r.orientation_resolved || axis_error(&r.pose, &s) < 0.02);
+    c.inner_std_px_q16 = 4 * 65536;
     ck_assert_int_eq(measure(&r, &t, &c, &flat, &whole), DROGUE_OK);
     ck_assert_int_eq(r.has_inner, 1);
     ck_assert_int_eq(r.orientation_resolved, 0);
+    ck_assert(axis_error(&r.pose, &s) < 0.05 || axis_error(&r.alternative, &s) < 0.05);
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* Largest difference of two poses, LSB. */
+static int pose_apart(const drogue_pose *p, const drogue_pose *q)
+{
+    int k, worst = 0;
+    for (k = 0; k < 3; k++) {
+        int d = abs(p->position_m_q16[k] - q->position_m_q16[k]), e = abs(p->axis_q16[k] - q->axis_q16[k]);
+        worst = d > worst ? d : worst;
+        worst = e > worst ? e : worst;
+    }
+    return worst;
+}
+
+/* An inner part elsewhere than the model has it contradicts the outline: the outline alone is believed, and nothing is
+ * claimed about the orientation. */
+START_TEST(inner_part_that_contradicts)
+{
+    test_workspace t = usual_workspace();
+    scene s = usual;
+    drogue_model no_inner = model;
+    drogue_config c;
+    drogue_result r, alone;
+    int turn, k;
+    drogue_config_default(&c);
+    no_inner.inner_radius_m_q16 = 0;
+    for (turn = 0; turn < 3; turn++) {
+        s = usual;
+        s.yaw = 0.3;
+        s.inner_shift[turn == 0] = 0.04; /* m across, sideways and up or down */
+        if (turn == 2) {
+            s.depth = -0.2; /* seen in the place of the other pose's, or nearly */
+            s.inner_shift[0] = 0;
+            s.inner_shift[1] = 0.05;
+        }
+        draw(&s);
+        ck_assert_int_eq(measure(&r, &t, &c, &model, &whole), DROGUE_OK);
+        MUST(r.has_inner, "turn %d: no inner part", turn);
+        MUST(!r.orientation_resolved, "turn %d: resolved", turn);
+        ck_assert_int_eq(measure(&alone, &t, &c, &no_inner, &whole), DROGUE_OK);
+        k = pose_apart(&r.pose, &alone.pose) > 2; /* their order carries no meaning */
+        MUST(pose_apart(&r.pose, k ? &alone.alternative : &alone.pose) <= 2 &&
+                 pose_apart(&r.alternative, k ? &alone.pose : &alone.alternative) <= 2,
+             "turn %d: not the outline's poses", turn);
+        MUST(k || fabs((double)r.axis_std_rad_q32 / (double)alone.axis_std_rad_q32 - 1) < 0.001,
+             "turn %d: not the outline's covariance", turn);
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* Is the matrix positive definite? Gauss without exchange. */
+static int positive(const int64_t covariance_q48[5][5])
+{
+    double m[5][5], least = 1;
+    int i, j, k;
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j < 5; j++) {
+            m[i][j] = (double)covariance_q48[i][j];
+        }
+    }
+    for (k = 0; k < 5; k++) {
+        least = fmin(least, m[k][k]);
+        for (i = k + 1; i < 5; i++) {
+            for (j = 4; j >= k; j--) {
+                m[i][j] -= m[i][k] / m[k][k] * m[k][j];
+            }
+        }
+    }
+    return least > 0;
+}
+
+/* Covariance: symmetric, positive, its roots as stated, the error within it; without the inner part the axis is less
+ * sure. */
+START_TEST(covariance_of_the_result)
+{
+    uint64_t rng = 7;
+    test_workspace t = usual_workspace();
+    drogue_model no_inner = model;
+    drogue_config c;
+    drogue_result r, alone;
+    int i, j, k;
+    no_inner.inner_radius_m_q16 = 0;
+    drogue_config_default(&c);
+    for (i = 0; i < 12; i++) {
+        scene s = usual;
+        double variance;
+        s.yaw = rng_real(&rng, -0.35, 0.35);
+        s.pitch = rng_real(&rng, -0.35, 0.35);
+        draw(&s);
+        MUST(measure(&r, &t, &c, &model, &whole) == DROGUE_OK &&
+                 measure(&alone, &t, &c, &no_inner, &whole) == DROGUE_OK,
+             "case %d: %s", i, drogue_status_name(r.status));
+        for (k = 0; k < 2; k++) {
+            const drogue_result *q = k ? &alone : &r;
+            for (j = 0; j < 25; j++) {
+                MUST(q->covariance_q48[j / 5][j % 5] == q->covariance_q48[j % 5][j / 5], "case %d: not symmetric", i);
+            }
+            MUST(positive(q->covariance_q48), "case %d: not positive", i);
+            for (j = 0; j < 3; j++) {
+                double root = sqrt((double)q->covariance_q48[j][j]) * 256; /* Q48 to Q32 */
+                MUST(fabs((double)q->position_std_m_q32[j] - root) <= 1e-4 * root + 300,
+                     "case %d: std %d is %g, not %g", i, j, (double)q->position_std_m_q32[j], root);
+            }
+            variance = (double)q->covariance_q48[3][3] * pow(cos(real_of_q16(q->pose.pitch_rad_q16)), 2) +
+                       (double)q->covariance_q48[4][4];
+            MUST(fabs((double)q->axis_std_rad_q32 - 256 * sqrt(variance)) <= 2e-4 * 256 * sqrt(variance) + 300,
+                 "case %d: std of the axis", i);
+        }
+        for (j = 0; j < 3; j++) {
+            double off = real_of_q16(r.pose.position_m_q16[j]) - s.position[j];
+            MUST(fabs(off) < 6 * (double)r.position_std_m_q32[j] / 4294967296.0, "case %d: %d off by %g of %g", i, j,
+                 off, (double)r.position_std_m_q32[j] / 4294967296.0);
+        }
+        MUST(axis_error(&r.pose, &s) < 6 * (double)r.axis_std_rad_q32 / 4294967296.0, "case %d: axis off by %g of %g",
+             i, axis_error(&r.pose, &s), (double)r.axis_std_rad_q32 / 4294967296.0);
+        MUST(alone.axis_std_rad_q32 > r.axis_std_rad_q32, "case %d: surer without the inner part", i);
+    }
+    memset(pixels, 128, sizeof pixels);
+    ck_assert_int_ne(measure(&r, &t, &c, &model, &whole), DROGUE_OK);
+    for (j = 0; j < 25; j++) {
+        ck_assert(r.covariance_q48[j / 5][j % 5] == 0 && r.position_std_m_q32[j % 3] == 0 && r.axis_std_rad_q32 == 0);
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* An off-centre region cuts the outline; it is looked for again in a region about it, and is the same ellipse. */
+START_TEST(off_centre_region)
+{
+    static const drogue_region centred = {13, -7, 300, 280};
+    static const int32_t shift[][2] = {{30, 0}, {-30, 0}, {0, 30}, {0, -30}, {22, -22}, {-25, 18}, {38, 5}, {-10, -36}};
+    test_workspace t = usual_workspace();
+    drogue_config c;
+    drogue_result base, r, once;
+    size_t i;
+    int again = 0;
+    drogue_config_default(&c);
+    draw(&usual);
+    ck_assert_int_eq(measure(&base, &t, &c, &model, &centred), DROGUE_OK);
+    for (i = 0; i < sizeof shift / sizeof shift[0]; i++) {
+        drogue_region asked = centred;
+        double off;
+        asked.x_px += shift[i][0];
+        asked.y_px += shift[i][1];
+        MUST(measure(&r, &t, &c, &model, &asked) == DROGUE_OK, "shift %d: %s", (int)i, drogue_status_name(r.status));
+        off = fmax(hypot(real_of_q16(r.ellipse.xc_px_q16 - base.ellipse.xc_px_q16),
+                         real_of_q16(r.ellipse.yc_px_q16 - base.ellipse.yc_px_q16)),
+                   fmax(fabs(real_of_q16(r.ellipse.a_px_q16 - base.ellipse.a_px_q16)),
+                        fabs(real_of_q16(r.ellipse.b_px_q16 - base.ellipse.b_px_q16))));
+        MUST(off < 0.02, "shift %d: %g px off", (int)i, off);
+        MUST(r.cover_q16 > q16_of(0.95), "shift %d: cover %g", (int)i, real_of_q16(r.cover_q16));
+        c.recentre_cover_q16 = 0; /* never looked for again */
+        (void)measure(&once, &t, &c, &model, &asked);
+        again += once.cover_q16 < r.cover_q16;
+        drogue_config_default(&c);
+    }
+    ck_assert_int_ge(again, 4); /* regions that had cut it */
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* What the first look found stays when the second look cannot be had. */
+START_TEST(second_look_that_fails)
+{
+    static const drogue_region asked = {43, -7, 300, 280};
+    drogue_config c;
+    drogue_result first, r;
+    uint32_t edges;
+    int kept = 0;
+    drogue_config_default(&c);
+    draw(&usual);
+    for (edges = 300; edges < 2000; edges += 20) {
+        test_workspace t = test_workspace_of(WIDTH, edges, 4096, 512);
+        c.recentre_cover_q16 = 0;
+        (void)measure(&first, &t, &c, &model, &asked);
+        drogue_config_default(&c);
+        (void)measure(&r, &t, &c, &model, &asked);
+        test_workspace_free(&t);
+        MUST(first.status != DROGUE_OK || r.status == DROGUE_OK, "%u edge points: found at the first look, then %s",
+             (unsigned)edges, drogue_status_name(r.status));
+        kept += first.status == DROGUE_OK;
+    }
+    ck_assert_int_gt(kept, 5);
+}
+END_TEST
+
+/* The background passes through the canopy's own grey: dark against it on one side, bright on the other. */
+START_TEST(background_across_the_canopys_grey)
+{
+    test_workspace t = usual_workspace();
+    drogue_config c;
+    drogue_result base, r;
+    int turn;
+    drogue_config_default(&c);
+    draw(&usual);
+    ck_assert_int_eq(measure(&base, &t, &c, &model, &whole), DROGUE_OK);
+    for (turn = 0; turn < 4; turn++) {
+        scene s = usual;
+        s.outside = 110;
+        s.slope[0] = (turn & 1) ? 0.9 : -0.9;
+        s.slope[1] = (turn & 2) ? 0.5 : -0.2;
+        draw(&s);
+        MUST(measure(&r, &t, &c, &model, &whole) == DROGUE_OK, "turn %d: %s", turn, drogue_status_name(r.status));
+        MUST(r.polarity == DROGUE_POLARITY_BOTH, "turn %d: polarity %d", turn, (int)r.polarity);
+        MUST(abs(r.ellipse.xc_px_q16 - base.ellipse.xc_px_q16) < q16_of(0.1) &&
+                 abs(r.ellipse.yc_px_q16 - base.ellipse.yc_px_q16) < q16_of(0.1) &&
+                 abs(r.ellipse.a_px_q16 - base.ellipse.a_px_q16) < q16_of(0.15) &&
+                 abs(r.ellipse.b_px_q16 - base.ellipse.b_px_q16) < q16_of(0.15),
+             "turn %d: centre %g %g, semi-axes %g %g px off", turn,
+             real_of_q16(r.ellipse.xc_px_q16 - base.ellipse.xc_px_q16),
+             real_of_q16(r.ellipse.yc_px_q16 - base.ellipse.yc_px_q16),
+             real_of_q16(r.ellipse.a_px_q16 - base.ellipse.a_px_q16),
+             real_of_q16(r.ellipse.b_px_q16 - base.ellipse.b_px_q16));
+        MUST(r.orientation_resolved && axis_error(&r.pose, &s) < 0.02, "turn %d: axis off by %g", turn,
+             axis_error(&r.pose, &s));
+    }
     test_workspace_free(&t);
 }
 END_TEST
@@ -389,4 +636,6 @@ END_TEST
 
 SUITE_MAIN("measure", drawn_drogues, without_inner_part, regions_of_one_image, ring_of_a_clipped_region, arguments,
            regions_that_miss, full_tables, nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide,
-           outline_across_a_fold, version_is_the_macros, capacity_by_macro_is_capacity_by_function)
+           inner_part_that_contradicts, covariance_of_the_result, off_centre_region, second_look_that_fails,
+           background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
+           capacity_by_macro_is_capacity_by_function)

@@ -108,13 +108,25 @@ START_TEST(whole_ellipses_of_both_polarities)
         MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "case %d not found by polarity",
              i);
         c.polarity = bright ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
-        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_E_NO_ELLIPSE,
-             "case %d: wrong polarity", i);
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_E_NO_ARCS, "case %d: wrong polarity",
+             i); /* no arc of it */
     }
     ck_assert(guarded_intact(&t.memory));
     test_workspace_free(&t);
 }
 END_TEST
+
+/* Move an arc outward from the middle of the region. */
+static void move_out(const test_workspace *t, const drogue_arc *a, int num, int den)
+{
+    uint32_t i;
+    for (i = a->first; i < a->first + a->count; i++) {
+        drogue_edge *p = &t->workspace.edges[i];
+        p->x_q5 = (uint16_t)(4080 + (p->x_q5 - 4080) * num / den);
+        p->y_q5 = (uint16_t)(4080 + (p->y_q5 - 4080) * num / den);
+    }
+    qsort(t->workspace.edges + a->first, a->count, sizeof(drogue_edge), raster_order);
+}
 
 /* An arc that lies farther out but on another ellipse takes its quadrant, and the winner does without it. */
 START_TEST(foreign_arc_is_left_out)
@@ -123,24 +135,146 @@ START_TEST(foreign_arc_is_left_out)
     const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
     drogue_config c = plain_config();
     drogue_outline out;
-    uint32_t k, i, foreign;
+    uint32_t k, foreign, arcs;
     for (foreign = 0; foreign < 4; foreign++) {
         const ellipse_real e = {127.5, 127.5, 95, 90, 0};
         drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
-        const drogue_arc *a = &t.workspace.arcs[foreign];
         ck_assert_uint_eq(list.arc_count, 4);
-        for (i = a->first; i < a->first + a->count; i++) {
-            drogue_edge *p = &t.workspace.edges[i];
-            p->x_q5 = (uint16_t)(4080 + (p->x_q5 - 4080) * 5 / 4);
-            p->y_q5 = (uint16_t)(4080 + (p->y_q5 - 4080) * 5 / 4);
-        }
+        move_out(&t, &t.workspace.arcs[foreign], 5, 4);
         ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
         MUST(apart(&out.ellipse, &e) < tolerance(&e), "arc %u: %g px off", (unsigned)foreign, apart(&out.ellipse, &e));
-        for (k = 0; k < 4; k++) {
-            ck_assert_uint_eq(out.arcs[k], k == foreign ? DROGUE_NO_ARC : k);
+        for (k = 0, arcs = 0; k < 4; k++) {
+            ck_assert(out.arcs[k] == DROGUE_NO_ARC || (k != foreign && out.arcs[k] == k));
+            arcs += out.arcs[k] != DROGUE_NO_ARC;
         }
-        ck_assert_uint_ge(out.cluster_members, 2);
+        ck_assert_uint_eq(arcs, 2);                /* candidates are pairs */
+        ck_assert_uint_ge(out.cluster_members, 3); /* the pairs of the other three */
+        ck_assert_int_eq(out.cover_q16, 65536 * 3 / 4);
     }
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* Farther arcs of another ellipse in every quadrant: the outline's own are the second choice of each. */
+START_TEST(second_choice_of_every_quadrant)
+{
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    drogue_config c = plain_config();
+    const ellipse_real e = {127.5, 127.5, 80, 76, 0.3};
+    drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+    drogue_outline out;
+    uint32_t k, first = list.edge_count;
+    ck_assert_uint_eq(list.arc_count, 4);
+    for (k = 0; k < 4; k++) { /* two thirds of each arc again, each farther out by another factor */
+        drogue_arc a = t.workspace.arcs[k];
+        memcpy(t.workspace.edges + first, t.workspace.edges + a.first, a.count * sizeof(drogue_edge));
+        a.first = first;
+        a.count = a.count * 2 / 3;
+        move_out(&t, &a, 20 + (int)k, 17);
+        t.workspace.arcs[4 + k] = a;
+        first += a.count;
+    }
+    list.edge_count = first;
+    list.arc_count = 8;
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    MUST(apart(&out.ellipse, &e) < tolerance(&e), "%g px off", apart(&out.ellipse, &e));
+    for (k = 0; k < 4; k++) {
+        ck_assert(out.arcs[k] == DROGUE_NO_ARC || out.arcs[k] == k);
+    }
+    ck_assert_int_eq(out.cover_q16, 65536);
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* Turn the gradients of some points of an outline round, and sort the arcs again by their new classes. */
+static drogue_edge_list turned(test_workspace *t, const ellipse_real *e, double from, double to)
+{
+    drogue_edge_list list = put_ellipse(t, e, to, 2 * TEST_PI - (to - from), 0, NULL), other;
+    drogue_edge *kept = malloc(list.edge_count * sizeof *kept);
+    drogue_arc arcs[8];
+    uint32_t k;
+    memcpy(kept, t->workspace.edges, list.edge_count * sizeof *kept);
+    memcpy(arcs, t->workspace.arcs, list.arc_count * sizeof *arcs);
+    other = put_ellipse(t, e, from, to - from, 1, NULL);
+    memcpy(t->workspace.edges + other.edge_count, kept, list.edge_count * sizeof *kept);
+    for (k = 0; k < list.arc_count; k++) {
+        arcs[k].first += other.edge_count;
+        t->workspace.arcs[other.arc_count + k] = arcs[k];
+    }
+    other.edge_count += list.edge_count;
+    other.arc_count += list.arc_count;
+    free(kept);
+    return other;
+}
+
+/* The background crosses the drogue's own grey: part of the outline is brighter inside. It is found whole, with the
+ * polarity of each bin; with the polarity fixed it is found by what has it. */
+START_TEST(outline_of_mixed_polarity)
+{
+    uint64_t rng = 4;
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    int i;
+    for (i = 0; i < 200; i++) {
+        ellipse_real e = {127 + rng_real(&rng, -8, 8), 127 + rng_real(&rng, -8, 8), rng_real(&rng, 60, 115), 0, 0};
+        double from = rng_real(&rng, 0, 6), part = rng_real(&rng, 0.3, 0.7) * 2 * TEST_PI;
+        drogue_config c = plain_config();
+        drogue_edge_list list;
+        drogue_outline out;
+        uint32_t k;
+        int bright = 0;
+        e.b = e.a * rng_real(&rng, 0.6, 1);
+        e.angle = rng_real(&rng, -1.5, 1.5);
+        list = turned(&t, &e, from, from + part);
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "case %d not found", i);
+        MUST(out.polarity == DROGUE_POLARITY_BOTH, "case %d: polarity %d", i, (int)out.polarity);
+        MUST(apart(&out.ellipse, &e) < tolerance(&e), "case %d: %g px off", i, apart(&out.ellipse, &e));
+        for (k = 0; k < 32; k++) {
+            bright += (int)((out.support.bright_bins >> k) & 1u);
+        }
+        MUST(fabs(bright - 32 * part / (2 * TEST_PI)) <= 1.5, "case %d: %d bright bins of %g rad", i, bright, part);
+        MUST(out.support.covered == 30, "case %d: %u bins", i, (unsigned)out.support.covered); /* two changes */
+        c.polarity = DROGUE_POLARITY_BRIGHT;
+        c.min_cover_q16 = 0;
+        if (drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK) {
+            MUST(out.polarity == DROGUE_POLARITY_BRIGHT, "case %d: polarity %d, BRIGHT asked", i, (int)out.polarity);
+            MUST(fabs(real_of_q16(out.cover_q16) - part / (2 * TEST_PI)) < 1.5 / 32, "case %d: cover %g of %g", i,
+                 real_of_q16(out.cover_q16), part / (2 * TEST_PI));
+        } else {
+            MUST(part < 0.45 * 2 * TEST_PI, "case %d: bright part not found", i);
+        }
+    }
+    ck_assert(guarded_intact(&t.memory));
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* A bump on the outline, as of a hose or a fitting behind the rim, drops out as the band narrows. */
+START_TEST(bump_drops_out_of_the_band)
+{
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    const ellipse_real e = {127.3, 127.8, 100, 90, 0.4};
+    drogue_config c = plain_config();
+    drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+    drogue_outline out;
+    uint32_t i, moved = 0;
+    for (i = 0; i < list.edge_count; i++) { /* a twentieth of it, 1.4 px outward: in the first band */
+        drogue_edge *p = &t.workspace.edges[i];
+        double dx = p->x_q5 / 32.0 - e.xc, dy = p->y_q5 / 32.0 - e.yc;
+        if (fabs(atan2(dy, dx) - 1) < TEST_PI / 20) {
+            p->x_q5 = (uint16_t)(p->x_q5 + (int)floor(45 * dx / hypot(dx, dy) + 0.5));
+            p->y_q5 = (uint16_t)(p->y_q5 + (int)floor(45 * dy / hypot(dx, dy) + 0.5));
+            moved++;
+        }
+    }
+    ck_assert_uint_gt(moved, 25);
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    MUST(apart(&out.ellipse, &e) < tolerance(&e), "%g px off", apart(&out.ellipse, &e));
+    ck_assert_uint_le(out.refit_points, list.edge_count - moved + 8);
+    ck_assert_int_lt(out.band_px_q16, c.refit_band_px_q16);
+    ck_assert_int_ge(out.band_px_q16, c.refit_band_px_q16 / 3);
     test_workspace_free(&t);
 }
 END_TEST
@@ -167,7 +301,9 @@ START_TEST(thresholds_decide)
     c = plain_config();
     c.min_fit_ratio_q16 = 65536; /* the least share may be the whole: every point lies on a perfect ellipse */
     ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
-    c.quality.fit_error_px_q16 = 1; /* but none this exactly */
+    c.quality.fit_error_px_q16 = 1; /* but none this exactly, */
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    c.search_band_q16 = 0; /* which the search band hides */
     ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_ELLIPSE);
     c = plain_config();
     c.min_short_px_q16 = q16_of(90); /* no arc is as round */
@@ -180,22 +316,31 @@ START_TEST(thresholds_decide)
 }
 END_TEST
 
+/* A bin counts when 0.35 points a pixel lie in it, of about 1.1 here: of a bin at either end of the arc 0.32 can be
+ * lost, or 0.68 gained. */
 START_TEST(cover_is_the_share_of_the_circumference)
 {
+    uint64_t rng = 6;
     test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
     const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
     const ellipse_real e = {127, 128, 100, 90, 0.4};
-    drogue_config c = plain_config();
-    drogue_edge_list list = put_ellipse(&t, &e, 0.3, 3.2, 0, NULL);
-    drogue_outline out;
-    double share;
-    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
-    share = list.edge_count / (TEST_PI * (3 * 190.0 - sqrt(390.0 * 370.0)));
-    ck_assert(fabs(real_of_q16(out.cover_q16) - share) < 0.01);
-    c.min_cover_q16 = q16_of(share + 0.02);
-    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_E_NO_ELLIPSE);
-    c.min_cover_q16 = q16_of(share - 0.02);
-    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    int i;
+    for (i = 0; i < 100; i++) {
+        drogue_config c = plain_config();
+        double span = rng_real(&rng, 3.2, 6.28), excess;
+        drogue_edge_list list = put_ellipse(&t, &e, rng_real(&rng, 0, 6), span, 0, NULL);
+        drogue_outline out;
+        drogue_q16 cover;
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "case %d not found", i);
+        cover = out.cover_q16;
+        excess = 32 * (real_of_q16(cover) - span / (2 * TEST_PI));
+        MUST(excess > -0.8 && excess < 1.5, "case %d: %g of %g", i, real_of_q16(cover), span / (2 * TEST_PI));
+        c.min_cover_q16 = cover + 1;
+        MUST(cover == 65536 || drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_E_NO_ELLIPSE,
+             "case %d found", i);
+        c.min_cover_q16 = cover;
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "case %d not found again", i);
+    }
     test_workspace_free(&t);
 }
 END_TEST
@@ -279,5 +424,6 @@ START_TEST(undistorted_without_points)
 }
 END_TEST
 
-SUITE_MAIN("outline", whole_ellipses_of_both_polarities, foreign_arc_is_left_out, thresholds_decide,
+SUITE_MAIN("outline", whole_ellipses_of_both_polarities, foreign_arc_is_left_out, second_choice_of_every_quadrant,
+           outline_of_mixed_polarity, bump_drops_out_of_the_band, thresholds_decide,
            cover_is_the_share_of_the_circumference, nothing_to_find, distortion_is_removed, undistorted_without_points)

@@ -84,15 +84,14 @@ END_TEST
 START_TEST(band_away_from_its_borders)
 {
     uint64_t rng = 2;
-    int i, k, held = 0, refused = 0;
+    int32_t frame_u, frame_v;
+    int i, k, held[2] = {0, 0}, refused = 0;
     for (i = 0; i < 4000; i++) {
         drogue_ellipse q = random_ellipse(&rng);
         ellipse_real e = ellipse_from_q16(&q);
         drogue_ellipse_frame frame;
-        drogue_band band;
-        band.half_width_px_q16 = q16_of(rng_real(&rng, 0.3, fmin(3, 0.1 * e.b)));
-        band.cos_q16 = q16_of(rng_real(&rng, 0.3, 0.98));
-        band.polarity = i & 1 ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
+        const drogue_q16 cos_q16 = q16_of(rng_real(&rng, 0.3, 0.98));
+        drogue_band band = drogue_band_of(q16_of(rng_real(&rng, 0.3, fmin(3, 0.1 * e.b))), cos_q16);
         ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_OK);
         for (k = 0; k < 50; k++) {
             double x, y, u, v, gx, gy, nx, ny, n, f, distance, cosine, t = real_of_q16(band.half_width_px_q16);
@@ -110,20 +109,75 @@ START_TEST(band_away_from_its_borders)
             gy = round(strength * sin(atan2(ny, nx) + turn));
             f = u * u + v * v - 1;
             distance = fabs(f) / (2 * n);
-            cosine = (gx * nx + gy * ny) / n / hypot(gx, gy) * (band.polarity == DROGUE_POLARITY_BRIGHT ? -1 : 1);
-            if (fabs(distance / t - 1) > 0.01 && fabs(cosine - real_of_q16(band.cos_q16)) > 0.004) {
-                int expected = distance < t && cosine > real_of_q16(band.cos_q16);
-                MUST(!!drogue_ellipse_band_holds(&frame, &band, q16_of(x), q16_of(y), (int16_t)gx, (int16_t)gy) ==
+            cosine = (gx * nx + gy * ny) / n / hypot(gx, gy);
+            if (fabs(distance / t - 1) > 0.01 && fabs(fabs(cosine) - real_of_q16(cos_q16)) > 0.004) {
+                int expected = distance < t && fabs(cosine) > real_of_q16(cos_q16);
+                drogue_band_point p;
+                MUST(!!drogue_ellipse_band_holds(&p, &frame, &band, q16_of(x), q16_of(y), (int16_t)gx, (int16_t)gy) ==
                          expected,
                      "ellipse %d, point %d: distance %.4f of %.4f, cosine %.4f of %.4f", i, k, distance, t, cosine,
-                     real_of_q16(band.cos_q16));
-                held += expected;
+                     real_of_q16(cos_q16));
+                if (expected) {
+                    drogue_ellipse_frame_point(&frame_u, &frame_v, &frame, q16_of(x), q16_of(y));
+                    MUST(p.u_q24 == frame_u && p.v_q24 == frame_v && fabs(p.u_q24 / 16777216.0 - u) < 1e-4 &&
+                             fabs(p.v_q24 / 16777216.0 - v) < 1e-4 && fabs(p.f_q24 / 16777216.0 - f) < 1e-4,
+                         "ellipse %d, point %d: u %.6f, v %.6f, F %.6f", i, k, u, v, f);
+                    MUST(p.polarity == (cosine > 0 ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT),
+                         "ellipse %d, point %d: polarity %d at cosine %.4f", i, k, (int)p.polarity, cosine);
+                    held[p.polarity]++;
+                }
                 refused += !expected;
             }
         }
     }
-    ck_assert_int_gt(held, 10000);
+    ck_assert_int_gt(held[DROGUE_POLARITY_DARK], 10000);
+    ck_assert_int_gt(held[DROGUE_POLARITY_BRIGHT], 3000);
     ck_assert_int_gt(refused, 10000);
+}
+END_TEST
+
+/* A gradient along the outline, or none, is no edge of it; nor is a point inside half of the outline or outside 1.4 of
+ * it, however wide the band. */
+START_TEST(band_holds_no_gradient_across_and_no_point_far_off)
+{
+    const drogue_ellipse q = {100 * 65536, 100 * 65536, 20 * 65536, 10 * 65536, 0};
+    const drogue_band any = drogue_band_of(8 * 65536, 0);
+    drogue_ellipse_frame frame;
+    drogue_band_point p;
+    int32_t x;
+    ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_OK);
+    ck_assert(drogue_ellipse_band_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, 1, 0));
+    ck_assert_int_eq(p.polarity, DROGUE_POLARITY_DARK);
+    ck_assert(drogue_ellipse_band_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, -1020, 1020));
+    ck_assert_int_eq(p.polarity, DROGUE_POLARITY_BRIGHT);
+    ck_assert(!drogue_ellipse_band_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, 0, 1020));
+    ck_assert(!drogue_ellipse_band_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, 0, 0));
+    for (x = 80; x <= 150; x++) {
+        double u = (x - 100) / 20.0, distance = 20 * fabs(u * u - 1) / fmax(2 * fabs(u), 1e-9);
+        ck_assert_int_eq(!!drogue_ellipse_band_holds(&p, &frame, &any, x * 65536, 100 * 65536, x < 100 ? -500 : 500, 0),
+                         u * u >= 0.25 && u * u <= 2 && distance <= 8);
+    }
+}
+END_TEST
+
+/* The share of the circumference that is covered stands in for l_r. */
+START_TEST(quality_of_cover)
+{
+    const drogue_quality_config c = {65536, 6 * 65536, 19661};
+    uint64_t rng = 5;
+    int i;
+    for (i = 0; i < 20000; i++) {
+        drogue_ellipse e = random_ellipse(&rng);
+        uint32_t total = (uint32_t)rng_range(&rng, 1, 8000), near_count = (uint32_t)rng_range(&rng, 0, (int32_t)total);
+        drogue_quality by_points, by_cover, none;
+        drogue_quality_score(&by_points, &e, near_count, total, &c);
+        drogue_quality_of_cover(&by_cover, &e, near_count, total, by_points.length_ratio_q16, &c);
+        MUST(memcmp(&by_points, &by_cover, sizeof by_cover) == 0, "case %d", i);
+        drogue_quality_of_cover(&none, &e, near_count, total, 0, &c);
+        MUST(none.length_ratio_q16 == 0 &&
+                 abs(by_cover.score_q16 - none.score_q16 - by_cover.length_ratio_q16 / 2) <= 1,
+             "case %d: cover 0", i);
+    }
 }
 END_TEST
 
@@ -219,5 +273,6 @@ START_TEST(score_at_the_ends)
 END_TEST
 
 SUITE_MAIN("quality", deviation_within_4_lsb, frame_saturates_far_away, frame_refuses_what_is_no_ellipse,
-           band_away_from_its_borders, circumference_within_4_lsb, score_within_2_lsb_near_the_defaults,
+           band_away_from_its_borders, band_holds_no_gradient_across_and_no_point_far_off, quality_of_cover,
+           circumference_within_4_lsb, score_within_2_lsb_near_the_defaults,
            score_within_2_lsb_over_the_documented_range, score_at_the_ends)

@@ -146,7 +146,10 @@ START_TEST(every_size_tilt_and_shade)
         centre[0] = z * room * at[0];
         centre[1] = z * room * at[1];
         centre[2] = z;
-        rim = draw_drogue(&f, centre, 0.4 * at[2], 0.4 * at[3], &all_shades[i % 3]);
+        /* tilted to 30 degrees from the line of sight */
+        rim = draw_drogue(&f, centre, atan2(centre[0], z) + 0.52 * at[2] * cos(TEST_PI * at[3]),
+                          atan2(centre[1], hypot(centre[0], z)) + 0.52 * at[2] * sin(TEST_PI * at[3]),
+                          &all_shades[i % 3]);
         (void)run(&s.search, &f);
         rank = rank_of(&s.search, &rim);
         MUST(rank >= 0,
@@ -370,5 +373,45 @@ START_TEST(first_region_then_anywhere)
 }
 END_TEST
 
+/* A track of a plain disc gives way to the drogue, but not without it, and not when told to stay. */
+START_TEST(what_shows_no_inner_part_is_reconsidered)
+{
+    const drogue_region first = {75, 75, 150, 150};
+    const double centre[3] = {0.7, 0.3, 5};
+    const ellipse_real disc = {150, 150, 60, 58, 0.5};
+    int with, k;
+    for (with = 0; with < 3; with++) {
+        frame f = new_frame(640, 480, 210, 3);
+        rig r = new_rig(&f);
+        const drogue_image image = image_of(&f);
+        drogue_track_config config;
+        drogue_track t;
+        drogue_track_estimate e;
+        drogue_result result;
+        drogue_region region;
+        draw_ellipse(&f, &disc, 60);
+        if (with > 0) {
+            (void)draw_drogue(&f, centre, 0.1, 0.1, &all_shades[0]);
+        }
+        drogue_track_config_default(&config);
+        if (with == 2) {
+            config.reconsider_frames = 0;
+        }
+        drogue_track_init(&t, &config, &r.camera, &model, &first);
+        for (k = 0; k < 60; k++) {
+            MUST(drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search, &r.config, &image,
+                                    40000) == DROGUE_TRACKING,
+                 "case %d, frame %d", with, k);
+            drogue_track_get(&e, &t);
+            MUST((e.position_m_q16[0] > 0) == (with == 1 && k > 50), "case %d, frame %d: at x %g", with, k,
+                 real_of_q16(e.position_m_q16[0]));
+        }
+        free_rig(&r);
+        free(f.pixels);
+    }
+}
+END_TEST
+
 SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
-           any_size_of_frame, refusals, acquire_measures_what_it_finds, track_frames, first_region_then_anywhere)
+           any_size_of_frame, refusals, acquire_measures_what_it_finds, track_frames, first_region_then_anywhere,
+           what_shows_no_inner_part_is_reconsidered)

@@ -47,13 +47,14 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.depth_std_q16, q16_of(0.002));
     ck_assert_int_eq(c.angle_std_rad_q16, q16_of(0.02));
     ck_assert_uint_eq(c.agree_frames, 4);
+    ck_assert_uint_eq(c.reconsider_frames, 50);
     ck_assert_int_eq(c.gate_q16, q16_of(20.515));
     ck_assert_int_eq(c.position_gate_q16, q16_of(16.266));
     ck_assert_int_eq(c.region_sigmas_q16, q16_of(3));
     ck_assert_int_eq(c.position_floor_m_q16, q16_of(0.0001));
     ck_assert_int_eq(c.angle_floor_rad_q16, q16_of(0.0005));
     for (k = 0; k < DROGUE_PARAMETERS; k++) {
-        ck_assert_int_eq(c.process_std_q16[k], q16_of(k < 2 ? 0.25 : k == 2 ? 0.02 : 0.04));
+        ck_assert_int_eq(c.process_std_q16[k], q16_of(k < 2 ? 0.25 : k == 2 ? 0.02 : 0.16));
     }
     ck_assert_int_eq(c.start_rate_std_q16, q16_of(2));
     ck_assert_int_eq(c.start_accel_std_q16, q16_of(2));

@@ -16,48 +16,50 @@ static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, cons
 {
     drogue_band band = band_about(&o->ellipse, x->config->search_band_q16, x->config);
     collection c;
-    int n = 0;
+    uint32_t n;
     int done = 0;
-    while (n <= (int)x->config->refit_rounds && n < DECISIONS_MAX && !done) {
+    for (n = 0; n <= x->config->refit_rounds && !done;) {
         drogue_ellipse ellipse;
         const drogue_q16 width = band.half_width_px_q16;
+        const uint32_t bright_bins = o->support.bright_bins;
         rounds[n].ellipse = o->ellipse;
         rounds[n].band = band;
-        rounds[n].bright_bins = o->support.bright_bins;
         n++;
         if (collect_outline(&c, &o->support, &o->ellipse, &band, x) != DROGUE_OK) {
             break;
         }
         drogue_support_judge(&o->support, &o->ellipse, x->config->polarity, 1);
-        if (n > (int)x->config->refit_rounds || collection_fit(&ellipse, &c) != DROGUE_OK ||
-            !plausible(&ellipse, x->mask, x->config)) {
-            break;
+        if (o->support.bright_bins == bright_bins) {
+            if (collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, x->config)) {
+                break;
+            }
+            narrow(&band, &o->support, &ellipse, x->config);
+            done = band.half_width_px_q16 == width && settled(&ellipse, &o->ellipse);
+            o->ellipse = ellipse;
         }
-        narrow(&band, &o->support, &ellipse, x->config);
-        done = band.half_width_px_q16 == width && settled(&ellipse, &o->ellipse);
-        o->ellipse = ellipse;
     }
-    return n;
+    return (int)n;
 }
 
 int decisions_of_refit(decisions_round rounds[DECISIONS_MAX], const drogue_workspace *workspace,
                        const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config,
                        const uint32_t arcs[4])
 {
-    const context x = {workspace, list, mask, config};
-    drogue_arc_choices choices;
     drogue_candidate candidate;
     drogue_outline outline;
-    arc_set set;
-    uint8_t chosen[4];
+    context x;
+    uint32_t chosen = 0;
     int k;
+    x.workspace = workspace;
+    x.list = list;
+    x.mask = mask;
+    x.config = config;
     for (k = 0; k < 4; k++) {
-        choices.arc[k][0] = arcs[k];
-        choices.arc[k][1] = DROGUE_NO_ARC;
-        chosen[k] = arcs[k] != DROGUE_NO_ARC;
+        x.choices.arc[k][0] = arcs[k];
+        x.choices.arc[k][1] = DROGUE_NO_ARC;
+        chosen |= (uint32_t)usable(&x, k, 0) << (4 * k);
     }
-    gather(&set, &choices, workspace);
-    (void)try_arcs(&candidate, &set, chosen, &x);
+    (void)try_arcs(&candidate, chosen, &x);
     memset(&outline, 0, sizeof outline);
     outline.ellipse = candidate.ellipse;
     outline.support.bright_bins = candidate.polarity;

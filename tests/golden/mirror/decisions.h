@@ -8,13 +8,12 @@
 extern "C" {
 #endif
 
-#define DECISIONS_MAX 20 /* rounds */
+#define DECISIONS_MAX 17 /* collections of 16 rounds */
 
 /* One collection of edge points. */
 typedef struct decisions_round {
     drogue_ellipse ellipse;
     drogue_band band;
-    uint32_t bright_bins; /* polarity by which points were added to the sums */
 } decisions_round;
 
 /* The rounds from the fit of the given arcs (an index by quadrant, or DROGUE_NO_ARC); returns how many. */

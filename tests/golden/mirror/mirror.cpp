@@ -145,14 +145,12 @@ Real inner_std(const Result &out, const Ellipse &expected, const drogue_config &
                       real(config.inner_std_spread_q16) * out.part.spread);
 }
 
-drogue_status status_of(reference::Solved solved) { return solved == reference::Solved::ok ? DROGUE_OK : DROGUE_E_DOMAIN; }
-
-/* Both solutions: the nearer pose's in full, the other one's far enough to compare, in full when it turns out better. */
-struct Pair {
-    std::array<reference::Joint, 2> joint;
-    size_t best;
-    reference::Solved solved;
-};
+bool same_solution(const reference::Joint &p, const reference::Joint &q)
+{
+    const auto yaw = static_cast<double>(p.pose.yaw - q.pose.yaw),
+               pitch = static_cast<double>(p.pose.pitch - q.pose.pitch);
+    return yaw * yaw <= p.covariance(3, 3) && pitch * pitch <= p.covariance(4, 4);
+}
 
 Real apart(const Pose &p, const drogue_pose &q)
 {
@@ -163,48 +161,39 @@ Real apart(const Pose &p, const drogue_pose &q)
     return sum;
 }
 
-/* Is 'other' the better one? Without the inner part both fit the outline exactly, and nothing but the rounding of poses
- * to Q16 orders them; with it, chi2 differs from the library's by a part in a hundred at most. There its order counts. */
-bool other_is_better(const reference::Joint &nearer, const reference::Joint &other, bool with,
-                     const drogue_result *library)
-{
-    if (library != nullptr && (!with || std::fabs(other.chi2 - nearer.chi2) < 0.01 * (1 + nearer.chi2))) {
-        return apart(other.pose, library->pose) + apart(nearer.pose, library->alternative) <
-               apart(nearer.pose, library->pose) + apart(other.pose, library->alternative);
-    }
-    return other.chi2 < nearer.chi2;
-}
+/* The pose that outline and inner part agree with best. */
+struct Together {
+    reference::Joint joint;
+    size_t index;
+    bool resolved, agree;
+};
 
-Pair solve_both(const std::array<Pose, 2> &poses, const Features &f, const reference::Covariance &outline,
-                const reference::Inner &inner, const Task &task, size_t nearer, const drogue_result *library)
+Together solve_together(const std::array<Pose, 2> &poses, size_t nearer, const Features &f,
+                        const reference::Covariance &outline, const Task &task, const drogue_result *library)
 {
-    constexpr int STEPS = 5;
-    const size_t other = 1 - nearer;
-    const bool with = inner.std > 0;
+    constexpr int STEPS = 5, OTHER_STEPS = 1;
     const auto solve = [&](size_t which, int steps) {
-        return reference::solve_joint(poses[which], f.ideal, outline, inner, task.camera, task.model, steps);
+        return reference::solve_joint(poses[which], f.ideal, outline, f.inner, task.camera, task.model, steps);
     };
-    Pair p;
-    p.best = nearer;
-    p.joint[nearer] = solve(nearer, with ? STEPS : 0);
-    p.solved = p.joint[nearer].solved;
-    if (p.solved == reference::Solved::ok) {
-        p.joint[other] = solve(other, with ? 1 : 0);
-        p.solved = p.joint[other].solved;
+    Together t = {solve(nearer, STEPS), nearer, false, false};
+    reference::Joint other = solve(1 - nearer, OTHER_STEPS);
+    const bool near_ok = t.joint.solved == reference::Solved::ok, far_ok = other.solved == reference::Solved::ok;
+    bool turn = far_ok && (!near_ok || other.chi2 < t.joint.chi2);
+    if (library != nullptr && near_ok && far_ok && std::fabs(other.chi2 - t.joint.chi2) < 0.01 * (1 + t.joint.chi2)) {
+        turn = apart(poses[nearer], library->alternative) < apart(poses[1 - nearer], library->alternative);
     }
-    if (p.solved == reference::Solved::ok && other_is_better(p.joint[nearer], p.joint[other], with, library)) {
-        p.best = other;
-        p.joint[other] = solve(other, STEPS);
-        p.solved = p.joint[other].solved;
+    if (turn) {
+        std::swap(t.joint, other);
+        t.index = 1 - nearer;
+        t.joint = solve(t.index, STEPS);
     }
-    return p;
-}
-
-bool same_solution(const reference::Joint &p, const reference::Joint &q)
-{
-    const auto yaw = static_cast<double>(p.pose.yaw - q.pose.yaw),
-               pitch = static_cast<double>(p.pose.pitch - q.pose.pitch);
-    return yaw * yaw <= p.covariance(3, 3) && pitch * pitch <= p.covariance(4, 4);
+    if (t.joint.solved != reference::Solved::ok) {
+        return t;
+    }
+    t.resolved = !far_ok || !near_ok || same_solution(t.joint, other) ||
+                 other.chi2 - t.joint.chi2 >= static_cast<double>(real(task.config.min_chi2_gap_q16));
+    t.agree = t.joint.chi2 <= static_cast<double>(real(task.config.max_chi2_q16));
+    return t;
 }
 
 } // namespace
@@ -233,32 +222,27 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
         return;
     }
     const auto nearer = static_cast<size_t>(choice.index);
-    bool trusted = f.trusted;
-    Pair p;
-    if (trusted) {
-        p = solve_both(pair, f, outline, f.inner, task, nearer, library);
-        trusted = p.solved == reference::Solved::ok &&
-                  p.joint[p.best].chi2 <= static_cast<double>(real(config.max_chi2_q16));
+    Together t = {{}, nearer, false, false};
+    if (f.trusted) {
+        t = solve_together(pair, nearer, f, outline, task, library);
     }
-    if (!trusted) {
-        p = solve_both(pair, f, outline, {{0, 0}, 0}, task, nearer, library);
+    if (!t.agree) {
+        t = {reference::solve_joint(pair[nearer], f.ideal, outline, {{0, 0}, 0}, task.camera, task.model, 0), nearer,
+             false, false};
     }
-    out.status = status_of(p.solved);
-    if (p.solved != reference::Solved::ok) {
+    out.status = t.joint.solved == reference::Solved::ok ? DROGUE_OK : DROGUE_E_DOMAIN;
+    if (out.status != DROGUE_OK) {
         return;
     }
-    const reference::Joint &best = p.joint[p.best], &other = p.joint[1 - p.best];
-    out.trusted = trusted;
-    out.resolved = trusted && (same_solution(best, other) ||
-                               other.chi2 - best.chi2 >= static_cast<double>(real(config.min_chi2_gap_q16)));
-    out.pose = best.pose;
-    out.alternative = other.pose;
-    out.covariance = best.covariance;
+    out.resolved = t.resolved;
+    out.pose = t.joint.pose;
+    out.alternative = pair[1 - t.index];
+    out.covariance = t.joint.covariance;
     for (int k = 0; k < 3; k++) {
-        out.position_std[static_cast<size_t>(k)] = std::sqrt(static_cast<Real>(best.covariance(k, k)));
+        out.position_std[static_cast<size_t>(k)] = std::sqrt(static_cast<Real>(out.covariance(k, k)));
     }
-    const Real c = std::cos(best.pose.pitch);
-    out.axis_std = std::sqrt(best.covariance(3, 3) * c * c + best.covariance(4, 4));
+    const Real c = std::cos(out.pose.pitch);
+    out.axis_std = std::sqrt(out.covariance(3, 3) * c * c + out.covariance(4, 4));
 }
 
 Result measure(const Task &task, const drogue_result *library, Features *features)

@@ -25,7 +25,7 @@ struct Result {
     bool found = false; /* an outline, whatever came of it */
     Outline outline;    /* in coordinates of the region */
     reference::Ellipse seen = {0, 0, 0, 0, 0, false}, ideal = {0, 0, 0, 0, 0, false};
-    bool has_inner = false, trusted = false;
+    bool has_inner = false;
     reference::DarkDisc part = {};
     reference::Point inner = {0, 0}; /* as seen, px of the whole image */
     Real ambiguity = 1;

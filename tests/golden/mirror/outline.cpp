@@ -297,10 +297,16 @@ Outline Finder::refine(const Candidate &candidate) const
                 members.push_back(front_.edges[i].at);
             }
         }
+        const uint32_t summed = s.bright;
         reference::support_judge(s, o.ellipse, config_.polarity, 1);
+        const bool last = round == static_cast<int>(config_.refit_rounds), turned = s.bright != summed;
+        s.bright = last ? summed : s.bright;
         o.support = s;
         o.band = band.width;
-        const Ellipse e = round < static_cast<int>(config_.refit_rounds) ? fit(members) : Ellipse{0, 0, 0, 0, 0, false};
+        if (last || turned) { /* turned: once more, with the polarities that the counts show */
+            continue;
+        }
+        const Ellipse e = fit(members);
         if (!plausible(e)) {
             break;
         }

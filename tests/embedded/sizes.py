@@ -1,0 +1,245 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tables of flash, RAM and worst-case stack from the objects and .su files of a build; called by sizes.sh.
+
+Stack: frame sizes from gcc's -fstack-usage, calls from the disassembly with relocations (one section a function),
+frames of the compiler's helpers and of memcpy and memset from their pushes in a linked image. The graph has no cycle and
+no call through a pointer, or this fails."""
+import pathlib
+import re
+import subprocess
+import sys
+from functools import lru_cache
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BEGIN, END = '<!-- sizes: ./run sizes --update -->', '<!-- end of sizes -->'
+
+
+def tool(name, *arguments):
+    return subprocess.run(['arm-none-eabi-' + name, *map(str, arguments)], check=True, text=True,
+                          stdout=subprocess.PIPE).stdout
+
+
+class Library:
+    """Functions and constants of libdrogue.a: flash, calls and frames, keyed by (stage, name)."""
+
+    def __init__(self, folder):
+        self.archive = folder / 'library' / 'libdrogue.a'
+        self.image = folder / 'images' / 'measure'
+        self.flash, self.exported, self.calls, self.frames = {}, {}, {}, {}
+        self.stage_flash, self.stage_ram = {}, {}
+        self.read_sections()
+        self.read_symbols()
+        self.read_calls()
+        self.read_frames(folder / 'library')
+
+    def read_sections(self):
+        for block in tool('size', '-A', self.archive).split('\n\n'):
+            lines = block.strip().splitlines()
+            if not lines or ':' not in lines[0]:
+                continue
+            stage = lines[0].split('.')[0]
+            flash = ram = 0
+            for line in lines[1:]:
+                match = re.match(r'\.(text|rodata|ARM\.ex|data|bss)\S*\s+(\d+)', line)
+                if match:
+                    flash += int(match[2]) if match[1] != 'bss' else 0
+                    ram += int(match[2]) if match[1] in ('data', 'bss') else 0
+            self.stage_flash[stage], self.stage_ram[stage] = flash, ram
+
+    def read_symbols(self):
+        for line in tool('nm', '-A', '-S', self.archive).splitlines():
+            match = re.match(r'\S*:(\w+)\.c\.\w+:\S+ (\w+) ([TtRr]) (\S+)', line)
+            if match:
+                key = (match[1], match[4])
+                self.flash[key] = int(match[2], 16)
+                if match[3] == 'T':
+                    self.exported[match[4]] = key
+
+    def resolve(self, stage, name):
+        if (stage, name) in self.flash:
+            return (stage, name)
+        return self.exported.get(name, ('', name))
+
+    def read_calls(self):
+        stage = key = None
+        for line in tool('objdump', '-dr', self.archive).splitlines():
+            if match := re.match(r'(\w+)\.c\.\w+: +file format', line):
+                stage = match[1]
+            elif match := re.match(r'[0-9a-f]+ <(\S+)>:', line):
+                key = (stage, match[1])
+                self.calls.setdefault(key, set())
+            elif match := re.search(r'R_ARM_(?:THM_CALL|THM_JUMP\d+|CALL|JUMP24)\s+(\S+)', line):
+                self.calls[key].add(self.resolve(stage, match[1]))
+            elif re.search(r'\tblx?\tr\d', line) or re.search(r'\tblx?\t(ip|lr)', line) and '\tbx\tlr' not in line:
+                sys.exit(f'sizes: call through a pointer in {key}')
+
+    def read_frames(self, folder):
+        for path in folder.rglob('*.su'):
+            for line in path.read_text().splitlines():
+                place, size, kind = line.split('\t')
+                if kind not in ('static', 'dynamic,bounded'):
+                    sys.exit(f'sizes: stack without a bound: {line}')
+                self.frames[(path.name.split('.')[0], place.split(':')[-1])] = int(size)
+        for key in [k for k in self.calls if k not in self.frames]:
+            plain = (key[0], re.sub(r'\.\d+$', '', key[1]))  # a clone of the compiler's: x.isra.0
+            base = (key[0], key[1].split('.')[0])
+            found = self.frames.get(plain, self.frames.get(base))
+            if found is None:
+                sys.exit(f'sizes: no stack usage of {key}')
+            self.frames[key] = found
+        self.read_helpers({c for called in self.calls.values() for c in called if c[0] == ''})
+
+    def read_helpers(self, wanted):
+        """Frames and calls of functions outside the library, from the image: pushes, subtractions, pre-decrements."""
+        bodies, name = {}, None
+        for line in tool('objdump', '-d', '--no-show-raw-insn', self.image).splitlines():
+            if match := re.match(r'[0-9a-f]+ <(\S+)>:', line):
+                name = match[1]
+                bodies[name] = []
+            elif name:
+                bodies[name].append(line)
+        while wanted:
+            key = wanted.pop()
+            if key in self.frames:
+                continue
+            if key[1] not in bodies:
+                sys.exit(f'sizes: {key[1]} is not in the image')
+            size, calls = 0, set()
+            for line in bodies[key[1]]:
+                if match := re.search(r'\t(?:push|stmdb\tsp!,|stmfd\tsp!,)\s*\{(.*)\}', line):
+                    size += 4 * sum(register_count(part) for part in match[1].split(','))
+                elif match := re.search(r'\tsub(?:w|\.w)?\tsp, (?:sp, )?#(\d+)', line):
+                    size += int(match[1])
+                elif match := re.search(r'\[sp, #-(\d+)\]!', line):
+                    size += int(match[1])
+                elif match := re.search(r'\tb(?:l|lx|\.w|\.n)?\t[0-9a-f]+ <([^+>]+)>', line):
+                    calls.add(('', match[1]))
+            self.frames[key], self.calls[key] = size, calls - {key}
+            wanted |= self.calls[key] - self.frames.keys()
+
+    @lru_cache(maxsize=None)
+    def reached(self, key, above=()):
+        if key in above:
+            sys.exit(f'sizes: recursion: {above}')
+        found = {key}
+        for called in self.calls.get(key, ()):
+            found |= self.reached(called, above + (key,))
+        return frozenset(found)
+
+    @lru_cache(maxsize=None)
+    def stack(self, key):
+        return self.frames[key] + max((self.stack(called) for called in self.calls[key]), default=0)
+
+    def path(self, key):
+        deepest = max(self.calls[key], key=self.stack, default=None)
+        return [key] + (self.path(deepest) if deepest else [])
+
+
+def register_count(text):
+    low, _, high = (part.strip() for part in text.partition('-'))
+    return int(high[1:]) - int(low[1:]) + 1 if high else 1
+
+
+def caller_ram(folder):
+    """Sizes of what the caller keeps, by name."""
+    target = folder / 'ram.o'
+    tool('gcc', '-mcpu=cortex-m7', '-mthumb', '-std=c99', '-I', folder / 'installed' / 'include', '-c',
+         ROOT / 'tests/embedded/ram.c', '-o', target)
+    return {f[3].strip('_'): int(f[1], 16) for f in (line.split() for line in tool('nm', '-S', target).splitlines())}
+
+
+def compiler():
+    return tool('gcc', '--version').splitlines()[0]
+
+
+def tables(library, ram):
+    measure = library.exported['drogue_measure']
+    lines = [f'Cortex-M7, `-Os`, {compiler()}.',
+             'Flash is code and constants; worst-case stack includes what is called, the compiler\'s helpers too.', '',
+             '| stage | flash, bytes | static RAM | worst-case stack, bytes |', '| --- | --- | --- | --- |']
+    for stage in sorted(library.stage_flash):
+        deepest = max((library.stack(k) for k in library.exported.values() if k[0] == stage), default=0)
+        lines.append(f'| {stage} | {library.stage_flash[stage]} | {library.stage_ram[stage]} | {deepest} |')
+    lines.append(f'| **all** | **{sum(library.stage_flash.values())}** | **{sum(library.stage_ram.values())}** | '
+                 f'**{max(library.stack(k) for k in library.exported.values())}** |')
+    lines += ['', '| RAM of the caller | bytes |', '| --- | --- |']
+    lines += [f'| {what} | {ram[name]} |' for what, name in (
+        ('workspace for 256 x 256', 'workspace_256x256'), ('workspace for 160 x 120', 'workspace_160x120'),
+        ('`drogue_workspace`', 'drogue_workspace'), ('`drogue_config`', 'drogue_config'),
+        ('`drogue_result`', 'drogue_result'), ('`drogue_track`', 'drogue_track'))]
+    lines += ['', '<details><summary>Every public function</summary>', '',
+              '"With what it calls" is what one call links; helpers of the compiler come on top.', '',
+              '| function | flash, bytes | with what it calls | worst-case stack, bytes |', '| --- | --- | --- | --- |']
+    for name in sorted(library.exported):
+        key = library.exported[name]
+        closure = sum(library.flash[k] for k in library.reached(key) if k in library.flash)
+        lines.append(f'| `{name}` | {library.flash[key]} | {closure} | {library.stack(key)} |')
+    lines += ['', '</details>']
+    print('deepest: ' + ' > '.join(f'{k[1]} {library.frames[k]}' for k in library.path(measure)))
+    return '\n'.join(lines)
+
+
+def check_budgets(library, ram, folder):
+    lines = (ROOT / 'tests/embedded/budgets').read_text().splitlines()
+    limits = dict(line.split() for line in lines if not line.startswith('#'))
+    state = ram['drogue_workspace'] + ram['drogue_config'] + ram['drogue_result']
+    stack = max(library.stack(k) for k in library.exported.values())
+    text, data, *_ = tool('size', folder / 'images' / 'only_ellipse').splitlines()[1].split()
+    measured = {'library_bytes': sum(library.stage_flash.values()), 'stack_bytes': stack,
+                'ram_256x256_bytes': ram['workspace_256x256'] + state + stack,
+                'ram_160x120_bytes': ram['workspace_160x120'] + state + stack,
+                'only_ellipse_bytes': int(text) + int(data)}
+    good = True
+    for name, value in measured.items():
+        within = value <= int(limits[name])
+        good &= within
+        print(f'{name:20} {value:8d}, budget {int(limits[name]):8d}  {"ok" if within else "EXCEEDED"}')
+    painted = max(map(int, re.findall(r' stack=(\d+)', (folder / 'images' / 'measure.out').read_text())))
+    bound = library.stack(library.exported['drogue_measure'])
+    print(f'stack of drogue_measure: bound {bound}, painted in QEMU {painted}')
+    if painted > bound + 128:  # what run() and peak_stack() of measure.c use themselves
+        good = False
+        print('sizes: the bound is wrong')
+    for stage, static in library.stage_ram.items():
+        if static:
+            good = False
+            print(f'sizes: {stage} has {static} bytes of static RAM')
+    return good
+
+
+def check_only_ellipse(library, folder):
+    names = re.findall(r' [Tt] (drogue_\w+)', tool('nm', folder / 'images' / 'only_ellipse'))
+    foreign = [n for n in names if library.exported.get(n, ('wide',))[0] not in ('ellipse', 'eigen', 'wide', 'fixed')]
+    print(f'only_ellipse: {len(names)} functions of the library are linked')
+    if foreign:
+        print('sizes: an image that only fits ellipses holds ' + ' '.join(foreign))
+    return bool(names) and not foreign
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    update = '--update' in sys.argv[2:]
+    library = Library(folder)
+    ram = caller_ram(folder)
+    text = tables(library, ram)
+    readme = ROOT / 'README.md'
+    before, begin, rest = readme.read_text().partition(BEGIN)
+    old, end, after = rest.partition(END)
+    if not begin or not end:
+        sys.exit(f'sizes: README.md has no place for the tables: {BEGIN} ... {END}')
+    if update:
+        readme.write_text(f'{before}{begin}\n{text}\n{end}{after}')
+        print('sizes: written into README.md')
+    good = check_budgets(library, ram, folder)
+    good &= check_only_ellipse(library, folder)
+    if not update and compiler() not in old and old.strip():
+        print(f'sizes: not compared with README.md, which is of another compiler than {compiler()}')
+    elif not update and old.strip() != text.strip():
+        good = False
+        print('sizes: the tables in README.md are out of date: ./run sizes --update')
+    return 0 if good else 1
+
+
+if __name__ == '__main__':
+    sys.exit(main())

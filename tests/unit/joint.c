@@ -1,0 +1,645 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The joint pose: covariance of the outline against refits of noisy points, poses and their covariances against the
+ * measurement model in double precision. */
+#include "suite.h"
+
+#include "drogue/ellipse.h"
+#include "drogue/joint.h"
+#include "joint_model.h"
+
+/* ---- the outline's covariance */
+
+enum { POINTS = 960, RUNS = 1200 };
+
+typedef struct noise {
+    double each;   /* standard deviation of a point's radial offset, in semi-axes */
+    double binned; /* of an offset that the points of a bin share */
+    int bins;      /* of the 32, from bin 3 on, hold points */
+} noise;
+
+/* Fit noisy points about an ellipse; harmonics of the fit off the truth, and the covariance stated for it. */
+static void refit_noisy(double m[5], drogue_joint_outline *outline, const ellipse_real *truth, const noise *n,
+                        uint64_t *rng)
+{
+    const drogue_band band = drogue_band_of(q16_of(8), 0);
+    drogue_edge edges[POINTS];
+    drogue_moments moments;
+    drogue_support support;
+    drogue_ellipse_frame frame;
+    ellipse_real scaled = *truth, fitted;
+    double shared = 0;
+    uint32_t count = 0, i;
+    drogue_moments_clear(&moments);
+    for (i = 0; i < POINTS; i++) {
+        const double t = 2 * TEST_PI * (i + 0.5) / POINTS;
+        double x, y, r;
+        if (i % (POINTS / 32) == 0) {
+            shared = n->binned * rng_normal(rng);
+        }
+        if ((i / (POINTS / 32) + 29) % 32 >= (uint32_t)n->bins) {
+            continue;
+        }
+        r = 1 + shared + n->each * rng_normal(rng);
+        scaled.a = truth->a * r;
+        scaled.b = truth->b * r;
+        ellipse_point(&x, &y, &scaled, t);
+        edges[count].x_q5 = (uint16_t)floor(32 * x + 0.5);
+        edges[count].y_q5 = (uint16_t)floor(32 * y + 0.5);
+        edges[count].gx = (int16_t)(500 * cos(t + truth->angle));
+        edges[count].gy = (int16_t)(500 * sin(t + truth->angle));
+        drogue_moments_add_point(&moments, edges[count].x_q5 - 32768, edges[count].y_q5 - 32768);
+        count++;
+    }
+    MUST(drogue_ellipse_fit(&outline->ellipse, &moments, 5) == DROGUE_OK, "no fit");
+    outline->ellipse.xc_px_q16 += 1024 * 65536;
+    outline->ellipse.yc_px_q16 += 1024 * 65536;
+    fitted = ellipse_from_q16(&outline->ellipse);
+    harmonics_of(m, &fitted, truth);
+    MUST(drogue_ellipse_frame_of(&frame, &outline->ellipse) == DROGUE_OK, "no frame");
+    drogue_support_count(&support, &frame, &band, edges, count, 1);
+    drogue_support_judge(&support, &outline->ellipse, DROGUE_POLARITY_BOTH, 1);
+    MUST(support.bright_bins == 0, "polarity");
+    memset(&support, 0, sizeof support);
+    for (i = 0; i < count; i++) {
+        drogue_band_point p;
+        MUST(drogue_ellipse_band_holds(&p, &frame, &band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
+                                       edges[i].gx, edges[i].gy) &&
+                 drogue_support_add(&support, &p, &edges[i]),
+             "point %u left out", (unsigned)i);
+    }
+    MUST(drogue_joint_outline_covariance(outline, &support, 1, 0) == DROGUE_OK, "no covariance");
+}
+
+static void check_scatter(const noise *n, double tolerance)
+{
+    /* an angle well away from its ends: the stated frame is the fitted one's */
+    const ellipse_real truth = {1021.3, 1024.7, 700, 520, 0.5};
+    double scatter[5][5], stated[5][5];
+    uint64_t rng = 5;
+    int run, i, j;
+    memset(scatter, 0, sizeof scatter);
+    memset(stated, 0, sizeof stated);
+    for (run = 0; run < RUNS; run++) {
+        drogue_joint_outline outline;
+        double m[5];
+        refit_noisy(m, &outline, &truth, n, &rng);
+        for (i = 0; i < 5; i++) {
+            for (j = 0; j < 5; j++) {
+                scatter[i][j] += m[i] * m[j] / RUNS;
+                stated[i][j] += (double)quad_of(outline.covariance[DROGUE_PACKED(i, j)]) / RUNS;
+            }
+        }
+    }
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j < 5; j++) {
+            double off = (stated[i][j] - scatter[i][j]) / sqrt(scatter[i][i] * scatter[j][j]);
+            MUST(fabs(off) < tolerance, "%d bins, noise %g and %g: entry %d %d: %g stated, %g found", n->bins, n->each,
+                 n->binned, i, j, stated[i][j], scatter[i][j]);
+        }
+    }
+}
+
+/* Variances over 1200 runs are known to 4 %: 3.5 of these. */
+START_TEST(covariance_of_independent_noise)
+{
+    const noise n = {0.002, 0, 32};
+    check_scatter(&n, 0.14);
+}
+END_TEST
+
+START_TEST(covariance_of_noise_shared_within_bins)
+{
+    const noise n = {0.0005, 0.001, 32};
+    check_scatter(&n, 0.14);
+}
+END_TEST
+
+START_TEST(covariance_of_a_partial_outline)
+{
+    const noise n = {0.0005, 0.0003, 20};
+    check_scatter(&n, 0.14);
+}
+END_TEST
+
+/* 'bins' bins from the first on, 20 points each, offsets of +-1/1000. */
+static drogue_support support_of(uint32_t bins)
+{
+    drogue_support s;
+    uint32_t k;
+    memset(&s, 0, sizeof s);
+    for (k = 0; k < bins; k++) {
+        s.bin[k].count[0] = 20;
+        s.bin[k].sum_q16 = (k & 1 ? 1 : -1) * 20 * 66;
+        s.points += 20;
+        s.gradient += 20 * 600;
+        s.squares_q32 += 20 * 66 * 66;
+    }
+    return s;
+}
+
+START_TEST(shading_and_blur_are_added)
+{
+    const drogue_support s = support_of(32);
+    drogue_joint_outline base = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}}, more = base;
+    double plain[15], share = 2.0 / 600 / 100, blur = 0.5 / (100 * 80);
+    int i, j;
+    ck_assert_int_eq(drogue_joint_outline_covariance(&base, &s, 0, 0), DROGUE_OK);
+    for (i = 0; i < DROGUE_PACKED_MAX; i++) {
+        plain[i] = (double)quad_of(base.covariance[i]);
+    }
+    /* a mean of 20 points of +-66 LSB each: m0 is known to 66 / sqrt(32) LSB, or 32 / 27 of that in variance */
+    ck_assert(fabs(plain[0] - pow(66.0 / 65536, 2) / 27) < 1e-6 * plain[0]);
+    ck_assert_int_eq(drogue_joint_outline_covariance(&more, &s, 2 * 65536, 32768), DROGUE_OK);
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j <= i; j++) {
+            double added = (i == j ? share * share : 0) + (i == 0 ? blur * blur : 0);
+            double got = (double)quad_of(more.covariance[DROGUE_PACKED(i, j)]) - plain[DROGUE_PACKED(i, j)];
+            MUST(fabs(got - added) < 1e-9 * plain[0], "entry %d %d: %g added, not %g", i, j, got, added);
+        }
+    }
+}
+END_TEST
+
+START_TEST(degenerate_support)
+{
+    drogue_joint_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}};
+    drogue_support s;
+    uint32_t k;
+    for (k = 0; k <= 5; k++) {
+        s = support_of(k);
+        ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+    }
+    s = support_of(32);
+    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_OK);
+    s.gradient = 0;
+    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+    s = support_of(32);
+    s.bright_bins = UINT32_MAX; /* the points are of the other polarity */
+    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+    s = support_of(6); /* the most points that one bin's sum can hold, all at the end of their range */
+    for (k = 0; k < 6; k++) {
+        s.bin[5 * k].count[0] = 65535;
+        s.bin[5 * k].sum_q16 = k & 1 ? INT32_MIN : INT32_MAX;
+    }
+    s.gradient = UINT32_MAX;
+    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, INT32_MAX, INT32_MAX), DROGUE_OK);
+    ck_assert(outline.covariance[0].mantissa > 0);
+}
+END_TEST
+
+/* ---- the solver */
+
+static field usual_field(void)
+{
+    field f;
+    f.camera = pinhole(1465.5, 1470, 1023.5, 1000);
+    f.model.rim_radius_m_q16 = q16_of(0.35);
+    f.model.inner_radius_m_q16 = q16_of(0.12);
+    f.model.inner_depth_m_q16 = q16_of(0.25);
+    return f;
+}
+
+static pose_real random_pose(uint64_t *rng, double most_angle)
+{
+    pose_real p;
+    p.v[2] = exp(rng_real(rng, log(2.0), log(25.0)));
+    p.v[0] = p.v[2] * rng_real(rng, -0.3, 0.3);
+    p.v[1] = p.v[2] * rng_real(rng, -0.3, 0.3);
+    p.v[3] = rng_real(rng, -most_angle, most_angle);
+    p.v[4] = rng_real(rng, -most_angle, most_angle);
+    return p;
+}
+
+/* What the pose shows, exact but for the rounding to Q16; offsets known to 1 / 10 px over 200 points. */
+static int measurement_of(drogue_joint_outline *outline, drogue_joint_inner *inner, drogue_pose poses[2],
+                          const field *f, const pose_real *p)
+{
+    ellipse_real e, d;
+    double variance;
+    int i;
+    if (!field_outline(&e, f, p) || !field_inner(&d, f, p)) {
+        return 0;
+    }
+    outline->ellipse = ellipse_to_q16(&e);
+    inner->x_px_q16 = q16_of(d.xc);
+    inner->y_px_q16 = q16_of(d.yc);
+    inner->std_px_q16 = q16_of(0.03);
+    variance = pow(0.1 / e.a, 2) / 200;
+    memset(outline->covariance, 0, sizeof outline->covariance);
+    for (i = 0; i < 5; i++) {
+        outline->covariance[DROGUE_PACKED(i, i)] = wide_of((quad)(i == 0 ? variance : 2 * variance));
+    }
+    return drogue_pose_from_ellipse(poses, &outline->ellipse, &f->camera, f->model.rim_radius_m_q16) == DROGUE_OK;
+}
+
+/* Largest difference from the truth, LSB of m and rad; the axis counts, not the angles. */
+static double pose_error_lsb(const drogue_pose *got, const pose_real *p)
+{
+    double axis[3], worst = 0;
+    int k;
+    axis_of_angles(axis, p->v[3], p->v[4]);
+    for (k = 0; k < 3; k++) {
+        worst = fmax(worst, fabs(got->position_m_q16[k] - 65536 * p->v[k]));
+        worst = fmax(worst, fabs(got->axis_q16[k] - 65536 * axis[k]));
+    }
+    return worst;
+}
+
+/* From the right start within the few steps that a frame takes; from the other one within those that may be asked for,
+ * to 35 degrees off the line of sight. */
+START_TEST(exact_data_gives_the_exact_pose_from_both_starts)
+{
+    const field f = usual_field();
+    uint64_t rng = 6;
+    double worst[2] = {0, 0};
+    int i, k, solved = 0;
+    for (i = 0; i < 2000; i++) {
+        const pose_real p = random_pose(&rng, 0.5);
+        drogue_joint_outline outline;
+        drogue_joint_inner inner;
+        drogue_pose poses[2];
+        drogue_joint joint;
+        double axis[3], start[2];
+        axis_of_angles(axis, p.v[3], p.v[4]);
+        if (!measurement_of(&outline, &inner, poses, &f, &p) ||
+            dot3(axis, p.v) < cos(35 * TEST_PI / 180) * sqrt(dot3(p.v, p.v))) {
+            continue;
+        }
+        for (k = 0; k < 2; k++) {
+            start[k] = pose_error_lsb(&poses[k], &p);
+        }
+        for (k = 0; k < 2; k++) { /* nearer, farther */
+            const drogue_pose *from = &poses[(start[1] < start[0]) ^ k];
+            MUST(drogue_joint_solve(&joint, from, &outline, &inner, &f.camera, &f.model, k ? 16 : 5) == DROGUE_OK,
+                 "case %d from start %d refused", i, k);
+            /* a step of 2^-20 rad is 0.2 of a standard deviation at most, and chi2 that of the point before it */
+            MUST(quad_of(joint.chi2) < (quad)0.1L, "case %d: chi2 %g", i, (double)quad_of(joint.chi2));
+            worst[k] = fmax(worst[k], pose_error_lsb(&joint.pose, &p));
+        }
+        solved++;
+    }
+    ck_assert_int_gt(solved, 1300);
+    MUST(worst[0] <= 2, "nearer start: %g LSB off", worst[0]);
+    MUST(worst[1] <= 2, "farther start: %g LSB off", worst[1]);
+}
+END_TEST
+
+START_TEST(outline_alone_stays_where_the_cone_puts_it)
+{
+    const field f = usual_field();
+    uint64_t rng = 7;
+    double worst = 0, apart = 0;
+    int i, k, m, solved = 0;
+    for (i = 0; i < 1500; i++) {
+        const pose_real p = random_pose(&rng, 0.5);
+        const drogue_joint_inner none = {0, 0, 0};
+        drogue_joint_outline outline;
+        drogue_joint_inner inner;
+        drogue_pose poses[2];
+        drogue_joint joint;
+        if (!measurement_of(&outline, &inner, poses, &f, &p)) {
+            continue;
+        }
+        for (k = 0; k < 2; k++) {
+            pose_real start;
+            double expected[5][5], sight[3];
+            int j;
+            MUST(drogue_joint_solve(&joint, &poses[k], &outline, &none, &f.camera, &f.model, 16) == DROGUE_OK,
+                 "case %d from start %d refused", i, k);
+            for (j = 0; j < 3; j++) {
+                start.v[j] = real_of_q16(poses[k].position_m_q16[j]);
+                sight[j] = real_of_q16(poses[k].axis_q16[j]);
+            }
+            start.v[3] = real_of_q16(poses[k].yaw_rad_q16);
+            start.v[4] = real_of_q16(poses[k].pitch_rad_q16);
+            /* near head-on a rounding of the ellipse is many of the axis */
+            if (dot3(sight, start.v) / sqrt(dot3(start.v, start.v)) > cos(0.1)) {
+                continue;
+            }
+            for (m = 0; m < 3; m++) {
+                worst = fmax(worst, abs(joint.pose.position_m_q16[m] - poses[k].position_m_q16[m]));
+                worst = fmax(worst, abs(joint.pose.axis_q16[m] - poses[k].axis_q16[m]));
+            }
+            MUST(quad_of(joint.chi2) < (quad)0.1L, "case %d: chi2 %g", i, (double)quad_of(joint.chi2));
+            MUST(propagated(expected, &f, &start, outline.covariance, 0), "case %d: no model", i);
+            apart = fmax(apart, covariance_apart(joint.covariance, expected));
+            MUST(drogue_joint_solve(&joint, &poses[k], &outline, &none, &f.camera, &f.model, 0) == DROGUE_OK &&
+                     memcmp(joint.pose.position_m_q16, poses[k].position_m_q16, sizeof joint.pose.position_m_q16) ==
+                         0 &&
+                     joint.pose.yaw_rad_q16 == poses[k].yaw_rad_q16 &&
+                     joint.pose.pitch_rad_q16 == poses[k].pitch_rad_q16 &&
+                     covariance_apart(joint.covariance, expected) < 0.002,
+                 "case %d: not the start after no step", i);
+            solved++;
+        }
+    }
+    ck_assert_int_gt(solved, 2000);
+    MUST(worst <= 8, "%g LSB off the start", worst);
+    MUST(apart < 0.002, "covariance off by %g", apart);
+}
+END_TEST
+
+/* Pose of an ellipse a little off, by the cone; nearest of the two to a start. */
+static int cone_pose(double out[5], const ellipse_real *e, const field *f, const drogue_pose *start)
+{
+    const drogue_ellipse q = ellipse_to_q16(e);
+    drogue_pose poses[2], *p;
+    int k, far[2];
+    if (drogue_pose_from_ellipse(poses, &q, &f->camera, f->model.rim_radius_m_q16) != DROGUE_OK) {
+        return 0;
+    }
+    for (k = 0; k < 2; k++) {
+        far[k] = abs(poses[k].yaw_rad_q16 - start->yaw_rad_q16) + abs(poses[k].pitch_rad_q16 - start->pitch_rad_q16);
+    }
+    p = &poses[far[1] < far[0]];
+    for (k = 0; k < 3; k++) {
+        out[k] = real_of_q16(p->position_m_q16[k]);
+    }
+    out[3] = real_of_q16(p->yaw_rad_q16);
+    out[4] = real_of_q16(p->pitch_rad_q16);
+    return 1;
+}
+
+/* The same covariance by the other way round: each parameter of the ellipse is moved, and the cone gives the pose. */
+START_TEST(covariance_against_the_cone)
+{
+    const field f = usual_field();
+    const drogue_joint_inner none = {0, 0, 0};
+    uint64_t rng = 8;
+    int i, j, k, l, compared = 0;
+    for (i = 0; i < 300; i++) {
+        const pose_real p = random_pose(&rng, 0.5);
+        drogue_joint_outline outline;
+        drogue_joint_inner inner;
+        drogue_pose poses[2];
+        drogue_joint joint;
+        ellipse_real e;
+        double slope[5][5], expected[5][5], sight = 0, axis[3]; /* pose by harmonic */
+        if (!measurement_of(&outline, &inner, poses, &f, &p)) {
+            continue;
+        }
+        axis_of_angles(axis, p.v[3], p.v[4]);
+        sight = dot3(axis, p.v) / sqrt(dot3(p.v, p.v));
+        if (sight > cos(0.35) || p.v[2] > 8) { /* farther or more head-on the cone is too crooked for its Q16 steps */
+            continue;
+        }
+        e = ellipse_from_q16(&outline.ellipse);
+        k = fabs(real_of_q16(poses[0].yaw_rad_q16) - p.v[3]) + fabs(real_of_q16(poses[0].pitch_rad_q16) - p.v[4]) >
+            fabs(real_of_q16(poses[1].yaw_rad_q16) - p.v[3]) + fabs(real_of_q16(poses[1].pitch_rad_q16) - p.v[4]);
+        MUST(drogue_joint_solve(&joint, &poses[k], &outline, &none, &f.camera, &f.model, 16) == DROGUE_OK, "case %d",
+             i);
+        {
+            quad by_parameter[5][5], back[5][5];
+            double pose_slope[5][5];
+            memset(by_parameter, 0, sizeof by_parameter);
+            memset(pose_slope, 0, sizeof pose_slope);
+            for (j = 0; j < 5; j++) { /* xc, yc, a, b, angle; differences over two steps, the third order taken out */
+                double step = j == 4 ? fmin(0.1, 0.4 / (e.a - e.b)) : 0.4, share = 4.0 / 3;
+                int turn;
+                for (turn = 0; turn < 2; turn++, step *= 2, share = -1.0 / 3) {
+                    ellipse_real moved[2] = {e, e};
+                    double m[2][5], pose[2][5];
+                    for (l = 0; l < 2; l++) {
+                        double *member = j == 0   ? &moved[l].xc
+                                         : j == 1 ? &moved[l].yc
+                                         : j == 2 ? &moved[l].a
+                                         : j == 3 ? &moved[l].b
+                                                  : &moved[l].angle;
+                        *member += l ? step : -step;
+                        harmonics_of(m[l], &moved[l], &e);
+                        MUST(cone_pose(pose[l], &moved[l], &f, &poses[k]), "case %d: no pose", i);
+                    }
+                    for (l = 0; l < 5; l++) {
+                        by_parameter[l][j] += (quad)(share * (m[1][l] - m[0][l]) / step);
+                        pose_slope[l][j] += share * (pose[1][l] - pose[0][l]) / step;
+                    }
+                }
+            }
+            MUST(quad_invert(back, by_parameter, 5), "case %d: harmonics", i);
+            for (j = 0; j < 5; j++) {
+                for (l = 0; l < 5; l++) {
+                    int q;
+                    slope[j][l] = 0;
+                    for (q = 0; q < 5; q++) {
+                        slope[j][l] += pose_slope[j][q] * (double)back[q][l];
+                    }
+                }
+            }
+        }
+        for (j = 0; j < 5; j++) {
+            for (l = 0; l < 5; l++) {
+                int q;
+                expected[j][l] = 0;
+                for (q = 0; q < 5; q++) { /* the harmonics' covariance is diagonal here */
+                    expected[j][l] +=
+                        slope[j][q] * slope[l][q] * (double)quad_of(outline.covariance[DROGUE_PACKED(q, q)]);
+                }
+            }
+        }
+        MUST(covariance_apart(joint.covariance, expected) < 0.05, "case %d, z %g: covariance off by %g", i, p.v[2],
+             covariance_apart(joint.covariance, expected));
+        compared++;
+    }
+    ck_assert_int_gt(compared, 60);
+}
+END_TEST
+
+START_TEST(covariance_with_the_inner_part)
+{
+    const field f = usual_field();
+    uint64_t rng = 9;
+    double apart = 0;
+    int i, solved = 0;
+    for (i = 0; i < 1500; i++) {
+        const pose_real p = random_pose(&rng, 0.4);
+        drogue_joint_outline outline;
+        drogue_joint_inner inner;
+        drogue_pose poses[2];
+        drogue_joint joint;
+        double expected[5][5];
+        int k;
+        if (!measurement_of(&outline, &inner, poses, &f, &p)) {
+            continue;
+        }
+        inner.std_px_q16 = q16_of(rng_real(&rng, 0.02, 0.5));
+        k = fabs(real_of_q16(poses[0].yaw_rad_q16) - p.v[3]) + fabs(real_of_q16(poses[0].pitch_rad_q16) - p.v[4]) >
+            fabs(real_of_q16(poses[1].yaw_rad_q16) - p.v[3]) + fabs(real_of_q16(poses[1].pitch_rad_q16) - p.v[4]);
+        MUST(drogue_joint_solve(&joint, &poses[k], &outline, &inner, &f.camera, &f.model, 16) == DROGUE_OK, "case %d",
+             i);
+        MUST(propagated(expected, &f, &p, outline.covariance, real_of_q16(inner.std_px_q16)), "case %d: no model", i);
+        /* the core's slopes of the centroid are those of the disc's centre: right to first order in radius over z */
+        apart = fmax(apart,
+                     covariance_apart(joint.covariance, expected) * p.v[2] / real_of_q16(f.model.inner_radius_m_q16));
+        solved++;
+    }
+    ck_assert_int_gt(solved, 1300);
+    MUST(apart < 1.2, "covariance off by %g of the disc's radius over its distance", apart);
+}
+END_TEST
+
+/* Head-on both starts are one, and the outline says nothing about the sign of the tilt: with and without the inner part
+ * there is a pose, and a covariance that says how much is known. */
+START_TEST(head_on)
+{
+    const field f = usual_field();
+    double z;
+    int k;
+    for (z = 2; z < 30; z *= 1.3) {
+        const pose_real p = {{0.02 * z, -0.01 * z, z, 0.02, -0.01}}; /* along the line of sight, or nearly */
+        drogue_joint_inner none = {0, 0, 0}, inner;
+        drogue_joint_outline outline;
+        drogue_pose poses[2];
+        drogue_joint with, without;
+        MUST(measurement_of(&outline, &inner, poses, &f, &p), "z %g: not seen", z);
+        for (k = 0; k < 2; k++) {
+            MUST(drogue_joint_solve(&without, &poses[k], &outline, &none, &f.camera, &f.model, 16) == DROGUE_OK, "z %g",
+                 z);
+            MUST(drogue_joint_solve(&with, &poses[k], &outline, &inner, &f.camera, &f.model, 16) == DROGUE_OK, "z %g",
+                 z);
+            MUST(abs(with.pose.position_m_q16[2] - q16_of(z)) < 65, "z %g", real_of_q16(with.pose.position_m_q16[2]));
+            MUST(pose_error_lsb(&with.pose, &p) < 20, "z %g: %g LSB off", z, pose_error_lsb(&with.pose, &p));
+            MUST(quad_of(without.covariance[DROGUE_PACKED(3, 3)]) <= 1 &&
+                     quad_of(with.covariance[DROGUE_PACKED(3, 3)]) < quad_of(without.covariance[DROGUE_PACKED(3, 3)]),
+                 "z %g: variance of the yaw", z);
+        }
+    }
+}
+END_TEST
+
+START_TEST(what_cannot_be_solved)
+{
+    field f = usual_field();
+    const pose_real p = {{0.1, -0.2, 5, 0.2, 0.1}};
+    drogue_joint_outline outline, broken;
+    drogue_joint_inner inner;
+    drogue_pose poses[2], away;
+    drogue_joint joint;
+    drogue_ellipse disc;
+    ck_assert(measurement_of(&outline, &inner, poses, &f, &p));
+    broken = outline;
+    memset(broken.covariance, 0, sizeof broken.covariance);
+    ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &broken, &inner, &f.camera, &f.model, 5),
+                     DROGUE_E_DEGENERATE);
+    broken = outline;
+    broken.covariance[DROGUE_PACKED(4, 4)] = drogue_wide_neg(broken.covariance[DROGUE_PACKED(4, 4)]);
+    ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &broken, &inner, &f.camera, &f.model, 5),
+                     DROGUE_E_DEGENERATE);
+    f.model.inner_depth_m_q16 = q16_of(-6);
+    ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &outline, &inner, &f.camera, &f.model, 0),
+                     DROGUE_E_BEHIND_CAMERA);
+    ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &outline, &inner, &f.camera, &f.model, 5),
+                     DROGUE_E_BEHIND_CAMERA);
+    ck_assert_int_eq(drogue_inner_disc_image(&disc, &poses[0], &f.camera, &f.model), DROGUE_E_BEHIND_CAMERA);
+    inner.std_px_q16 = 0; /* the outline alone does not mind */
+    ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &outline, &inner, &f.camera, &f.model, 5), DROGUE_OK);
+    f = usual_field();
+    away = poses[0];
+    away.yaw_rad_q16 = q16_of(TEST_PI / 2);
+    away.pitch_rad_q16 = 0;
+    away.position_m_q16[0] = 0;
+    ck_assert_int_eq(drogue_inner_disc_image(&disc, &away, &f.camera, &f.model),
+                     DROGUE_OK);               /* 2.9 degrees off edge-on */
+    away.yaw_rad_q16 = q16_of(TEST_PI * 0.75); /* from behind */
+    ck_assert_int_eq(drogue_inner_disc_image(&disc, &away, &f.camera, &f.model), DROGUE_E_DOMAIN);
+    away = poses[0];
+    away.position_m_q16[2] = INT32_MAX; /* cannot be solved to anywhere else in Q16 */
+    (void)drogue_joint_solve(&joint, &away, &outline, &inner, &f.camera, &f.model, 5);
+}
+END_TEST
+
+/* Image of the inner disc: centre as computed in double, semi-axes to first order. */
+START_TEST(image_of_the_inner_disc)
+{
+    const field f = usual_field();
+    uint64_t rng = 10;
+    double centre = 0, size = 0;
+    int i, k, seen = 0;
+    for (i = 0; i < 5000; i++) {
+        const pose_real p = random_pose(&rng, 0.5);
+        drogue_pose q;
+        drogue_ellipse got;
+        ellipse_real e;
+        memset(&q, 0, sizeof q);
+        for (k = 0; k < 3; k++) {
+            q.position_m_q16[k] = q16_of(p.v[k]);
+        }
+        q.yaw_rad_q16 = q16_of(p.v[3]);
+        q.pitch_rad_q16 = q16_of(p.v[4]);
+        if (!field_inner(&e, &f, &p)) {
+            continue;
+        }
+        MUST(drogue_inner_disc_image(&got, &q, &f.camera, &f.model) == DROGUE_OK, "case %d", i);
+        /* the pose was rounded: half an LSB of each coordinate, seen at its distance */
+        centre = fmax(centre, hypot(real_of_q16(got.xc_px_q16) - e.xc, real_of_q16(got.yc_px_q16) - e.yc) /
+                                  (1 + 1500 / p.v[2]) * 65536);
+        size = fmax(size, fmax(fabs(real_of_q16(got.a_px_q16) / e.a - 1), fabs(real_of_q16(got.b_px_q16) / e.b - 1)));
+        seen++;
+    }
+    ck_assert_int_gt(seen, 4500);
+    MUST(centre < 2, "centre off by %g LSB", centre);
+    MUST(size < 0.15, "size off by a share of %g", size);
+}
+END_TEST
+
+/* Every pattern of bits is defined; what is accepted is a pose before the camera with a unit axis. */
+START_TEST(any_bits)
+{
+    uint64_t rng = 11;
+    int i, k, solved = 0;
+    for (i = 0; i < 20000; i++) {
+        const pose_real p = random_pose(&rng, 0.5);
+        field f = usual_field();
+        drogue_joint_outline outline;
+        drogue_joint_inner inner;
+        drogue_pose poses[2], start;
+        drogue_joint joint;
+        drogue_ellipse disc;
+        double axis[3];
+        if (!measurement_of(&outline, &inner, poses, &f, &p)) {
+            continue;
+        }
+        start = poses[i & 1];
+        for (k = 0; k < 3; k++) { /* a few members at a time */
+            drogue_q16 any = rng_s32_any_width(&rng), positive = any < 0 ? ~any : any;
+            switch (rng_range(&rng, 0, 15)) {
+            case 0: f.camera.fx_px_q16 = positive | 1; break;
+            case 1: f.camera.fy_px_q16 = positive | 1; break;
+            case 2: f.camera.cx_px_q16 = any; break;
+            case 3: f.camera.cy_px_q16 = any; break;
+            case 4: f.model.rim_radius_m_q16 = positive | 1; break;
+            case 5: f.model.inner_radius_m_q16 = positive; break;
+            case 6: f.model.inner_depth_m_q16 = any; break;
+            case 7: inner.x_px_q16 = any; break;
+            case 8: inner.y_px_q16 = any; break;
+            case 9: inner.std_px_q16 = positive; break;
+            case 10: start.position_m_q16[rng_range(&rng, 0, 2)] = any; break;
+            case 11: start.yaw_rad_q16 = rng_range(&rng, -205887, 205887); break;
+            case 12: start.pitch_rad_q16 = rng_range(&rng, -102944, 102944); break;
+            case 13: outline.ellipse.xc_px_q16 = any; break;
+            case 14: outline.ellipse.a_px_q16 = positive | 1; break;
+            default: outline.covariance[DROGUE_PACKED(k, k)].exponent += rng_range(&rng, -80, 80); break;
+            }
+        }
+        outline.ellipse.b_px_q16 =
+            outline.ellipse.b_px_q16 > outline.ellipse.a_px_q16 ? outline.ellipse.a_px_q16 : outline.ellipse.b_px_q16;
+        (void)drogue_inner_disc_image(&disc, &start, &f.camera, &f.model);
+        if (drogue_joint_solve(&joint, &start, &outline, &inner, &f.camera, &f.model, i % 17) == DROGUE_OK) {
+            for (k = 0; k < 3; k++) {
+                axis[k] = real_of_q16(joint.pose.axis_q16[k]);
+            }
+            MUST(fabs(dot3(axis, axis) - 1) < 1e-4 && joint.pose.position_m_q16[2] >= 0, "case %d: pose", i);
+            for (k = 0; k < 5; k++) {
+                MUST(joint.covariance[DROGUE_PACKED(k, k)].mantissa > 0, "case %d: variance %d", i, k);
+            }
+            solved++;
+        }
+    }
+    ck_assert_int_gt(solved, 1000);
+}
+END_TEST
+
+SUITE_MAIN("joint", covariance_of_independent_noise, covariance_of_noise_shared_within_bins,
+           covariance_of_a_partial_outline, shading_and_blur_are_added, degenerate_support,
+           exact_data_gives_the_exact_pose_from_both_starts, outline_alone_stays_where_the_cone_puts_it,
+           covariance_against_the_cone, covariance_with_the_inner_part, head_on, what_cannot_be_solved,
+           image_of_the_inner_disc, any_bits)
