@@ -28,11 +28,11 @@ typedef struct drogue_capacity {
     uint32_t arcs;     /* arcs of the least length and more; [1, 2^24] */
 } drogue_capacity;
 
-/* Capacity that suits a region of the given longest side: 11 edge points and 6 labels a pixel of side (noise of 8 grey
- * levels needs up to 10.6 and 5.6, the frames in vectors/ 6.3 and 2.1), and 96 arcs: no more than 88 of an eighth of the
- * side fit into the edge points. */
-#define DROGUE_EDGES_FOR(side_px) (11u * (size_t)(side_px))
-#define DROGUE_LABELS_FOR(side_px) (6u * (size_t)(side_px) + 2u)
+/* Capacity that suits a region of the given longest side. What noise needs grows with the area: at 8 grey levels and
+ * 443 px 10.6 edge points and 5.6 labels a pixel of side, where the frames in vectors/ need 6.3 and 2.1. No more than 88
+ * arcs of an eighth of the side fit into the edge points. */
+#define DROGUE_EDGES_FOR(side_px) (10u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 512u)
+#define DROGUE_LABELS_FOR(side_px) (5u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 512u + 2u)
 #define DROGUE_ARCS_FOR(side_px) ((size_t)96u)
 
 #define DROGUE_HULL_MAX 576 /* vertices of a strictly convex lattice polygon in 2048 x 2048: at most 569 */

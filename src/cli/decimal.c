@@ -134,10 +134,22 @@ static int64_t power_of_ten(int n)
 
 void decimal_format(char out[DECIMAL_TEXT], int64_t value, int decimals)
 {
-    int64_t unit = power_of_ten(decimals);
-    int64_t magnitude = value < 0 ? -value : value;
-    snprintf(out, DECIMAL_TEXT, "%s%" PRId64 ".%0*" PRId64, value < 0 ? "-" : "", magnitude / unit, decimals,
-             magnitude % unit);
+    char text[DECIMAL_TEXT]; /* from the last character backward */
+    uint64_t rest = drogue_abs_u64(value);
+    int at = DECIMAL_TEXT;
+    int place;
+    text[--at] = '\0';
+    for (place = 0; at > 2 && (rest > 0 || place <= decimals); place++) {
+        if (place == decimals && place > 0) {
+            text[--at] = '.';
+        }
+        text[--at] = (char)('0' + rest % 10);
+        rest /= 10;
+    }
+    if (value < 0) {
+        text[--at] = '-';
+    }
+    memcpy(out, text + at, (size_t)(DECIMAL_TEXT - at));
 }
 
 void decimal_format_q16(char out[DECIMAL_TEXT], drogue_q16 value, int decimals)
@@ -200,8 +212,7 @@ static void format_trimmed(char out[DECIMAL_TEXT], int64_t v, int decimals, int 
         v /= 10;
         decimals--;
     }
-    snprintf(out, DECIMAL_TEXT, "%s%" PRId64 ".%0*" PRId64, negative ? "-" : "", v / power_of_ten(decimals), decimals,
-             v % power_of_ten(decimals));
+    decimal_format(out, negative ? -v : v, decimals);
 }
 
 void decimal_format_binary(char out[DECIMAL_TEXT], int64_t value, int frac_bits, int digits)

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* How much outline and inner part are to be believed: covariance of the outline from its bins, weights for the solver. */
+#include <string.h>
+
+#include "joint_model.h"
+
+typedef drogue_wide wide;
+
+static wide add(wide a, wide b) { return drogue_wide_add(a, b); }
+static wide mul(wide a, wide b) { return drogue_wide_mul(a, b); }
+
+/* 1, cos t, sin t, cos 2t, sin 2t at the middle of bin k, Q30. */
+static void basis_of(int64_t basis_q30[DROGUE_JOINT_FIT], uint32_t k)
+{
+    /* cos of 5.625 + 11.25 i degrees */
+    static const int32_t quarter_q30[8] = {1068571464, 1027506862, 946955747, 830013654,
+                                           681174602,  506158392,  311690799, 105245103};
+    const uint32_t i = k & 7u;
+    const uint32_t quadrant = k >> 3;
+    int64_t c = quarter_q30[quadrant & 1u ? 7 - i : i];
+    int64_t s = quarter_q30[quadrant & 1u ? i : 7 - i];
+    c = quadrant == 1 || quadrant == 2 ? -c : c;
+    s = quadrant >= 2 ? -s : s;
+    basis_q30[0] = INT64_C(1) << 30;
+    basis_q30[1] = c;
+    basis_q30[2] = s;
+    basis_q30[3] = drogue_shr_round_s64(c * c - s * s, 30);
+    basis_q30[4] = drogue_shr_round_s64(c * s, 29);
+}
+
+/* Normal equations of the fit, points times products of the basis functions; 'scatter' is the squared residual of the
+ * bins' means. Returns the number of bins that hold points. */
+static int32_t sum_bins(wide information[DROGUE_PACKED_MAX], wide *scatter, const drogue_support *support)
+{
+    int64_t sum_q30[DROGUE_PACKED_MAX];
+    int32_t bins = 0;
+    uint32_t k;
+    int i;
+    int j;
+    memset(sum_q30, 0, sizeof sum_q30);
+    *scatter = drogue_wide_from_s64(0, 0);
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        const int64_t n = support->bin[k].count[(support->bright_bins >> k) & 1u];
+        const int64_t sum_q16 = support->bin[k].sum_q16;
+        int64_t basis_q30[DROGUE_JOINT_FIT];
+        if (n == 0) {
+            continue;
+        }
+        bins++;
+        DROGUE_NOTE("joint: squared sum of a bin's offsets, Q32", sum_q16 * sum_q16, 61); /* support.c: 2^30 */
+        *scatter =
+            add(*scatter, drogue_wide_div(drogue_wide_from_s64(sum_q16 * sum_q16, -32), drogue_wide_from_s64(n, 0)));
+        basis_of(basis_q30, k);
+        for (i = 0; i < DROGUE_JOINT_FIT; i++) {
+            for (j = 0; j <= i; j++) {
+                sum_q30[DROGUE_PACKED(i, j)] += n * drogue_shr_round_s64(basis_q30[i] * basis_q30[j], 30);
+                /* 2^22 points at most, basis functions at most 1 */
+                DROGUE_NOTE("joint: information, Q30", sum_q30[DROGUE_PACKED(i, j)], 53);
+            }
+        }
+    }
+    for (i = 0; i < DROGUE_PACKED_MAX; i++) {
+        information[i] = drogue_wide_from_s64(sum_q30[i], -30);
+    }
+    return bins;
+}
+
+/* Squared standard deviation num / den. */
+static wide square_ratio(wide num, wide den)
+{
+    const wide share = drogue_wide_div(num, den);
+    return mul(share, share);
+}
+
+drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
+                                              drogue_q16 shading_q16, drogue_q16 blur_px2_q16)
+{
+    const wide a = drogue_wide_from_q16(outline->ellipse.a_px_q16);
+    wide *covariance = outline->covariance;
+    wide information[DROGUE_PACKED_MAX];
+    wide scatter;
+    wide shading;
+    int i;
+    const int32_t bins = sum_bins(information, &scatter, support);
+    if (bins <= DROGUE_JOINT_FIT || support->gradient == 0 ||
+        drogue_cholesky_factor(information, DROGUE_JOINT_FIT) != DROGUE_OK) {
+        return DROGUE_E_DEGENERATE;
+    }
+    scatter = drogue_wide_div(scatter, drogue_wide_from_s64(bins - DROGUE_JOINT_FIT, 0));
+    drogue_cholesky_invert(covariance, information, DROGUE_JOINT_FIT);
+    for (i = 0; i < DROGUE_PACKED_MAX; i++) {
+        covariance[i] = mul(covariance[i], scatter);
+    }
+    shading = square_ratio(mul(drogue_wide_from_q16(shading_q16), drogue_wide_from_s64(support->points, 0)),
+                           mul(a, drogue_wide_from_s64((int64_t)support->gradient, 0)));
+    for (i = 0; i < DROGUE_JOINT_FIT; i++) {
+        covariance[DROGUE_PACKED(i, i)] = add(covariance[DROGUE_PACKED(i, i)], shading);
+    }
+    covariance[0] = add(covariance[0], square_ratio(drogue_wide_from_q16(blur_px2_q16),
+                                                    mul(a, drogue_wide_from_q16(outline->ellipse.b_px_q16))));
+    return DROGUE_OK;
+}
+
+/* Bring the weights to one scale; those of 2^58 below the largest are 0. */
+static void scale_weights(drogue_joint_weights *out, const wide information[DROGUE_PACKED_MAX], const wide inner[2])
+{
+    int32_t top = INT32_MIN;
+    int i;
+    int j;
+    for (i = 0; i < DROGUE_PACKED_MAX + 2; i++) {
+        const wide *w = i < DROGUE_PACKED_MAX ? &information[i] : &inner[i - DROGUE_PACKED_MAX];
+        top = w->mantissa != 0 && w->exponent > top ? w->exponent : top;
+    }
+    out->exponent = top + 4; /* the largest, below 2^62, comes to lie below 2^58 */
+    for (i = 0; i < DROGUE_JOINT_FIT; i++) {
+        for (j = 0; j < DROGUE_JOINT_FIT; j++) {
+            out->outline[i][j] = drogue_wide_to_s64(information[DROGUE_PACKED(i, j)], -out->exponent);
+        }
+    }
+    for (i = 0; i < 2; i++) {
+        out->inner[i] = drogue_wide_to_s64(inner[i], -out->exponent);
+    }
+}
+
+drogue_status drogue_joint_weigh(drogue_joint_weights *out, const drogue_joint_outline *outline,
+                                 const drogue_joint_inner *inner, const drogue_camera *camera)
+{
+    wide root[DROGUE_PACKED_MAX];
+    wide information[DROGUE_PACKED_MAX];
+    wide by_inner[2];
+    memcpy(root, outline->covariance, sizeof root);
+    if (drogue_cholesky_factor(root, DROGUE_JOINT_FIT) != DROGUE_OK) {
+        return DROGUE_E_DEGENERATE;
+    }
+    drogue_cholesky_invert(information, root, DROGUE_JOINT_FIT);
+    memset(by_inner, 0, sizeof by_inner);
+    if (inner->std_px_q16 > 0) { /* its rows are rays */
+        by_inner[0] = square_ratio(drogue_wide_from_q16(camera->fx_px_q16), drogue_wide_from_q16(inner->std_px_q16));
+        by_inner[1] = square_ratio(drogue_wide_from_q16(camera->fy_px_q16), drogue_wide_from_q16(inner->std_px_q16));
+    }
+    scale_weights(out, information, by_inner);
+    return DROGUE_OK;
+}
