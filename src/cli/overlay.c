@@ -239,7 +239,9 @@ static void put_words(view *v, const options *o, const drogue_result *r, const c
     if (r->ellipse.a_px_q16 > 0) {
         decimal_format_q16(x, r->quality.reliability_q16, 3);
         snprintf(line, sizeof line, "reliability %s, %s inside", x,
-                 r->polarity == DROGUE_POLARITY_DARK ? "dark" : "bright");
+                 r->polarity == DROGUE_POLARITY_DARK     ? "dark"
+                 : r->polarity == DROGUE_POLARITY_BRIGHT ? "bright"
+                                                         : "dark and bright");
         put_line(v, 1, line);
     }
     if (r->status != DROGUE_OK) {

@@ -130,10 +130,11 @@ static void write_step(const char *name, int width, int height)
     free(grey);
 }
 
-/* A drogue seen head-on: a grey disc on a bright sky, a dark disc in its middle; 8 x 8 samples a pixel.
+/* A drogue seen head-on: a grey disc, a dark disc in its middle; 8 x 8 samples a pixel.
  *
- *  x16, y16  centre in sixteenths of a pixel */
-static uint8_t *draw_scene(int x16, int y16)
+ *  x16, y16  centre in sixteenths of a pixel
+ *  left, right  the sky's level in the halves of the image */
+static uint8_t *draw_against(int x16, int y16, int left, int right)
 {
     uint8_t *grey = allocate(SCENE_WIDTH, SCENE_HEIGHT);
     int x, y, i, j;
@@ -145,7 +146,10 @@ static uint8_t *draw_scene(int x16, int y16)
                     long dx = 16L * x + i - x16, dy = 16L * y + j - y16;
                     long distance2 = dx * dx + dy * dy;
                     const long rim = 16L * SCENE_RADIUS, inner = 16L * SCENE_RADIUS / 2;
-                    sum += distance2 <= inner * inner ? 25 : distance2 <= rim * rim ? 120 : 205;
+                    sum += distance2 <= inner * inner ? 25
+                           : distance2 <= rim * rim   ? 120
+                           : x <= SCENE_WIDTH / 2     ? left
+                                                      : right;
                 }
             }
             grey[y * SCENE_WIDTH + x] = (uint8_t)((sum + 32) / 64);
@@ -153,6 +157,8 @@ static uint8_t *draw_scene(int x16, int y16)
     }
     return grey;
 }
+
+static uint8_t *draw_scene(int x16, int y16) { return draw_against(x16, y16, 205, 205); }
 
 static void write_scenes(void)
 {
@@ -164,6 +170,12 @@ static void write_scenes(void)
     write_as("scene_rgb.png", grey, SCENE_WIDTH, SCENE_HEIGHT, PNG_COLOR_TYPE_RGB, 8, PNG_INTERLACE_ADAM7);
     write_as("scene_rgba16.png", grey, SCENE_WIDTH, SCENE_HEIGHT, PNG_COLOR_TYPE_RGB_ALPHA, 16, PNG_INTERLACE_ADAM7);
     write_as("scene_palette.png", grey, SCENE_WIDTH, SCENE_HEIGHT, PNG_COLOR_TYPE_PALETTE, 8, PNG_INTERLACE_NONE);
+    free(grey);
+    grey = draw_against(16 * 161 + 4, 16 * 118 + 8, 45, 45);
+    write_grey("scene_bright.png", grey, SCENE_WIDTH, SCENE_HEIGHT);
+    free(grey);
+    grey = draw_against(16 * 161 + 4, 16 * 118 + 8, 205, 45);
+    write_grey("scene_mixed.png", grey, SCENE_WIDTH, SCENE_HEIGHT);
     free(grey);
     grey = draw_scene(16 * 100, 16 * 70);
     write_grey("scene_cut.png", grey, SCENE_WIDTH, SCENE_HEIGHT);

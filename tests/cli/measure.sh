@@ -55,6 +55,18 @@ near "$(json ellipse.a)" 80 0.05
 near "$(json inner_centre.x)" 161.25 0.05
 near "$(json position_m.2)" 3.5 0.005
 
+# The background may be darker than the drogue, or both.
+for polarity in bright mixed; do
+    run 0 measure scene_$polarity.png $camera $roi $model --json
+    same "$(json polarity)" "\"$polarity\""
+    near "$(json ellipse.xc)" 161.25 0.05
+    near "$(json ellipse.yc)" 118.5 0.05
+    near "$(json ellipse.a)" 80 0.1
+    near "$(json position_m.2)" 3.5 0.005
+done
+run 0 measure scene_mixed.png $camera $roi $model
+prints 'dark and bright inside'
+
 # The keys are all there when nothing is found.
 run 1 measure black.png $camera --json
 same "$(json status)" '"no_edges"'

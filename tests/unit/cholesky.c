@@ -141,7 +141,7 @@ START_TEST(least_pivot)
     for (turn = 0; turn < 3; turn++) {
         a[0] = whole(1);
         a[1] = whole(1);
-        a[2] = drogue_wide_add(whole(1), drogue_wide_from_s64(turn == 0 ? 3 : 1, turn == 2 ? -41 : -40)); /* 1 + p */
+        a[2] = drogue_wide_add(whole(1), drogue_wide_from_s64(turn == 0 ? 3 : turn == 1 ? 2 : 1, -41)); /* 1 + p */
         ck_assert_int_eq(drogue_cholesky_factor(a, 2), turn == 0 ? DROGUE_OK : DROGUE_E_DEGENERATE);
     }
 }

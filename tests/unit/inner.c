@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The inner part as a measurement: where it is expected, where it is looked for, and each reason not to believe it. */
+#include "suite.h"
+
+#include "drogue/inner.h"
+#include "drogue/undistort.h"
+#include "joint_model.h"
+
+static field usual_field(void)
+{
+    field f;
+    f.camera = pinhole(1465.5, 1470, 1023.5, 1000);
+    f.model.rim_radius_m_q16 = q16_of(0.35);
+    f.model.inner_radius_m_q16 = q16_of(0.12);
+    f.model.inner_depth_m_q16 = q16_of(0.25);
+    return f;
+}
+
+static drogue_pose pose_of(const pose_real *p)
+{
+    drogue_pose q;
+    double axis[3];
+    int k;
+    axis_of_angles(axis, p->v[3], p->v[4]);
+    for (k = 0; k < 3; k++) {
+        q.position_m_q16[k] = q16_of(p->v[k]);
+        q.axis_q16[k] = q16_of(axis[k]);
+    }
+    q.yaw_rad_q16 = q16_of(p->v[3]);
+    q.pitch_rad_q16 = q16_of(p->v[4]);
+    return q;
+}
+
+START_TEST(expected_where_the_poses_show_it)
+{
+    uint64_t rng = 1;
+    int i, k;
+    for (i = 0; i < 2000; i++) {
+        field f = usual_field();
+        const int32_t x_px = rng_range(&rng, 0, 1000), y_px = rng_range(&rng, 0, 1000);
+        drogue_pose poses[2];
+        drogue_ellipse got[2];
+        ellipse_real truth[2];
+        if (i & 1) {
+            f.camera.k1_q16 = q16_of(rng_real(&rng, -0.1, 0.1));
+            f.camera.p2_q16 = q16_of(rng_real(&rng, -0.002, 0.002));
+        }
+        for (k = 0; k < 2; k++) {
+            pose_real p = {{0, 0, 0, 0, 0}};
+            p.v[2] = rng_real(&rng, 3, 25);
+            p.v[0] = p.v[2] * rng_real(&rng, -0.3, 0.3);
+            p.v[1] = p.v[2] * rng_real(&rng, -0.3, 0.3);
+            p.v[3] = rng_real(&rng, -0.5, 0.5);
+            p.v[4] = rng_real(&rng, -0.5, 0.5);
+            poses[k] = pose_of(&p);
+            ck_assert(field_inner(&truth[k], &f, &p));
+        }
+        MUST(drogue_inner_expect(got, poses, &f.camera, &f.model, x_px, y_px) == 2, "case %d: not both", i);
+        for (k = 0; k < 2; k++) {
+            drogue_q16 u = q16_of(truth[k].xc), v = q16_of(truth[k].yc);
+            ck_assert_int_eq(drogue_distort_point(&u, &v, &f.camera), DROGUE_OK);
+            /* the pose was rounded: 2^-17 m or rad at its distance */
+            MUST(hypot(real_of_q16(got[k].xc_px_q16) + x_px - real_of_q16(u),
+                       real_of_q16(got[k].yc_px_q16) + y_px - real_of_q16(v)) < 0.02,
+                 "case %d: disc %d is elsewhere", i, k);
+            MUST(fabs(real_of_q16(got[k].a_px_q16) / truth[k].a - 1) < 0.15, "case %d: size", i);
+        }
+    }
+}
+END_TEST
+
+START_TEST(poses_that_show_none)
+{
+    const pose_real good = {{0.1, 0.2, 6, 0.1, 0.1}}, far = {{0, 0, 200, 0, 0}}, behind = {{0, 0, 6, 0, 0}};
+    field f = usual_field();
+    drogue_pose poses[2];
+    drogue_ellipse one[2], got[2];
+    poses[0] = poses[1] = pose_of(&good);
+    ck_assert_uint_eq(drogue_inner_expect(one, poses, &f.camera, &f.model, 0, 0), 2);
+    poses[0] = pose_of(&far); /* 0.9 px */
+    ck_assert_uint_eq(drogue_inner_expect(got, poses, &f.camera, &f.model, 0, 0), 1);
+    ck_assert_int_eq(memcmp(&got[0], &one[0], sizeof got[0]), 0); /* the other one comes first */
+    poses[1] = pose_of(&far);
+    ck_assert_uint_eq(drogue_inner_expect(got, poses, &f.camera, &f.model, 0, 0), 0);
+    f.model.inner_depth_m_q16 = q16_of(-7);
+    poses[0] = poses[1] = pose_of(&behind);
+    ck_assert_uint_eq(drogue_inner_expect(got, poses, &f.camera, &f.model, 0, 0), 0);
+}
+END_TEST
+
+START_TEST(looked_for_within_the_outline)
+{
+    uint64_t rng = 2;
+    int i;
+    for (i = 0; i < 20000; i++) {
+        drogue_ellipse e;
+        drogue_mask m;
+        e.xc_px_q16 = rng_range(&rng, -16383 * 65536, 16383 * 65536);
+        e.yc_px_q16 = rng_range(&rng, -16383 * 65536, 16383 * 65536);
+        e.a_px_q16 = INT32_MAX;
+        e.b_px_q16 = 65536 + (rng_s32_any_width(&rng) & (INT32_MAX >> 1));
+        e.angle_rad_q16 = 0;
+        m = drogue_inner_disc(&e);
+        ck_assert(drogue_mask_valid(&m));
+        MUST(fabs(m.centre2_x - 2 * real_of_q16(e.xc_px_q16)) <= 0.5 &&
+                 fabs(m.centre2_y - 2 * real_of_q16(e.yc_px_q16)) <= 0.5,
+             "case %d: centre", i);
+        MUST(fabs(m.longest_px / 3.0 - real_of_q16(e.b_px_q16) * 5 / 6) <= 0.17, "case %d: radius", i);
+    }
+}
+END_TEST
+
+/* An outline of 100 by 80 px, a disc of 30 px expected 10 px off its centre, and the part found there. */
+typedef struct finding {
+    drogue_dark_part part;
+    drogue_ellipse expected, outline;
+    drogue_config config;
+} finding;
+
+static finding usual_finding(void)
+{
+    finding f;
+    memset(&f, 0, sizeof f);
+    drogue_config_default(&f.config);
+    f.outline.xc_px_q16 = q16_of(200);
+    f.outline.yc_px_q16 = q16_of(150);
+    f.outline.a_px_q16 = q16_of(100);
+    f.outline.b_px_q16 = q16_of(80);
+    f.expected.xc_px_q16 = q16_of(210);
+    f.expected.yc_px_q16 = q16_of(150);
+    f.expected.a_px_q16 = f.expected.b_px_q16 = q16_of(30);
+    f.part.x_px_q16 = q16_of(210);
+    f.part.y_px_q16 = q16_of(150);
+    f.part.area_px = 2827; /* 30^2 pi */
+    return f;
+}
+
+static double std_of(const finding *f)
+{
+    return real_of_q16(drogue_inner_std(&f->part, &f->expected, &f->outline, &f->config));
+}
+
+START_TEST(standard_deviation)
+{
+    uint64_t rng = 3;
+    int i;
+    for (i = 0; i < 20000; i++) {
+        finding f = usual_finding();
+        double expected;
+        f.part.spread_px_q16 = q16_of(rng_real(&rng, 0, 3));
+        f.config.inner_std_px_q16 = q16_of(rng_real(&rng, 0.001, 2));
+        f.config.inner_std_share_q16 = q16_of(rng_real(&rng, 0, 0.1));
+        f.config.inner_std_spread_q16 = q16_of(rng_real(&rng, 0, 4));
+        expected = sqrt(pow(real_of_q16(f.config.inner_std_px_q16), 2) +
+                        pow(real_of_q16(f.config.inner_std_share_q16) * 30, 2) +
+                        pow(real_of_q16(f.config.inner_std_spread_q16) * real_of_q16(f.part.spread_px_q16), 2));
+        MUST(fabs(std_of(&f) - expected) < 2.5 / 65536, "case %d: %g, not %g", i, std_of(&f), expected);
+    }
+}
+END_TEST
+
+START_TEST(reasons_not_to_believe)
+{
+    finding f = usual_finding();
+    int k;
+    ck_assert(std_of(&f) > 0);
+    f.part.area_px = (uint32_t)(2827 * 0.76);
+    ck_assert(std_of(&f) > 0);
+    f.part.area_px = (uint32_t)(2827 * 0.74); /* too small */
+    ck_assert(std_of(&f) == 0);
+    f.part.area_px = (uint32_t)(2827 * 1.24);
+    ck_assert(std_of(&f) > 0);
+    f.part.area_px = (uint32_t)(2827 * 1.26); /* too large */
+    ck_assert(std_of(&f) == 0);
+    for (k = 0; k < 4; k++) { /* a quarter of the semi-axis off, each way */
+        f = usual_finding();
+        f.part.x_px_q16 += k == 0 ? q16_of(24.9) : k == 1 ? -q16_of(24.9) : 0;
+        f.part.y_px_q16 += k == 2 ? q16_of(24.9) : k == 3 ? -q16_of(24.9) : 0;
+        ck_assert(std_of(&f) > 0);
+        f.part.x_px_q16 += k == 0 ? q16_of(0.2) : k == 1 ? -q16_of(0.2) : 0;
+        f.part.y_px_q16 += k == 2 ? q16_of(0.2) : k == 3 ? -q16_of(0.2) : 0;
+        ck_assert(std_of(&f) == 0);
+    }
+    f = usual_finding(); /* the rim would cut it: (80 - 30) / 80 of the semi-axes is the room there is */
+    f.config.inner_gate_q16 = INT32_MAX;
+    f.part.x_px_q16 = q16_of(200 + 62.4);
+    ck_assert(std_of(&f) > 0);
+    f.part.x_px_q16 = q16_of(200 + 62.6);
+    ck_assert(std_of(&f) == 0);
+    f.part.x_px_q16 = q16_of(200);
+    f.part.y_px_q16 = q16_of(150 + 49.9);
+    ck_assert(std_of(&f) > 0);
+    f.part.y_px_q16 = q16_of(150 + 50.1);
+    ck_assert(std_of(&f) == 0);
+    f = usual_finding(); /* as large as the outline */
+    f.expected.a_px_q16 = f.expected.b_px_q16 = q16_of(81);
+    f.part.area_px = 20612;
+    ck_assert(std_of(&f) == 0);
+}
+END_TEST
+
+START_TEST(any_bits)
+{
+    uint64_t rng = 4;
+    int i;
+    for (i = 0; i < 100000; i++) {
+        finding f = usual_finding();
+        int32_t any[9];
+        int k;
+        for (k = 0; k < 9; k++) {
+            any[k] = rng_s32_any_width(&rng);
+        }
+        f.part.x_px_q16 = rng_range(&rng, 0, 2047 * 65536);
+        f.part.y_px_q16 = rng_range(&rng, 0, 2047 * 65536);
+        f.part.area_px = (uint32_t)rng_range(&rng, 0, 1 << 22);
+        f.part.spread_px_q16 = rng_range(&rng, 0, 2047 * 65536);
+        f.expected.xc_px_q16 = any[0];
+        f.expected.yc_px_q16 = any[1];
+        f.expected.a_px_q16 = 65536 | (any[2] & INT32_MAX);
+        f.expected.b_px_q16 = 1 | (any[3] & INT32_MAX);
+        f.outline.xc_px_q16 = any[4];
+        f.outline.yc_px_q16 = any[5];
+        f.outline.b_px_q16 = 65536 | (any[6] & INT32_MAX);
+        f.outline.a_px_q16 = f.outline.b_px_q16 | (any[7] & INT32_MAX);
+        f.config.inner_gate_q16 = any[8] & INT32_MAX;
+        f.config.inner_std_share_q16 = 65536;
+        f.config.inner_std_px_q16 = f.config.inner_std_spread_q16 = 16 * 65536;
+        f.config.min_fill_q16 = 0;
+        f.config.max_fill_q16 = INT32_MAX;
+        MUST(std_of(&f) >= 0, "case %d", i);
+    }
+}
+END_TEST
+
+SUITE_MAIN("inner", expected_where_the_poses_show_it, poses_that_show_none, looked_for_within_the_outline,
+           standard_deviation, reasons_not_to_believe, any_bits)

@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The outline as a measurement: its covariance against refits of noisy points. */
+#include "suite.h"
+
+#include "drogue/ellipse.h"
+#include "drogue/joint.h"
+#include "joint_model.h"
+
+enum { POINTS = 960, RUNS = 1200 };
+
+typedef struct noise {
+    double each;   /* standard deviation of a point's radial offset, in semi-axes */
+    double binned; /* of an offset that the points of a bin share */
+    int bins;      /* of the 32, from bin 3 on, hold points */
+} noise;
+
+/* Fit noisy points about an ellipse; harmonics of the fit off the truth, and the covariance stated for it. */
+static void refit_noisy(double m[5], drogue_joint_outline *outline, const ellipse_real *truth, const noise *n,
+                        uint64_t *rng)
+{
+    const drogue_band band = drogue_band_of(q16_of(8), 0);
+    drogue_edge edges[POINTS];
+    drogue_moments moments;
+    drogue_support support;
+    drogue_ellipse_frame frame;
+    ellipse_real scaled = *truth, fitted;
+    double shared = 0;
+    uint32_t count = 0, i;
+    drogue_moments_clear(&moments);
+    for (i = 0; i < POINTS; i++) {
+        const double t = 2 * TEST_PI * (i + 0.5) / POINTS;
+        double x, y, r;
+        if (i % (POINTS / 32) == 0) {
+            shared = n->binned * rng_normal(rng);
+        }
+        if ((i / (POINTS / 32) + 29) % 32 >= (uint32_t)n->bins) {
+            continue;
+        }
+        r = 1 + shared + n->each * rng_normal(rng);
+        scaled.a = truth->a * r;
+        scaled.b = truth->b * r;
+        ellipse_point(&x, &y, &scaled, t);
+        edges[count].x_q5 = (uint16_t)floor(32 * x + 0.5);
+        edges[count].y_q5 = (uint16_t)floor(32 * y + 0.5);
+        edges[count].gx = (int16_t)(500 * cos(t + truth->angle));
+        edges[count].gy = (int16_t)(500 * sin(t + truth->angle));
+        drogue_moments_add_point(&moments, edges[count].x_q5 - 32768, edges[count].y_q5 - 32768);
+        count++;
+    }
+    MUST(drogue_ellipse_fit(&outline->ellipse, &moments, 5) == DROGUE_OK, "no fit");
+    outline->ellipse.xc_px_q16 += 1024 * 65536;
+    outline->ellipse.yc_px_q16 += 1024 * 65536;
+    fitted = ellipse_from_q16(&outline->ellipse);
+    harmonics_of(m, &fitted, truth);
+    MUST(drogue_ellipse_frame_of(&frame, &outline->ellipse) == DROGUE_OK, "no frame");
+    drogue_support_count(&support, &frame, &band, edges, count, 1);
+    drogue_support_judge(&support, &outline->ellipse, DROGUE_POLARITY_BOTH, 1);
+    MUST(support.bright_bins == 0, "polarity");
+    memset(&support, 0, sizeof support);
+    for (i = 0; i < count; i++) {
+        drogue_band_point p;
+        MUST(drogue_ellipse_band_holds(&p, &frame, &band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
+                                       edges[i].gx, edges[i].gy) &&
+                 drogue_support_add(&support, &p, &edges[i]),
+             "point %u left out", (unsigned)i);
+    }
+    MUST(drogue_joint_outline_covariance(outline, &support, 1, 0) == DROGUE_OK, "no covariance");
+}
+
+static void check_scatter(const noise *n, double tolerance)
+{
+    /* an angle well away from its ends: the stated frame is the fitted one's */
+    const ellipse_real truth = {1021.3, 1024.7, 700, 520, 0.5};
+    double scatter[5][5], stated[5][5];
+    uint64_t rng = 5;
+    int run, i, j;
+    memset(scatter, 0, sizeof scatter);
+    memset(stated, 0, sizeof stated);
+    for (run = 0; run < RUNS; run++) {
+        drogue_joint_outline outline;
+        double m[5];
+        refit_noisy(m, &outline, &truth, n, &rng);
+        for (i = 0; i < 5; i++) {
+            for (j = 0; j < 5; j++) {
+                scatter[i][j] += m[i] * m[j] / RUNS;
+                stated[i][j] += (double)quad_of(outline.covariance[DROGUE_PACKED(i, j)]) / RUNS;
+            }
+        }
+    }
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j < 5; j++) {
+            double off = (stated[i][j] - scatter[i][j]) / sqrt(scatter[i][i] * scatter[j][j]);
+            MUST(fabs(off) < tolerance, "%d bins, noise %g and %g: entry %d %d: %g stated, %g found", n->bins, n->each,
+                 n->binned, i, j, stated[i][j], scatter[i][j]);
+        }
+    }
+}
+
+/* Variances over 1200 runs are known to 4 %: 3.5 of these. */
+START_TEST(covariance_of_independent_noise)
+{
+    const noise n = {0.002, 0, 32};
+    check_scatter(&n, 0.14);
+}
+END_TEST
+
+START_TEST(covariance_of_noise_shared_within_bins)
+{
+    const noise n = {0.0005, 0.001, 32};
+    check_scatter(&n, 0.14);
+}
+END_TEST
+
+START_TEST(covariance_of_a_partial_outline)
+{
+    const noise n = {0.0005, 0.0003, 20};
+    check_scatter(&n, 0.14);
+}
+END_TEST
+
+/* 'bins' bins from the first on, 20 points each, offsets of +-1/1000. */
+static drogue_support support_of(uint32_t bins)
+{
+    drogue_support s;
+    uint32_t k;
+    memset(&s, 0, sizeof s);
+    for (k = 0; k < bins; k++) {
+        s.bin[k].count[0] = 20;
+        s.bin[k].sum_q16 = (k & 1 ? 1 : -1) * 20 * 66;
+        s.points += 20;
+        s.gradient += 20 * 600;
+        s.squares_q32 += 20 * 66 * 66;
+    }
+    return s;
+}
+
+START_TEST(shading_and_blur_are_added)
+{
+    const drogue_support s = support_of(32);
+    drogue_joint_outline base = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}}, more = base;
+    double plain[15], share = 2.0 / 600 / 100, blur = 0.5 / (100 * 80);
+    int i, j;
+    ck_assert_int_eq(drogue_joint_outline_covariance(&base, &s, 0, 0), DROGUE_OK);
+    for (i = 0; i < DROGUE_PACKED_MAX; i++) {
+        plain[i] = (double)quad_of(base.covariance[i]);
+    }
+    /* a mean of 20 points of +-66 LSB each: m0 is known to 66 / sqrt(32) LSB, or 32 / 27 of that in variance */
+    ck_assert(fabs(plain[0] - pow(66.0 / 65536, 2) / 27) < 1e-6 * plain[0]);
+    ck_assert_int_eq(drogue_joint_outline_covariance(&more, &s, 2 * 65536, 32768), DROGUE_OK);
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j <= i; j++) {
+            double added = (i == j ? share * share : 0) + (i == 0 ? blur * blur : 0);
+            double got = (double)quad_of(more.covariance[DROGUE_PACKED(i, j)]) - plain[DROGUE_PACKED(i, j)];
+            MUST(fabs(got - added) < 1e-9 * plain[0], "entry %d %d: %g added, not %g", i, j, got, added);
+        }
+    }
+}
+END_TEST
+
+START_TEST(degenerate_support)
+{
+    drogue_joint_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}};
+    drogue_support s;
+    uint32_t k;
+    for (k = 0; k <= 5; k++) {
+        s = support_of(k);
+        ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+    }
+    s = support_of(32);
+    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_OK);
+    s.gradient = 0;
+    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+    s = support_of(32);
+    s.bright_bins = UINT32_MAX; /* the points are of the other polarity */
+    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+    s = support_of(6); /* the most points that one bin's sum can hold, all at the end of their range */
+    for (k = 0; k < 6; k++) {
+        s.bin[5 * k].count[0] = 1u << 15;
+        s.bin[5 * k].sum_q16 = k & 1 ? -(1 << 30) : 1 << 30;
+    }
+    s.gradient = UINT32_MAX;
+    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, INT32_MAX, INT32_MAX), DROGUE_OK);
+    ck_assert(outline.covariance[0].mantissa > 0);
+}
+END_TEST
+
+SUITE_MAIN("joint_outline", covariance_of_independent_noise, covariance_of_noise_shared_within_bins,
+           covariance_of_a_partial_outline, shading_and_blur_are_added, degenerate_support)
