@@ -94,13 +94,47 @@ std::array<Vector, 3> rays_of(const Ellipse &e, const Camera &c)
             Vector{(e.xc - c.cx) / c.fx, (e.yc - c.cy) / c.fy, Dual(1)}};
 }
 
-/* Harmonics of how far the circle's image lies off the ellipse, in units of its semi-axes. */
-std::array<Dual, 5> outline_residual(const Frame &f, Real radius, const std::array<Vector, 3> &rays)
+/* The ranges that the library's solver is for (joint_model.h): poses, rays, conics and rows outside have nothing to do
+ * with a drogue that was seen. Lengths in radii of the rim. */
+constexpr Real FARTHEST = 65536, WIDEST = 64, STEEPEST = 1024, LEAST_CONIC = 1 / 65536.0L, LARGEST_CONIC = 128;
+
+bool in_range(const std::array<Real, PARAMETERS> &at, Real radius)
+{
+    return std::max({std::fabs(at[0]), std::fabs(at[1]), std::fabs(at[2])}) <= FARTHEST * radius;
+}
+
+bool in_range(const std::array<Vector, 3> &rays)
+{
+    Real widest = 0;
+    for (const Vector &ray : rays) {
+        for (const Dual &d : ray) {
+            widest = std::max(widest, std::fabs(d.v));
+        }
+    }
+    return widest <= WIDEST;
+}
+
+bool in_range(Real value, const std::array<Real, PARAMETERS> &by, Real radius)
+{
+    Real most = std::fabs(value);
+    for (size_t k = 0; k < PARAMETERS; k++) {
+        most = std::max(most, std::fabs(by[k]) * (k < 3 ? radius : 1));
+    }
+    return most <= STEEPEST;
+}
+
+/* Harmonics of how far the circle's image lies off the ellipse, in units of its semi-axes; false out of range. */
+bool outline_residual(std::array<Dual, 5> &out, const Frame &f, Real radius, const std::array<Vector, 3> &rays)
 {
     const std::array<Dual, 6> q = conic_of(f, f.position, radius, rays);
     const Dual radial = Dual(0) - q[0] - q[2];
-    return {((q[0] + q[2]) / Dual(2) + q[5]) / radial, Dual(2) * q[3] / radial, Dual(2) * q[4] / radial,
-            (q[0] - q[2]) / Dual(2) / radial, q[1] / radial};
+    const Real size = -2 * radial.v / (radius * radius);
+    if (!(size >= LEAST_CONIC && size <= LARGEST_CONIC)) {
+        return false;
+    }
+    out = {((q[0] + q[2]) / Dual(2) + q[5]) / radial, Dual(2) * q[3] / radial, Dual(2) * q[4] / radial,
+           (q[0] - q[2]) / Dual(2) / radial, q[1] / radial};
+    return std::all_of(out.begin(), out.end(), [&](const Dual &d) { return in_range(d.v, d.d, radius); });
 }
 
 /* Centre of the inner disc's image in ray coordinates, and the disc's middle in space. */
@@ -116,7 +150,7 @@ Solved disc_centre(std::array<Dual, 2> &centre, Vector &middle, const Frame &f, 
     }
     const std::array<Dual, 6> q = conic_of(f, middle, model.inner_radius, straight);
     const Dual det = q[0] * q[2] - q[1] * q[1];
-    if (!(det.v > 0)) {
+    if (!(det.v > 0) || std::max(std::fabs(middle[0].v), std::fabs(middle[1].v)) > WIDEST * middle[2].v) {
         return Solved::domain;
     }
     centre = {(q[1] * q[4] - q[2] * q[3]) / det, (q[1] * q[3] - q[0] * q[4]) / det};
@@ -180,9 +214,16 @@ Solved add_inner(Rows &rows, const Frame &f, const Inner &inner, const Camera &c
     for (size_t i = 0; i < 2; i++) {
         std::array<Real, PARAMETERS> by; /* the disc's middle stands for the centre of its image */
         for (size_t k = 0; k < PARAMETERS; k++) {
-            by[k] = focal[i] / inner.std * (middle[i].d[k] - centre[i].v * middle[2].d[k]) / middle[2].v;
+            by[k] = (middle[i].d[k] - centre[i].v * middle[2].d[k]) / middle[2].v;
         }
-        rows.add((focal[i] * centre[i].v - measured[i]) / inner.std, by);
+        const Real off = centre[i].v - measured[i] / focal[i];
+        if (!in_range(off, by, model.rim_radius)) {
+            return Solved::domain;
+        }
+        for (Real &slope : by) {
+            slope *= focal[i] / inner.std;
+        }
+        rows.add(off * focal[i] / inner.std, by);
     }
     return Solved::ok;
 }
@@ -262,12 +303,18 @@ Joint solve_joint(const Pose &start, const Ellipse &e, const Covariance &outline
         out.solved = Solved::degenerate;
         return out;
     }
-    bool last = false;
+    out.solved = in_range(rays) ? Solved::ok : Solved::domain;
+    bool last = out.solved != Solved::ok;
     for (int step = 0; !last; step++) {
         const Frame f = frame_of(at);
         Rows rows;
         cv::Vec<double, 5> right, move;
-        add_outline(rows, outline_residual(f, model.rim_radius, rays), root);
+        std::array<Dual, 5> residual;
+        if (!in_range(at, model.rim_radius) || !outline_residual(residual, f, model.rim_radius, rays)) {
+            out.solved = Solved::domain;
+            return out;
+        }
+        add_outline(rows, residual, root);
         out.solved = inner.std > 0 ? add_inner(rows, f, inner, c, model) : Solved::ok;
         if (out.solved != Solved::ok) {
             return out;
@@ -295,6 +342,9 @@ Joint solve_joint(const Pose &start, const Ellipse &e, const Covariance &outline
                 at[k] = k < 3 ? at[k] + by : std::clamp<Real>(at[k] + by, -PI / 2, PI / 2);
             }
         }
+    }
+    if (out.solved != Solved::ok) {
+        return out;
     }
     out.covariance = normal.inv(cv::DECOMP_CHOLESKY);
     out.pose = pose_at(at);

@@ -237,7 +237,7 @@ void add_refusals(Set &set)
     add_words(set, "start-behind-camera-no-inner", Tier::must_reject, {"behind-camera"}, w);
     w = good;
     w.params[1] = q16(30);
-    add_words(set, "inner-around-the-camera", Tier::stress, {"saturation"}, w);
+    add_words(set, "inner-around-the-camera", Tier::must_reject, {"domain"}, w);
     w = good;
     w.params[13] = 0;
     add_words(set, "no-gradient", Tier::must_reject, {"degenerate"}, w);
