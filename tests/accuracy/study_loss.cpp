@@ -18,13 +18,13 @@ mirror::Task task_of(const Trial &t, const cv::Mat &image)
     const Camera &c = t.scene.camera;
     const auto q = [](double v) { return from_q16(to_q16(v)); }; /* the numbers that the library is given */
     const auto side = static_cast<uint32_t>(std::max(t.region.width, t.region.height));
-    mirror::Task task = {image,
-                         {q(c.fx_px), q(c.fy_px), q(c.cx_px), q(c.cy_px), q(c.k1), q(c.k2), q(c.p1), q(c.p2), q(c.k3)},
-                         {from_q16(t.model.rim_radius_m_q16), from_q16(t.model.inner_radius_m_q16),
-                          from_q16(t.model.inner_depth_m_q16)},
-                         {t.region.x, t.region.y, t.region.width, t.region.height},
-                         {},
-                         DROGUE_CAPACITY_FOR(side)};
+    mirror::Task task = {
+        image,
+        {q(c.fx_px), q(c.fy_px), q(c.cx_px), q(c.cy_px), q(c.k1), q(c.k2), q(c.p1), q(c.p2), q(c.k3)},
+        {from_q16(t.model.rim_radius_m_q16), from_q16(t.model.inner_radius_m_q16), from_q16(t.model.inner_depth_m_q16)},
+        {t.region.x, t.region.y, t.region.width, t.region.height},
+        {},
+        DROGUE_CAPACITY_FOR(side)};
     drogue_config_default(&task.config);
     return task;
 }
@@ -131,13 +131,14 @@ void section_loss(Report &report, const StudyOptions &options)
         mirror_alone += !counts(b.library) && counts(b.mirror);
     }
     report.section("Loss against double");
-    report.text("The library beside the same pipeline in floating point of 53 bits and more, every decision its own, from "
-                "the same edge points and pixels. Over the scenes of all conditions that both measure right, with the "
-                "orientation resolved and not as the twin: " +
-                std::to_string(both) + " of " + std::to_string(all.size()) + "; only the library does so in " +
-                std::to_string(library_alone) + ", only floating point in " + std::to_string(mirror_alone) +
-                ". A pose that is the other one's twin is off by degrees and would be all that the root of the mean "
-                "square shows. 'apart': the largest difference between the two in one scene.");
+    report.text(
+        "The library beside the same pipeline in floating point of 53 bits and more, every decision its own, from "
+        "the same edge points and pixels. Over the scenes of all conditions that both measure right, with the "
+        "orientation resolved and not as the twin: " +
+        std::to_string(both) + " of " + std::to_string(all.size()) + "; only the library does so in " +
+        std::to_string(library_alone) + ", only floating point in " + std::to_string(mirror_alone) +
+        ". A pose that is the other one's twin is off by degrees and would be all that the root of the mean "
+        "square shows. 'apart': the largest difference between the two in one scene.");
     std::vector<Report::Row> rows;
     for (int q = 0; q < 4; q++) {
         double worst = 0;
@@ -145,11 +146,14 @@ void section_loss(Report &report, const StudyOptions &options)
             if (q == 3 && relative) {
                 continue;
             }
-            const double fixed_point = rms(all, &Both::library, q, relative), real = rms(all, &Both::mirror, q, relative);
+            const double fixed_point = rms(all, &Both::library, q, relative),
+                         real = rms(all, &Both::mirror, q, relative);
             const double ratio = fixed_point / real;
             worst = std::isfinite(ratio) ? std::max(worst, ratio) : ratio;
             const bool percent = relative && q < 3;
-            rows.push_back({std::string(names[q]) + (q == 3 ? ", degrees" : percent ? ", % of the distance" : ", mm"),
+            rows.push_back({std::string(names[q]) + (q == 3    ? ", degrees"
+                                                     : percent ? ", % of the distance"
+                                                               : ", mm"),
                             significant(fixed_point * (q == 3 || percent ? 1 : 1000), 5),
                             significant(real * (q == 3 || percent ? 1 : 1000), 5), fixed(ratio, 5),
                             q == 3 || percent ? significant(most_apart(all, q), 2) : "-"});

@@ -97,8 +97,8 @@ int stage_select(stage_run *r)
         !arcs_of_words(arcs, edges, (const int16_t *)r->in[0].data, points, stage_input32(r, 1), count)) {
         return CONF_E_MALFORMED;
     }
-    *out++ = (int32_t)drogue_select_arcs(&choices, hull, edges, arcs, (uint32_t)count, &mask, p[3],
-                                         (drogue_polarity)p[4]);
+    *out++ =
+        (int32_t)drogue_select_arcs(&choices, hull, edges, arcs, (uint32_t)count, &mask, p[3], (drogue_polarity)p[4]);
     for (k = 0; k < 4 * DROGUE_ARC_CHOICES; k++) {
         const uint32_t arc = choices.arc[k / DROGUE_ARC_CHOICES][k % DROGUE_ARC_CHOICES];
         *out++ = arc == DROGUE_NO_ARC ? -1 : (int32_t)arc;

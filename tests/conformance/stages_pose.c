@@ -198,7 +198,7 @@ int stage_frame(stage_run *r)
     model.inner_radius_m_q16 = model_words[1];
     model.inner_depth_m_q16 = model_words[2];
     if (frame == NULL || detail == NULL || covariance == NULL || std == NULL ||
-         !stage_workspace(r, &workspace, region.width_px)) {
+        !stage_workspace(r, &workspace, region.width_px)) {
         return CONF_E_MEMORY;
     }
     drogue_config_default(&config);

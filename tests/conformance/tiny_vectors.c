@@ -227,8 +227,8 @@ static void pose_cases(const conf_array *image)
     static const int32_t model[] = {22938, 6554, 16384};
     static const int32_t region[] = {2, 3, 90, 90};
     /* model, start, inner part, shading and blur, gradient, steps */
-    static const int32_t joint[] = {22938, 7864,     16384,    -10000, -20000, 850000, 9000, -8000,
-                                    0,     0,        0,        249037, 7864,   300000, 5};
+    static const int32_t joint[] = {22938, 7864, 16384, -10000, -20000, 850000, 9000, -8000,
+                                    0,     0,    0,     249037, 7864,   300000, 5};
     static int32_t bins[64];
     static int32_t filter[26];
     static int32_t frames[4 * 10];

@@ -110,8 +110,11 @@ int main()
         test_workspace_free(&t);
     }
     std::printf("otsu_threshold: %d cases of equal variances decided otherwise by OpenCV\n", equals);
-    const bool ok[] = {threshold.finish(RANDOM_IMAGES), opencv.finish(RANDOM_IMAGES), mask.finish(250),
-                       area.finish(250), centroid.finish(150),
+    const bool ok[] = {threshold.finish(RANDOM_IMAGES),
+                       opencv.finish(RANDOM_IMAGES),
+                       mask.finish(250),
+                       area.finish(250),
+                       centroid.finish(150),
                        discs.finish()};
     return std::all_of(std::begin(ok), std::end(ok), [](bool v) { return v; }) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

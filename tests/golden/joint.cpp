@@ -34,7 +34,8 @@ struct Task {
 bool random_task(Task *t, int seed, const drogue_camera *camera)
 {
     std::uint64_t rng = 0x701Du + (std::uint64_t)seed;
-    const double z = rng_real(&rng, 2, 25), tilt = rng_real(&rng, 0, TEST_PI / 6), turn = rng_real(&rng, 0, 2 * TEST_PI);
+    const double z = rng_real(&rng, 2, 25), tilt = rng_real(&rng, 0, TEST_PI / 6),
+                 turn = rng_real(&rng, 0, 2 * TEST_PI);
     const double centre[3] = {z * rng_real(&rng, -0.3, 0.3), z * rng_real(&rng, -0.3, 0.3), z};
     const double normal[3] = {std::sin(tilt) * std::cos(turn), std::sin(tilt) * std::sin(turn), std::cos(tilt)};
     ellipse_real e;
@@ -77,8 +78,9 @@ bool random_task(Task *t, int seed, const drogue_camera *camera)
 
 int main()
 {
-    Report position("joint_position", 4), axis("joint_axis", 4), angles("joint_angles", 4), covariance("joint_covariance", 1),
-        outline("outline_covariance", 1), chi2("joint_chi2", 4), disc("inner_disc", 4);
+    Report position("joint_position", 4), axis("joint_axis", 4), angles("joint_angles", 4),
+        covariance("joint_covariance", 1), outline("outline_covariance", 1), chi2("joint_chi2", 4),
+        disc("inner_disc", 4);
     const drogue_camera camera = pinhole(1465.5, 1465.5, 1023.5, 1023.5);
     const reference::Camera model_camera = {1465.5L, 1465.5L, 1023.5L, 1023.5L};
     for (int seed = 1; seed <= 1500; seed++) {
@@ -111,8 +113,8 @@ int main()
         outline.add(packed_difference(t.outline.covariance, expected_outline), name);
         const reference::Joint expected = reference::solve_joint(
             start, e, expected_outline,
-            {{real_of_q16(t.inner.x_px_q16), real_of_q16(t.inner.y_px_q16)}, real_of_q16(t.inner.std_px_q16)}, model_camera,
-            model, 5);
+            {{real_of_q16(t.inner.x_px_q16), real_of_q16(t.inner.y_px_q16)}, real_of_q16(t.inner.std_px_q16)},
+            model_camera, model, 5);
         if (drogue_joint_solve(&got, &t.start, &t.outline, &t.inner, &camera, &t.model, 5) != DROGUE_OK ||
             expected.solved != reference::Solved::ok) {
             position.add(INFINITY, name);
@@ -133,12 +135,13 @@ int main()
         chi2.add(65536 * std::fabs(found - expected.chi2) / (1 + expected.chi2), name);
         const bool seen = reference::disc_image(expected_image, start, model_camera, model) == reference::Solved::ok;
         if (drogue_inner_disc_image(&image, &t.start, &camera, &t.model) == DROGUE_OK && seen) {
-            disc.add(std::max({lsb_from(image.xc_px_q16, expected_image.xc), lsb_from(image.yc_px_q16, expected_image.yc),
-                               lsb_from(image.a_px_q16, expected_image.a), lsb_from(image.b_px_q16, expected_image.b)}),
-                     name);
+            disc.add(
+                std::max({lsb_from(image.xc_px_q16, expected_image.xc), lsb_from(image.yc_px_q16, expected_image.yc),
+                          lsb_from(image.a_px_q16, expected_image.a), lsb_from(image.b_px_q16, expected_image.b)}),
+                name);
         }
     }
-    const bool ok[] = {position.finish(1400),   axis.finish(1400), angles.finish(1400), covariance.finish(1400),
-                       outline.finish(1400), chi2.finish(1400), disc.finish(1400)};
+    const bool ok[] = {position.finish(1400), axis.finish(1400), angles.finish(1400), covariance.finish(1400),
+                       outline.finish(1400),  chi2.finish(1400), disc.finish(1400)};
     return std::all_of(std::begin(ok), std::end(ok), [](bool v) { return v; }) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

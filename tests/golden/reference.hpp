@@ -59,11 +59,11 @@ struct Ellipse {
 
 struct DarkDisc {
     bool found;
-    int which;          /* index of the expected disc that fits better */
-    int threshold;      /* of the disc looked in when nothing is found, else of the window about the part */
-    int64_t area;       /* sum of darkness, rounded */
-    Real x, y, spread;  /* centroid of darkness, and between those at a lower and a higher threshold */
-    Real fill;          /* area over that of the expected disc */
+    int which;         /* index of the expected disc that fits better */
+    int threshold;     /* of the disc looked in when nothing is found, else of the window about the part */
+    int64_t area;      /* sum of darkness, rounded */
+    Real x, y, spread; /* centroid of darkness, and between those at a lower and a higher threshold */
+    Real fill;         /* area over that of the expected disc */
 };
 /* The dark disc where one of the expected ones lies, as drogue/centroid.h describes it. */
 DarkDisc dark_disc(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area,

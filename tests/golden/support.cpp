@@ -91,8 +91,8 @@ int main()
                 {q.x_q5 / 32.0L, q.y_q5 / 32.0L}, (reference::Real)q.gx, (reference::Real)q.gy};
             drogue_band_point p;
             reference::BandPoint m = reference::band_point(e, s.model_band, edge);
-            const bool own = drogue_ellipse_band_holds(&p, &frame, &s.band, drogue_edge_x_q16(&q), drogue_edge_y_q16(&q),
-                                                       q.gx, q.gy) != 0;
+            const bool own = drogue_ellipse_band_holds(&p, &frame, &s.band, drogue_edge_x_q16(&q),
+                                                       drogue_edge_y_q16(&q), q.gx, q.gy) != 0;
             const bool open = m.undecided(3e-4L * s.model_band.width + 1e-4L, 3e-4L);
             undecided += open;
             decided += !open;
@@ -119,10 +119,10 @@ int main()
         for (std::size_t i = 0; i < points.size(); i++) {
             drogue_band_point p;
             const drogue_edge &q = s.edges[i];
-            if (drogue_ellipse_band_holds(&p, &frame, &s.band, drogue_edge_x_q16(&q), drogue_edge_y_q16(&q), q.gx, q.gy)) {
+            if (drogue_ellipse_band_holds(&p, &frame, &s.band, drogue_edge_x_q16(&q), drogue_edge_y_q16(&q), q.gx,
+                                          q.gy)) {
                 drogue_support_add(&added, &p, &q);
-                reference::support_add(expected, points[i],
-                                       {{0, 0}, (reference::Real)q.gx, (reference::Real)q.gy});
+                reference::support_add(expected, points[i], {{0, 0}, (reference::Real)q.gx, (reference::Real)q.gy});
             }
         }
         double most = added.points == (std::uint32_t)expected.points ? 0 : INFINITY;
@@ -136,7 +136,7 @@ int main()
     }
     std::printf("band_member: %ld of %ld points nearer to a limit than the library resolves\n", undecided,
                 undecided + decided);
-    const bool ok[] = {held.finish(400), bins.finish(400), covered.finish(400), bright.finish(400), sums.finish(400),
-                       undecided * 100 < decided};
+    const bool ok[] = {held.finish(400),   bins.finish(400), covered.finish(400),
+                       bright.finish(400), sums.finish(400), undecided * 100 < decided};
     return std::all_of(std::begin(ok), std::end(ok), [](bool v) { return v; }) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

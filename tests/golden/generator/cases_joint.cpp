@@ -69,8 +69,7 @@ Words words_of(const Job &j, accuracy::Random &random)
         return std::fabs(pair[i].yaw - truth.yaw) + std::fabs(pair[i].pitch - truth.pitch);
     };
     const size_t nearer = apart(1) < apart(0) ? 1 : 0;
-    const reference::Pose start =
-        j.start_at_truth ? truth : pair[j.other != 0 ? 1 - nearer : nearer];
+    const reference::Pose start = j.start_at_truth ? truth : pair[j.other != 0 ? 1 - nearer : nearer];
     (void)reference::disc_image(disc, truth, c, {j.rim, j.inner, j.depth});
     Words w;
     w.ellipse = {q16(static_cast<double>(e.xc)), q16(static_cast<double>(e.yc)), q16(static_cast<double>(e.a)),

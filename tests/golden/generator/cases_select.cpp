@@ -76,8 +76,8 @@ void add_lengths(Set &set)
     for (const int length : {9, 10, 11, 12, 19, 20, 21}) {
         Job j;
         j.arcs = {corner(120, 60, 11, 10, 0), corner(160, 30, length - 4, 5, 0)};
-        add_job(set, "farther-of-" + std::to_string(length) + "-to-20", Tier::boundary, {"farthest-arc", "threshold-met"},
-                j);
+        add_job(set, "farther-of-" + std::to_string(length) + "-to-20", Tier::boundary,
+                {"farthest-arc", "threshold-met"}, j);
     }
     Job j;
     j.arcs = {corner(150, 40, 6, 6, 0), corner(120, 60, 6, 6, 0), corner(130, 50, 6, 6, 0)};

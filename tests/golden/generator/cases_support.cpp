@@ -23,10 +23,9 @@ struct Job {
 
     void add(double x, double y, double gx, double gy)
     {
-        edges.insert(edges.end(), {static_cast<int64_t>(std::floor(32 * x + 0.5)),
-                                   static_cast<int64_t>(std::floor(32 * y + 0.5)),
-                                   static_cast<int64_t>(std::floor(gx + 0.5)),
-                                   static_cast<int64_t>(std::floor(gy + 0.5))});
+        edges.insert(edges.end(),
+                     {static_cast<int64_t>(std::floor(32 * x + 0.5)), static_cast<int64_t>(std::floor(32 * y + 0.5)),
+                      static_cast<int64_t>(std::floor(gx + 0.5)), static_cast<int64_t>(std::floor(gy + 0.5))});
     }
 };
 
@@ -81,7 +80,9 @@ void add_polarities(Set &set)
         {"changes-in-every-bin", [](double t) { return static_cast<int>(t * 16 / CV_PI) % 2 == 0 ? 300 : -300; }},
         {"few-bright-bins", [](double t) { return t > 1 && t < 1.3 ? -300 : 300; }},
         {"dark-with-a-gap", [](double t) { return t > 2 && t < 3.5 ? 0 : 300; }},
-        {"change-across-a-gap", [](double t) { return t > 2 && t < 3.5 ? 0 : t < 2 ? 300 : -300; }},
+        {"change-across-a-gap", [](double t) { return t > 2 && t < 3.5 ? 0
+                                                      : t < 2          ? 300
+                                                                       : -300; }},
         {"quarter-alone", [](double t) { return t > 4 && t < 5.6 ? -300 : 0; }},
         {"nothing", [](double) { return 0; }},
     };

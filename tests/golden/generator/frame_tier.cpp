@@ -52,8 +52,7 @@ void put_ellipse(int64_t *at, const Ellipse &e)
 
 void put_pose(int64_t *at, const reference::Pose &p)
 {
-    const Real v[8] = {p.position[0], p.position[1], p.position[2], p.axis[0],
-                       p.axis[1],     p.axis[2],     p.yaw,         p.pitch};
+    const Real v[8] = {p.position[0], p.position[1], p.position[2], p.axis[0], p.axis[1], p.axis[2], p.yaw, p.pitch};
     std::transform(v, v + 8, at, q16);
 }
 
@@ -136,8 +135,7 @@ public:
     Sensitivity(const mirror::Task &task, const mirror::Result &result, const mirror::Features &features,
                 const drogue_result *library)
         : task_(task), result_(result), features_(features), library_(library), own_(words_of(result)), sum_(ALL, 0)
-    {
-    }
+    {}
 
     /* Change one number by so much, up and down. */
     template <class Member> void move(Member member, Real by)
@@ -230,14 +228,13 @@ mirror::Task task_of(const std::vector<Array> &in)
 {
     const Words &c = in[1].words, &m = in[2].words, &g = in[3].words;
     const bool fits = g[2] >= 1 && g[2] <= DROGUE_MAX_SIDE; /* as the stage's workspace */
-    mirror::Task t = {image_of(in[0]),
-                      {real(c[0]), real(c[1]), real(c[2]), real(c[3]), real(c[4]), real(c[5]), real(c[6]), real(c[7]),
-                       real(c[8])},
-                      {real(m[0]), real(m[1]), real(m[2])},
-                      {g[0], g[1], g[2], g[3]},
-                      {},
-                      {static_cast<uint32_t>(fits ? g[2] : DROGUE_MAX_SIDE), CONF_MAX_EDGES, CONF_MAX_LABELS,
-                       CONF_MAX_ARCS}};
+    mirror::Task t = {
+        image_of(in[0]),
+        {real(c[0]), real(c[1]), real(c[2]), real(c[3]), real(c[4]), real(c[5]), real(c[6]), real(c[7]), real(c[8])},
+        {real(m[0]), real(m[1]), real(m[2])},
+        {g[0], g[1], g[2], g[3]},
+        {},
+        {static_cast<uint32_t>(fits ? g[2] : DROGUE_MAX_SIDE), CONF_MAX_EDGES, CONF_MAX_LABELS, CONF_MAX_ARCS}};
     drogue_config_default(&t.config);
     return t;
 }

@@ -5,9 +5,9 @@
 #include <map>
 
 #include "case.hpp"
-#include "tiers.hpp"
 #include "reference.hpp"
 #include "stages.h"
+#include "tiers.hpp"
 
 #include "drogue/drogue.h"
 
@@ -137,10 +137,9 @@ Tiers constraints_tier(const Arrays &in, const Arrays &exact)
     for (size_t i = 0; i < in[0].words.size(); i += 2) {
         points.emplace_back(as_int(in[0].words[i]), as_int(in[0].words[i + 1]));
     }
-    const reference::Verdict v =
-        reference::judge_arc(points, as_int(p[0]), as_int(p[1]), as_int(p[3]), p[4]);
-    return {{like(exact[0], {q16(v.rect.xc), q16(v.rect.yc), q16(v.rect.shorter), q16(v.rect.longer), v.quadrant,
-                             v.polarity}),
+    const reference::Verdict v = reference::judge_arc(points, as_int(p[0]), as_int(p[1]), as_int(p[3]), p[4]);
+    return {{like(exact[0],
+                  {q16(v.rect.xc), q16(v.rect.yc), q16(v.rect.shorter), q16(v.rect.longer), v.quadrant, v.polarity}),
              {4, 4, 4, 4, 0, 0}}};
 }
 

@@ -93,8 +93,7 @@ Tiers select_tier(const Arrays &in, const Arrays &exact)
         for (int64_t k = 0; k < in[1].words[i]; k++, at += 2) {
             pixels.emplace_back(as_int(in[0].words[at]), as_int(in[0].words[at + 1]));
         }
-        verdicts.push_back(
-            reference::judge_arc(pixels, as_int(p[0]), as_int(p[1]), as_int(in[1].words[i + 1]), p[3]));
+        verdicts.push_back(reference::judge_arc(pixels, as_int(p[0]), as_int(p[1]), as_int(in[1].words[i + 1]), p[3]));
         counts.push_back(static_cast<int>(pixels.size()));
     }
     Words words = {DROGUE_E_NO_ARCS};
@@ -180,8 +179,7 @@ Tiers disc_tier(const Arrays &in, const Arrays &exact)
         return {{like(exact[0], {DROGUE_E_NO_DARK_PART, d.threshold, 0, 0, 0, 0, 0, 0}), {}}};
     }
     /* each centroid is rounded once, their distance twice from those */
-    return {{like(exact[0],
-                  {DROGUE_OK, d.threshold, d.area, q16(d.x), q16(d.y), q16(d.spread), d.which, q16(d.fill)}),
+    return {{like(exact[0], {DROGUE_OK, d.threshold, d.area, q16(d.x), q16(d.y), q16(d.spread), d.which, q16(d.fill)}),
              {0, 0, 0, 1, 1, 3, 0, 1 + lsb(65536 * d.fill * 0x1p-16L)}}};
 }
 
@@ -193,11 +191,10 @@ Tiers joint_tier(const Arrays &in, const Arrays &exact)
     const reference::Model model = {real(p[0]), real(p[1]), real(p[2])};
     const reference::Inner inner = {{real(p[8]), real(p[9])}, real(p[10])};
     const Real yaw = real(p[6]), pitch = real(p[7]);
-    const reference::Pose start = {
-        {real(p[3]), real(p[4]), real(p[5])},
-        {std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch)},
-        yaw,
-        pitch};
+    const reference::Pose start = {{real(p[3]), real(p[4]), real(p[5])},
+                                   {std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch)},
+                                   yaw,
+                                   pitch};
     reference::Support support;
     for (size_t k = 0; k < reference::SUPPORT_BINS; k++) {
         support.count[k][0] = as_int(bins[2 * k]);

@@ -263,9 +263,8 @@ Result measure(const Task &task, const drogue_result *library, Features *feature
     out.seen = out.outline.ellipse;
     out.seen.xc += out.region.x;
     out.seen.yc += out.region.y;
-    out.ideal = distorts(camera)
-                    ? ideal_of(out.outline, *f.front, task.config, f.follow, camera, out.region.tl())
-                    : out.seen;
+    out.ideal =
+        distorts(camera) ? ideal_of(out.outline, *f.front, task.config, f.follow, camera, out.region.tl()) : out.seen;
     if (!out.ideal.ok) {
         out.status = DROGUE_E_NO_ELLIPSE;
         return out;

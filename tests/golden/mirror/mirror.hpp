@@ -41,8 +41,8 @@ struct Features {
     reference::Ellipse ideal;
     reference::Support support;
     reference::Inner inner; /* undistorted */
-    bool trusted; /* in its place and of its size */
-    bool placed;  /* there, and its lens undone */
+    bool trusted;           /* in its place and of its size */
+    bool placed;            /* there, and its lens undone */
 };
 
 /* Follows the library's documented method from edge points to the pose.

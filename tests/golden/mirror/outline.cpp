@@ -73,8 +73,7 @@ class Finder {
 public:
     Finder(const FrontEnd &front, const drogue_mask &mask, const drogue_config &config, const Follow &follow)
         : front_(front), mask_(mask), config_(config), follow_(follow)
-    {
-    }
+    {}
     drogue_status find(Outline &out);
 
 private:
@@ -276,10 +275,9 @@ Outline Finder::refine(const Candidate &candidate) const
 {
     Outline o;
     decisions_round rounds[DECISIONS_MAX];
-    const int known = follow_.library != nullptr
-                          ? decisions_of_refit(rounds, &front_.workspace, &front_.list, &mask_, &config_,
-                                               candidate.arcs.data())
-                          : 0;
+    const int known = follow_.library != nullptr ? decisions_of_refit(rounds, &front_.workspace, &front_.list, &mask_,
+                                                                      &config_, candidate.arcs.data())
+                                                 : 0;
     o.arcs = candidate.arcs;
     o.quality = candidate.quality;
     o.ellipse = candidate.rated.ellipse;
@@ -349,10 +347,9 @@ drogue_status Finder::find(Outline &out)
         if (trial.cover > out.cover) {
             out = trial;
         }
-        all.erase(std::remove_if(all.begin(), all.end(),
-                                 [&](const Candidate &c) {
-                                     return reference::same_ellipse(c.rated, chosen.rated, cluster());
-                                 }),
+        all.erase(std::remove_if(
+                      all.begin(), all.end(),
+                      [&](const Candidate &c) { return reference::same_ellipse(c.rated, chosen.rated, cluster()); }),
                   all.end());
     }
     return out.cover >= real(config_.min_cover_q16) ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
