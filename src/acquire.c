@@ -11,8 +11,21 @@ static void clip(int32_t *at, int32_t *length, int32_t limit)
     *length = (int32_t)((end > limit ? limit : end) - *at);
 }
 
-/* How much a result is worth that leaves the orientation open: 0 without a pose. */
-static int32_t worth(const drogue_result *r) { return r->status != DROGUE_OK ? 0 : r->has_inner ? 2 : 1; }
+/* How much a result is worth: 0 without a pose; more with an inner part; most when that decides, and then by cover. */
+static int32_t worth(const drogue_result *r)
+{
+    if (r->status != DROGUE_OK) {
+        return 0;
+    }
+    return r->orientation_resolved ? 3 + r->cover_q16 : r->has_inner ? 2 : 1;
+}
+
+/* Good enough not to look at what scored less? */
+static int settles(const drogue_result *r, const drogue_model *model)
+{
+    return r->status == DROGUE_OK && (r->orientation_resolved || model->inner_radius_m_q16 == 0) &&
+           r->cover_q16 >= DROGUE_Q16(8, 10);
+}
 
 /* Sightings in a part of the image, in coordinates of the image. */
 static drogue_status search_part(drogue_search *search, const drogue_image *image, const drogue_region *part)
@@ -71,7 +84,7 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     for (i = 0; i <= search->count; i++) {
         (void)drogue_measure(out, workspace, config, camera, model, image,
                              i < search->count ? &search->best[i].region : &whole);
-        if (out->status == DROGUE_OK && (out->orientation_resolved || model->inner_radius_m_q16 == 0)) {
+        if (settles(out, model)) {
             return DROGUE_OK;
         }
         if (worth(out) > most) {

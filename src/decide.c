@@ -51,7 +51,10 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
         drogue_joint_solve(&other, &poses[1 - *index], outline, inner, camera, model, OTHER_STEPS);
     near_status = drogue_joint_solve(best, &poses[*index], outline, inner, camera, model, STEPS);
     if (far_status == DROGUE_OK && (near_status != DROGUE_OK || drogue_wide_cmp(other.chi2, best->chi2) < 0)) {
-        const drogue_joint turned = *best;
+        drogue_joint turned = other;
+        if (near_status == DROGUE_OK) {
+            turned = *best;
+        }
         *index = 1 - *index;
         if (drogue_joint_solve(best, &poses[*index], outline, inner, camera, model, STEPS) != DROGUE_OK) {
             return 0;

@@ -118,14 +118,15 @@ static drogue_status find_outline(drogue_result *out, frame *f, drogue_workspace
     return status == DROGUE_OK ? drogue_outline_find(&f->outline, workspace, &out->list, &f->mask, config) : status;
 }
 
-/* An outline that the ring mask cuts is looked for once more in a region that suits it; when that fails, what was found
- * first stands. */
+/* An outline that the ring mask cuts is looked for once more in a region that suits it; when that fails or covers less,
+ * what was found first stands. */
 static drogue_status find_outline_twice(drogue_result *out, frame *f, drogue_workspace *workspace,
                                         const drogue_config *config, const drogue_image *image,
                                         const drogue_region *region)
 {
     drogue_region better;
     drogue_status second;
+    drogue_q16 cover_q16;
     const drogue_status first = find_outline(out, f, workspace, config, image, region);
     if ((first != DROGUE_OK && first != DROGUE_E_NO_ELLIPSE) ||
         f->outline.cover_q16 < drogue_shr_round_s64(config->min_cover_q16, 1) ||
@@ -136,8 +137,11 @@ static drogue_status find_outline_twice(drogue_result *out, frame *f, drogue_wor
     if ((uint32_t)better.width_px > workspace->capacity.width_px) {
         return first;
     }
+    cover_q16 = first == DROGUE_OK ? f->outline.cover_q16 : 0;
     second = find_outline(out, f, workspace, config, image, &better);
-    return second == DROGUE_OK ? second : find_outline(out, f, workspace, config, image, region);
+    return second == DROGUE_OK && f->outline.cover_q16 >= cover_q16
+               ? second
+               : find_outline(out, f, workspace, config, image, region);
 }
 
 static drogue_q16 shifted(drogue_q16 v_px_q16, int32_t by_px)
@@ -180,14 +184,15 @@ static drogue_status find_inner(drogue_result *out, drogue_joint_inner *weighed,
     weighed->std_px_q16 = drogue_inner_std(&out->inner, &expected[which], &f->outline.ellipse, config);
     weighed->x_px_q16 = out->inner.x_px_q16 = shifted(out->inner.x_px_q16, out->region.x_px);
     weighed->y_px_q16 = out->inner.y_px_q16 = shifted(out->inner.y_px_q16, out->region.y_px);
-    if (drogue_undistort_point(&weighed->x_px_q16, &weighed->y_px_q16, camera) != DROGUE_OK) {
-        weighed->std_px_q16 = 0;
+    if (drogue_undistort_point(&weighed->x_px_q16, &weighed->y_px_q16, camera) != DROGUE_OK ||
+        drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, model->inner_depth_m_q16, camera) !=
+            DROGUE_OK) {
+        weighed->std_px_q16 = 0; /* beyond the lens model, or behind the camera for one of the poses */
         return DROGUE_OK;
     }
-    status = drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, model->inner_depth_m_q16, camera);
     out->ambiguity_q16 = choice.ambiguity_q16;
     *nearer = choice.index;
-    return status;
+    return DROGUE_OK;
 }
 
 static drogue_status measure(drogue_result *out, drogue_workspace *workspace, const drogue_config *config,

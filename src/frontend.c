@@ -23,6 +23,9 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
     }
     frontend->workspace = workspace;
     frontend->config = *config;
+    if (!config->use_ring) {
+        frontend->config.ring = drogue_mask_of_size(width_px, height_px); /* rows of it are prepared all the same */
+    }
     frontend->width_px = width_px;
     frontend->height_px = height_px;
     frontend->rows_in = 0;

@@ -43,16 +43,17 @@ static void normal_equations(drogue_wide normal[CHI2 + 1], const drogue_joint_ro
 
 static int64_t limited(int64_t v, int64_t most) { return v > most ? most : v < -most ? -most : v; }
 
-/* One step, at most half a radian in each angle. Returns whether it is small. */
+/* One step, at most half a radian in each angle and half the distance in each direction, so that no step passes the
+ * camera. Returns whether it is small. */
 static int move(drogue_joint_state *s, const drogue_wide step[FIT])
 {
-    const int64_t farthest = DROGUE_JOINT_ONE << 17; /* from where the model refuses */
+    const int64_t half = s->position[2] / 2;
     const int64_t right_angle = drogue_shl_s64(DROGUE_Q16_HALF_PI, DROGUE_JOINT_FRAC - 16);
     const int64_t near = s->position[2] >> SETTLED_BITS;
     int is_small = 1;
     int k;
     for (k = 0; k < FIT; k++) {
-        const int64_t v = limited(drogue_wide_to_s64(step[k], DROGUE_JOINT_FRAC), farthest);
+        const int64_t v = limited(drogue_wide_to_s64(step[k], DROGUE_JOINT_FRAC), k < 3 ? half : DROGUE_JOINT_ONE);
         const int64_t least = k < 3 ? near : DROGUE_JOINT_ONE >> SETTLED_BITS;
         is_small = is_small && v <= least && v >= -least;
         if (k < 3) {

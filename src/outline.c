@@ -300,7 +300,9 @@ static void refit(drogue_outline *outline, const context *x)
         drogue_support_judge(&outline->support, &outline->ellipse, config->polarity, 1);
         outline->band_px_q16 = width;
         if (round == config->refit_rounds) {
-            outline->support.bright_bins = bright_bins; /* that of the sums */
+            if (outline->support.bright_bins != bright_bins) { /* the sums are those of the bins before */
+                drogue_support_judge_as(&outline->support, &outline->ellipse, bright_bins, 1);
+            }
         } else if (outline->support.bright_bins == bright_bins) {
             if (collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, config)) {
                 break;
@@ -387,6 +389,7 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
                                 config->min_short_px_q16, config->polarity);
     if (status == DROGUE_OK) {
         status = best_outline(out, candidates, all_candidates(candidates, &c), &c);
+        out->fitted = out->ellipse;
         if (out->ellipse.b_px_q16 > 0) {
             undo_blur(&out->ellipse, config);
         }
@@ -402,7 +405,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     const drogue_band band = drogue_band_of(outline->band_px_q16, config->refit_cos_q16);
     drogue_support support = outline->support;
     drogue_ellipse_frame frame;
-    drogue_ellipse centre = outline->ellipse;
+    drogue_ellipse centre = outline->fitted;
     collection c;
     drogue_status status;
     uint32_t members;
@@ -410,7 +413,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     memset(out, 0, sizeof *out);
     centre.xc_px_q16 = drogue_q16_add(centre.xc_px_q16, drogue_q16_from_int(x_px));
     centre.yc_px_q16 = drogue_q16_add(centre.yc_px_q16, drogue_q16_from_int(y_px));
-    if (drogue_ellipse_frame_of(&frame, &outline->ellipse) != DROGUE_OK ||
+    if (drogue_ellipse_frame_of(&frame, &outline->fitted) != DROGUE_OK ||
         drogue_undistort_point(&centre.xc_px_q16, &centre.yc_px_q16, camera) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }

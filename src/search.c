@@ -30,7 +30,7 @@ drogue_status drogue_search_init(drogue_search *search, void *memory, size_t byt
 
 drogue_status drogue_search_begin(drogue_search *search, int32_t width_px)
 {
-    uint8_t *next = search->memory + width_px; /* a row of pixels waits before it */
+    uint8_t *next;
     int k;
     if (width_px < 1 || search->memory == NULL) {
         return DROGUE_E_ARGUMENT;
@@ -38,6 +38,7 @@ drogue_status drogue_search_begin(drogue_search *search, int32_t width_px)
     if (width_px > search->capacity_px) {
         return DROGUE_E_WORKSPACE;
     }
+    next = search->memory + width_px; /* a row of pixels waits before it */
     search->width_px = width_px;
     search->rows_in = 0;
     search->count = 0;

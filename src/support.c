@@ -98,34 +98,55 @@ static uint32_t changes(uint32_t bright, uint32_t covered)
     return count + (first != last);
 }
 
+/* Bins that hold enough points of a polarity. */
+static uint32_t enough_points(const drogue_support *support, const drogue_ellipse *ellipse, int polarity,
+                              uint32_t stride)
+{
+    uint32_t enough = 0;
+    uint32_t k;
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        const int64_t needed_q16 = drogue_shr_round_s64(bin_length_q16(ellipse, k) * DROGUE_Q16(35, 100), 16);
+        const int64_t points = (int64_t)support->bin[k].count[polarity] * stride;
+        enough |= (uint32_t)(points * DROGUE_Q16_ONE >= needed_q16) << k;
+    }
+    return enough;
+}
+
+void drogue_support_judge_as(drogue_support *support, const drogue_ellipse *ellipse, uint32_t bright_bins,
+                             uint32_t stride)
+{
+    const uint32_t covered = (enough_points(support, ellipse, DROGUE_POLARITY_DARK, stride) & ~bright_bins) |
+                             (enough_points(support, ellipse, DROGUE_POLARITY_BRIGHT, stride) & bright_bins);
+    const uint32_t lost = changes(bright_bins, covered);
+    support->bright_bins = bright_bins;
+    support->covered = popcount(covered) > lost ? popcount(covered) - lost : 0;
+}
+
 void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse, drogue_polarity polarity,
                           uint32_t stride)
 {
-    uint32_t enough[2] = {0, 0};
     uint32_t majority = 0;
     uint32_t pure;
-    uint32_t mixed;
-    uint32_t turns;
     uint32_t k;
-    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        const uint32_t *count = support->bin[k].count;
-        const int64_t needed_q16 = drogue_shr_round_s64(bin_length_q16(ellipse, k) * DROGUE_Q16(35, 100), 16);
-        enough[0] |= (uint32_t)((int64_t)count[0] * stride * DROGUE_Q16_ONE >= needed_q16) << k;
-        enough[1] |= (uint32_t)((int64_t)count[1] * stride * DROGUE_Q16_ONE >= needed_q16) << k;
-        majority |= (uint32_t)(count[1] > count[0]) << k;
-    }
-    support->bright_bins = popcount(enough[1]) > popcount(enough[0]) ? 0xFFFFFFFFu : 0;
     if (polarity != DROGUE_POLARITY_BOTH) {
-        support->bright_bins = polarity == DROGUE_POLARITY_BRIGHT ? 0xFFFFFFFFu : 0;
+        drogue_support_judge_as(support, ellipse, polarity == DROGUE_POLARITY_BRIGHT ? UINT32_MAX : 0, stride);
+        return;
     }
-    pure = popcount(support->bright_bins != 0 ? enough[1] : enough[0]);
-    support->covered = pure;
-    if (polarity == DROGUE_POLARITY_BOTH) {
-        mixed = popcount(enough[0] | enough[1]);
-        turns = changes(majority, enough[0] | enough[1]);
-        if (mixed > pure + turns) {
-            support->bright_bins = majority;
-            support->covered = mixed - turns;
-        }
+    drogue_support_judge_as(support, ellipse, UINT32_MAX, stride);
+    pure = support->covered;
+    drogue_support_judge_as(support, ellipse, 0, stride);
+    if (pure > support->covered) {
+        support->bright_bins = UINT32_MAX;
+        support->covered = pure;
+    }
+    pure = support->bright_bins;
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        majority |= (uint32_t)(support->bin[k].count[1] > support->bin[k].count[0]) << k;
+    }
+    k = support->covered;
+    drogue_support_judge_as(support, ellipse, majority, stride);
+    if (support->covered <= k) {
+        support->bright_bins = pure;
+        support->covered = k;
     }
 }

@@ -32,11 +32,11 @@ void drogue_track_config_default(drogue_track_config *config)
     config->angle_std_rad_q16 = DROGUE_Q16(2, 100);
     config->position_floor_m_q16 = DROGUE_Q16(1, 10000);
     config->angle_floor_rad_q16 = DROGUE_Q16(5, 10000);
-    config->process_std_q16[DROGUE_X] = DROGUE_Q16(1, 4);
-    config->process_std_q16[DROGUE_Y] = DROGUE_Q16(1, 4);
+    config->process_std_q16[DROGUE_X] = DROGUE_Q16(2, 10);
+    config->process_std_q16[DROGUE_Y] = DROGUE_Q16(2, 10);
     config->process_std_q16[DROGUE_Z] = DROGUE_Q16(2, 100);
-    config->process_std_q16[DROGUE_PITCH] = DROGUE_Q16(16, 100);
-    config->process_std_q16[DROGUE_YAW] = DROGUE_Q16(16, 100);
+    config->process_std_q16[DROGUE_PITCH] = DROGUE_Q16(15, 100);
+    config->process_std_q16[DROGUE_YAW] = DROGUE_Q16(15, 100);
     config->start_rate_std_q16 = DROGUE_Q16(2, 1);
     config->start_accel_std_q16 = DROGUE_Q16(2, 1);
 }

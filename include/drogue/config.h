@@ -56,7 +56,8 @@ typedef struct drogue_config {
 
 void drogue_config_default(drogue_config *config);
 
-/* 1 when every threshold is within its range: counts and lengths not negative, fit_error to 1024 px, low <= high, shares in [0, 1],
+/* 1 when every threshold is within its range: counts and lengths not negative, fit_error to 1024 px, low <= high, shares of a
+ * length or of points in [0, 1] (max_size, inner_gate and max_fill without upper bound),
  * refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px and its uncertainty in [0, 16] px^2, min_fill <=
  * max_fill, outline_shading in (0, 1024], inner_std in (0, 16] px, inner_std_spread in [0, 16], k1 in [0, 64], k2 in [0, 1). */
 int drogue_config_valid(const drogue_config *config);

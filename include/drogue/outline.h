@@ -15,6 +15,7 @@ extern "C" {
 
 typedef struct drogue_outline {
     drogue_ellipse ellipse;   /* region coordinates, as seen, what blur took put back */
+    drogue_ellipse fitted;    /* the same before the blur was put back: what edge points lie about */
     drogue_quality quality;   /* of the winning candidate; l_r is the share of the circumference that is covered */
     drogue_polarity polarity; /* DARK, BRIGHT, or BOTH where the background crosses the drogue's own grey */
     uint32_t arcs[4];         /* the arcs of the winning candidate by quadrant: index, or DROGUE_NO_ARC */

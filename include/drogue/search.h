@@ -61,8 +61,9 @@ void drogue_search_row(drogue_search *search, const uint8_t *row);
 int32_t drogue_search_end(drogue_search *search);
 
 /* Search a part of an image, and measure what was sighted in order of score, last the part itself with the drogue
- * about its middle, until an inner part decides the orientation. When none does, the result is the first with an inner
- * part, or else the first with a pose.
+ * about its middle, until an inner part decides the orientation within an outline covered to four fifths. When none
+ * does, the result is the one of most cover whose inner part decides; or else the first with an inner part; or else the
+ * first with a pose.
  *
  *  out     as of drogue_measure()
  *  region  where to search; NULL: the whole image

@@ -43,6 +43,10 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
 void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse, drogue_polarity polarity,
                           uint32_t stride);
 
+/* The same with the bins' polarities given. */
+void drogue_support_judge_as(drogue_support *support, const drogue_ellipse *ellipse, uint32_t bright_bins,
+                             uint32_t stride);
+
 /* Count a point that belongs; when its polarity is that of its bin also add it to the sums, and return 1. */
 int drogue_support_add(drogue_support *support, const drogue_band_point *point, const drogue_edge *edge);
 

@@ -49,8 +49,8 @@ typedef struct drogue_track_config {
     drogue_q16 angle_std_rad_q16;    /* 0.02 rad: of pitch and yaw */
     drogue_q16 position_floor_m_q16; /* 0.0001 m: added in quadrature to the measured standard deviations */
     drogue_q16 angle_floor_rad_q16;  /* 0.0005 rad */
-    drogue_q16 process_std_q16[DROGUE_PARAMETERS]; /* change of acceleration per frame: x, y 0.25 m/s^2, z 0.02 m/s^2,
-                                                      angles 0.16 rad/s^2; for a swing to 1.1 m at 0.2 Hz and an
+    drogue_q16 process_std_q16[DROGUE_PARAMETERS]; /* change of acceleration per frame: x, y 0.2 m/s^2, z 0.02 m/s^2,
+                                                      angles 0.15 rad/s^2; for a swing to 1.1 m at 0.2 Hz and an
                                                       approach at constant speed, 25 to 50 frames a second */
     drogue_q16 start_rate_std_q16;                 /* 2 m/s and rad/s: of the unknown rate at the start */
     drogue_q16 start_accel_std_q16;                /* 2 m/s^2 and rad/s^2 */

@@ -134,12 +134,8 @@ Pose Motion::at(double seconds) const
 {
     const double yaw_per_m = 0.15; /* rad */
     const double pitch_at_rest = 0.08;
-    const double span = from_m - to_m;
-    double covered = speed_mps * seconds;
-    if (shuttle) {
-        covered = std::fmod(covered, 2 * span);
-        covered = covered > span ? 2 * span - covered : covered;
-    }
+    const double half = (from_m - to_m) / 2;
+    const double covered = shuttle ? half * (1 - std::cos(speed_mps * seconds / half)) : speed_mps * seconds;
     const double x = amplitude_m * std::sin(turns_to_rad * 0.2 * seconds + phase_rad);
     const double y = 0.7 * amplitude_m * std::sin(turns_to_rad * 0.15 * seconds + 1.3 * phase_rad + 1);
     return {{x, y, from_m - covered}, axis_of(yaw_per_m * x, pitch_at_rest + yaw_per_m * y)};

@@ -17,7 +17,7 @@ namespace accuracy {
 struct Motion {
     double amplitude_m = 0.5;
     double from_m = 25; /* distance at time 0 */
-    double to_m = 4;    /* where the approach stops; back and forth between the two when 'shuttle' is set */
+    double to_m = 4;    /* where the approach stops; with 'shuttle' a swing between the two, speed its peak */
     double speed_mps = 1.5;
     bool shuttle = false;
     double phase_rad = 0;

@@ -85,6 +85,7 @@ bool study(const Arguments &a)
     section_pose_noise(report, options);
     section_approach(report, options);
     section_table5(report, options);
+    section_search(report, options);
     section_sequences(report, options);
     section_boards(report, options);
     if (a.options.cache.empty()) {

@@ -38,8 +38,8 @@ SequenceOptions approach_of(const Level &level, const StudyOptions &options, uin
     o.motion.amplitude_m = level.amplitude_m;
     o.motion.phase_rad = static_cast<double>(index);
     if (options.quick) {
-        o.motion.from_m = 20;
-        o.motion.to_m = 16;
+        o.motion.from_m = 25;
+        o.motion.to_m = 20;
     }
     o.scene.look = level.look;
     o.scene.background = level.background;
@@ -191,7 +191,7 @@ void blanked(Report &report, const SequenceRun &run)
         blank += f.blanked;
     }
     report.text("A run of " + std::to_string(run.frames.size()) +
-                " frames, back and forth between 25 and 10 m in "
+                " frames, swinging between 25 and 10 m in "
                 "moderate turbulence, with " +
                 std::to_string(blank) + " frames blanked at random: " + std::to_string(c.tracked) + " tracked, " +
                 std::to_string(c.coasted) + " coasted through, " + std::to_string(c.gated) +

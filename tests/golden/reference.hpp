@@ -145,6 +145,8 @@ struct Support {
 bool support_add(Support &s, const BandPoint &p, const Edge &edge);
 /* Polarity of the bins and how many are covered, from the counts; polarity 2: either. */
 void support_judge(Support &s, const Ellipse &e, int polarity, int stride);
+/* How many bins are covered by points of the given polarities. */
+void support_judge_as(Support &s, const Ellipse &e, uint32_t bright, int stride);
 /* Points that cover a bin, not rounded. */
 Real support_needed(const Ellipse &e, int bin);
 

@@ -337,9 +337,11 @@ Joint solve_joint(const Pose &start, const Ellipse &e, const Covariance &outline
                 small = small && std::fabs(move[k]) <= (k < 3 ? static_cast<double>(at[2]) : 1) * 0x1p-20;
             }
             last = last || small;
+            const Real half = std::fabs(at[2]) / 2; /* no step passes the camera */
             for (size_t k = 0; k < PARAMETERS; k++) {
-                const Real by = k < 3 ? move[static_cast<int>(k)] : std::clamp(move[static_cast<int>(k)], -0.5, 0.5);
-                at[k] = k < 3 ? at[k] + by : std::clamp<Real>(at[k] + by, -PI / 2, PI / 2);
+                const Real by = move[static_cast<int>(k)];
+                at[k] = k < 3 ? at[k] + std::clamp(by, -half, half)
+                              : std::clamp(at[k] + std::clamp<Real>(by, -0.5L, 0.5L), -PI / 2, PI / 2);
             }
         }
     }

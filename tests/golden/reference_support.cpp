@@ -80,24 +80,31 @@ Real support_needed(const Ellipse &e, int bin)
     return 0.35L * (e.b + (e.a - e.b) * sine * sine) * 2 * PI / SUPPORT_BINS;
 }
 
+void support_judge_as(Support &s, const Ellipse &e, uint32_t bright, int stride)
+{
+    uint32_t covered = 0;
+    for (int k = 0; k < SUPPORT_BINS; k++) {
+        const int count = s.count[static_cast<size_t>(k)][bright >> k & 1];
+        covered |= static_cast<uint32_t>(count * stride >= support_needed(e, k)) << k;
+    }
+    s.bright = bright;
+    s.covered = std::max(0, set_bits(covered) - changes(bright, covered));
+}
+
 void support_judge(Support &s, const Ellipse &e, int polarity, int stride)
 {
-    uint32_t enough[2] = {0, 0}, majority = 0;
+    uint32_t majority = 0;
     for (int k = 0; k < SUPPORT_BINS; k++) {
         const auto &count = s.count[static_cast<size_t>(k)];
-        for (size_t i = 0; i < 2; i++) {
-            enough[i] |= static_cast<uint32_t>(count[i] * stride >= support_needed(e, k)) << k;
-        }
         majority |= static_cast<uint32_t>(count[1] > count[0]) << k;
     }
-    const bool bright = polarity == 2 ? set_bits(enough[1]) > set_bits(enough[0]) : polarity == 1;
-    s.bright = bright ? UINT32_MAX : 0;
-    s.covered = set_bits(enough[bright ? 1 : 0]);
-    const uint32_t either = enough[0] | enough[1];
-    const int turns = changes(majority, either);
-    if (polarity == 2 && set_bits(either) - turns > s.covered) {
-        s.bright = majority;
-        s.covered = set_bits(either) - turns;
+    support_judge_as(s, e, polarity == 1 ? UINT32_MAX : 0, stride);
+    for (const uint32_t other : {UINT32_MAX, majority}) {
+        Support t = s;
+        support_judge_as(t, e, other, stride);
+        if (polarity == 2 && t.covered > s.covered) {
+            s = t;
+        }
     }
 }
 

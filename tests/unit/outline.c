@@ -417,7 +417,7 @@ START_TEST(undistorted_without_points)
     list.edge_count = 0;
     ck_assert_int_eq(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, 0, 0),
                      DROGUE_E_TOO_FEW_POINTS);
-    memset(&out.ellipse, 0, sizeof out.ellipse);
+    memset(&out.fitted, 0, sizeof out.fitted);
     ck_assert_int_eq(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, 0, 0),
                      DROGUE_E_DEGENERATE);
     test_workspace_free(&t);

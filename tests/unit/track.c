@@ -54,7 +54,7 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.position_floor_m_q16, q16_of(0.0001));
     ck_assert_int_eq(c.angle_floor_rad_q16, q16_of(0.0005));
     for (k = 0; k < DROGUE_PARAMETERS; k++) {
-        ck_assert_int_eq(c.process_std_q16[k], q16_of(k < 2 ? 0.25 : k == 2 ? 0.02 : 0.16));
+        ck_assert_int_eq(c.process_std_q16[k], q16_of(k < 2 ? 0.2 : k == 2 ? 0.02 : 0.15));
     }
     ck_assert_int_eq(c.start_rate_std_q16, q16_of(2));
     ck_assert_int_eq(c.start_accel_std_q16, q16_of(2));

@@ -232,8 +232,6 @@ void add_refusals(Set &set)
     w = good;
     w.params[5] = q16(-9);
     add_words(set, "start-behind-camera", Tier::must_reject, {"behind-camera"}, w);
-    w.params[10] = 0;
-    add_words(set, "start-behind-camera-no-inner", Tier::must_reject, {"behind-camera"}, w);
     w = good;
     w.params[1] = q16(30);
     add_words(set, "inner-around-the-camera", Tier::must_reject, {"domain"}, w);

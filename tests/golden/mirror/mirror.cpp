@@ -92,14 +92,14 @@ drogue_status outline_twice(Result &out, Frame &f, const Task &task, const drogu
     if (better[2] > static_cast<int64_t>(task.capacity.width_px)) {
         return status;
     }
-    for (const std::array<int64_t, 4> &again : {better, task.region}) { /* when that fails, the first stands */
-        out.outline = Outline();
-        const drogue_status second = outline_in(out, f, task, again, library != nullptr);
-        if (second == DROGUE_OK || again == task.region) {
-            return second;
-        }
+    const Real first = status == DROGUE_OK ? cover : 0;
+    out.outline = Outline();
+    const drogue_status second = outline_in(out, f, task, better, library != nullptr);
+    if (second == DROGUE_OK && out.outline.cover >= first) {
+        return second;
     }
-    return status;
+    out.outline = Outline(); /* what was found first stands */
+    return outline_in(out, f, task, task.region, library != nullptr);
 }
 
 bool distorts(const reference::Camera &c) { return c.k1 != 0 || c.k2 != 0 || c.p1 != 0 || c.p2 != 0 || c.k3 != 0; }
@@ -208,13 +208,11 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
         out.status = DROGUE_E_DOMAIN;
         return;
     }
-    if (f.placed) {
-        if (!reference::choose(pair, f.inner.at, task.model.inner_depth, task.camera, choice)) {
-            out.status = DROGUE_E_BEHIND_CAMERA;
-            out.ambiguity = 0;
-            return;
-        }
+    const bool placed = f.placed && reference::choose(pair, f.inner.at, task.model.inner_depth, task.camera, choice);
+    if (placed) {
         out.ambiguity = choice.ambiguity;
+    } else {
+        choice.index = 0;
     }
     if (!reference::outline_covariance(outline, f.ideal, f.support, real(config.outline_shading_q16),
                                        real(config.optics_blur_std_px2_q16))) {
@@ -223,7 +221,7 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
     }
     const auto nearer = static_cast<size_t>(choice.index);
     Together t = {{}, nearer, false, false};
-    if (f.trusted) {
+    if (f.trusted && placed) {
         t = solve_together(pair, nearer, f, outline, task, library);
     }
     if (!t.agree) {

@@ -298,7 +298,9 @@ Outline Finder::refine(const Candidate &candidate) const
         const uint32_t summed = s.bright;
         reference::support_judge(s, o.ellipse, config_.polarity, 1);
         const bool last = round == static_cast<int>(config_.refit_rounds), turned = s.bright != summed;
-        s.bright = last ? summed : s.bright;
+        if (last && turned) {
+            reference::support_judge_as(s, o.ellipse, summed, 1);
+        }
         o.support = s;
         o.band = band.width;
         if (last || turned) { /* turned: once more, with the polarities that the counts show */
@@ -407,6 +409,7 @@ drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mas
         out.cover = 0;
         out.ellipse = {0, 0, 0, 0, 0, false};
     } else {
+        out.fitted = out.ellipse;
         undo_blur(out.ellipse, config);
     }
     return status;
@@ -416,16 +419,16 @@ Ellipse ideal_of(const Outline &outline, const FrontEnd &front, const drogue_con
                  const reference::Camera &camera, cv::Point origin)
 {
     const Ellipse none = {0, 0, 0, 0, 0, false};
-    Point centre = {outline.ellipse.xc + origin.x, outline.ellipse.yc + origin.y};
+    Point centre = {outline.fitted.xc + origin.x, outline.fitted.yc + origin.y};
     if (!reference::undistort(camera, centre)) {
         return none;
     }
     decisions_round library = {};
     if (follow.library != nullptr) {
-        library.ellipse = follow.library->ellipse;
+        library.ellipse = follow.library->fitted;
         library.band = drogue_band_of(follow.library->band_px_q16, config.refit_cos_q16);
     }
-    const std::vector<BandPoint> points = collect(outline.ellipse, {outline.band, real(config.refit_cos_q16)}, front,
+    const std::vector<BandPoint> points = collect(outline.fitted, {outline.band, real(config.refit_cos_q16)}, front,
                                                   follow.library != nullptr ? &library : nullptr);
     std::vector<Point> straight;
     size_t members = 0;

@@ -45,7 +45,7 @@ struct Follow {
 
 /* An outline: its ellipse in region coordinates, the arcs it came from. */
 struct Outline {
-    reference::Ellipse ellipse;
+    reference::Ellipse ellipse, fitted; /* with and without what blur took put back */
     reference::Quality quality;
     int polarity = 0;
     std::array<uint32_t, 4> arcs;
