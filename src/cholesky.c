@@ -2,7 +2,15 @@
 /* Cholesky factorisation of matrices up to 5 x 5. */
 #include "drogue/cholesky.h"
 
+#include <string.h>
+
 #define PIVOT_BITS 40 /* a pivot this many bits below its diagonal entry is rounding */
+
+/* b -= a c */
+static void subtract_product(drogue_wide *b, const drogue_wide *a, const drogue_wide *c)
+{
+    *b = drogue_wide_sub(*b, drogue_wide_mul(*a, *c));
+}
 
 drogue_status drogue_cholesky_factor(drogue_wide *a, int n)
 {
@@ -13,7 +21,7 @@ drogue_status drogue_cholesky_factor(drogue_wide *a, int n)
         for (i = j; i < n; i++) {
             drogue_wide sum = a[DROGUE_PACKED(i, j)];
             for (k = 0; k < j; k++) {
-                sum = drogue_wide_sub(sum, drogue_wide_mul(a[DROGUE_PACKED(i, k)], a[DROGUE_PACKED(j, k)]));
+                subtract_product(&sum, &a[DROGUE_PACKED(i, k)], &a[DROGUE_PACKED(j, k)]);
             }
             if (i > j) {
                 a[DROGUE_PACKED(i, j)] = drogue_wide_div(sum, a[DROGUE_PACKED(j, j)]);
@@ -27,14 +35,27 @@ drogue_status drogue_cholesky_factor(drogue_wide *a, int n)
     return DROGUE_OK;
 }
 
-/* Solve L x = b in place. */
-static void forward(drogue_wide *b, const drogue_wide *l, int n)
+/* Solve L x = b in place, b being 0 before 'first'. */
+static void forward(drogue_wide *b, const drogue_wide *l, int n, int first)
 {
     int i;
     int k;
-    for (i = 0; i < n; i++) {
-        for (k = 0; k < i; k++) {
-            b[i] = drogue_wide_sub(b[i], drogue_wide_mul(l[DROGUE_PACKED(i, k)], b[k]));
+    for (i = first; i < n; i++) {
+        for (k = first; k < i; k++) {
+            subtract_product(&b[i], &l[DROGUE_PACKED(i, k)], &b[k]);
+        }
+        b[i] = drogue_wide_div(b[i], l[DROGUE_PACKED(i, i)]);
+    }
+}
+
+/* Solve L' x = b in place, down to x[first]. */
+static void backward(drogue_wide *b, const drogue_wide *l, int n, int first)
+{
+    int i;
+    int k;
+    for (i = n - 1; i >= first; i--) {
+        for (k = i + 1; k < n; k++) {
+            subtract_product(&b[i], &l[DROGUE_PACKED(k, i)], &b[k]);
         }
         b[i] = drogue_wide_div(b[i], l[DROGUE_PACKED(i, i)]);
     }
@@ -42,15 +63,8 @@ static void forward(drogue_wide *b, const drogue_wide *l, int n)
 
 void drogue_cholesky_solve(drogue_wide *b, const drogue_wide *l, int n)
 {
-    int i;
-    int k;
-    forward(b, l, n);
-    for (i = n - 1; i >= 0; i--) {
-        for (k = i + 1; k < n; k++) {
-            b[i] = drogue_wide_sub(b[i], drogue_wide_mul(l[DROGUE_PACKED(k, i)], b[k]));
-        }
-        b[i] = drogue_wide_div(b[i], l[DROGUE_PACKED(i, i)]);
-    }
+    forward(b, l, n, 0);
+    backward(b, l, n, 0);
 }
 
 drogue_wide drogue_cholesky_square(const drogue_wide *b, const drogue_wide *l, int n)
@@ -58,10 +72,8 @@ drogue_wide drogue_cholesky_square(const drogue_wide *b, const drogue_wide *l, i
     drogue_wide y[DROGUE_CHOLESKY_MAX];
     drogue_wide sum = {0, 0};
     int i;
-    for (i = 0; i < n; i++) {
-        y[i] = b[i];
-    }
-    forward(y, l, n);
+    memcpy(y, b, (size_t)n * sizeof *y);
+    forward(y, l, n, 0);
     for (i = 0; i < n; i++) {
         sum = drogue_wide_add(sum, drogue_wide_mul(y[i], y[i]));
     }
@@ -74,10 +86,10 @@ void drogue_cholesky_invert(drogue_wide *inverse, const drogue_wide *l, int n)
     int i;
     int j;
     for (j = 0; j < n; j++) {
-        for (i = 0; i < n; i++) {
-            column[i] = drogue_wide_from_s64(i == j ? 1 : 0, 0);
-        }
-        drogue_cholesky_solve(column, l, n);
+        memset(column, 0, sizeof column);
+        column[j] = drogue_wide_from_s64(1, 0);
+        forward(column, l, n, j);
+        backward(column, l, n, j);
         for (i = j; i < n; i++) {
             inverse[DROGUE_PACKED(i, j)] = column[i];
         }

@@ -31,7 +31,9 @@ void drogue_config_default(drogue_config *config)
     config->recentre_cover_q16 = DROGUE_Q16(85, 100);
     config->optics_blur_px_q16 = DROGUE_Q16(6, 10);
     config->min_dark_area_px = 9;
-    config->inner_gate_q16 = DROGUE_Q16(1, 4);
+    config->min_inner_contrast = 6;
+    config->inner_gate_px_q16 = DROGUE_Q16(3, 2);
+    config->inner_gate_q16 = DROGUE_Q16(5, 100);
     config->min_fill_q16 = DROGUE_Q16(75, 100);
     config->max_fill_q16 = DROGUE_Q16(125, 100);
     config->outline_shading_q16 = DROGUE_Q16(38, 10);
@@ -59,7 +61,8 @@ int drogue_config_valid(const drogue_config *c)
            within(c->search_band_q16, 0, DROGUE_Q16_ONE) && within(c->refit_band_px_q16, 1, DROGUE_Q16(8, 1)) &&
            within(c->refit_cos_q16, 0, DROGUE_Q16_ONE) && c->refit_rounds <= 16 &&
            within(c->min_cover_q16, 0, DROGUE_Q16_ONE) && within(c->recentre_cover_q16, 0, DROGUE_Q16_ONE) &&
-           within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) && within(c->inner_gate_q16, 0, INT32_MAX) &&
+           within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) && within(c->min_inner_contrast, 0, 255) &&
+           within(c->inner_gate_px_q16, 0, INT32_MAX) && within(c->inner_gate_q16, 0, INT32_MAX) &&
            within(c->min_fill_q16, 0, c->max_fill_q16) && within(c->outline_shading_q16, 1, DROGUE_Q16(1024, 1)) &&
            within(c->optics_blur_std_px2_q16, 0, DROGUE_Q16(16, 1)) &&
            within(c->inner_std_px_q16, 1, DROGUE_Q16(16, 1)) && within(c->inner_std_share_q16, 0, DROGUE_Q16_ONE) &&

@@ -61,13 +61,13 @@ static drogue_q16 misfit(const drogue_dark_part *part, const drogue_ellipse *exp
     return drogue_sat_s32(away + (fill < 0 ? -fill : fill));
 }
 
-/* Mean grey of the pixels at or below the threshold, rounded down; the histogram is the disc's. */
-static int32_t dark_level(const uint32_t *histogram, uint8_t threshold)
+/* Mean grey of levels first .. last, rounded down; 0 when there are none. */
+static int32_t mean_level(const uint32_t *histogram, uint32_t first, uint32_t last)
 {
     uint64_t count = 0;
     uint64_t sum = 0;
     uint32_t level;
-    for (level = 0; level <= threshold; level++) {
+    for (level = first; level <= last; level++) {
         count += histogram[level];
         sum += (uint64_t)histogram[level] * level;
     }
@@ -140,9 +140,14 @@ static void weigh_about(drogue_dark_part *part, uint32_t *histogram, const drogu
     drogue_dark_part lower;
     drogue_dark_part upper;
     ramp r;
+    int32_t dark;
+    int32_t bright;
     int32_t half;
     part->threshold = drogue_disc_threshold(histogram, image, &around);
-    half = (part->threshold - dark_level(histogram, part->threshold)) / 3;
+    dark = mean_level(histogram, 0, part->threshold);
+    bright = mean_level(histogram, part->threshold + 1u, 255);
+    part->contrast = (uint8_t)(bright > dark ? bright - dark : 0);
+    half = (part->threshold - dark) / 3;
     r.range = 2 * half + 1;
     r.full = part->threshold - half;
     weigh(part, image, &window, &r);

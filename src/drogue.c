@@ -118,30 +118,43 @@ static drogue_status find_outline(drogue_result *out, frame *f, drogue_workspace
     return status == DROGUE_OK ? drogue_outline_find(&f->outline, workspace, &out->list, &f->mask, config) : status;
 }
 
-/* An outline that the ring mask cuts is looked for once more in a region that suits it; when that fails or covers less,
- * what was found first stands. */
+/* Is one ellipse about where the other is, and about as large: within a third of its semi-axis? Each in the coordinates
+ * of its own region. */
+static int about_the_same(const drogue_ellipse *e, const drogue_region *at, const drogue_ellipse *was,
+                          const drogue_region *was_at)
+{
+    const drogue_q16 most = was->a_px_q16 / 3;
+    const drogue_q16 dx =
+        drogue_sat_s32((int64_t)e->xc_px_q16 - was->xc_px_q16 + (int64_t)(at->x_px - was_at->x_px) * DROGUE_Q16_ONE);
+    const drogue_q16 dy =
+        drogue_sat_s32((int64_t)e->yc_px_q16 - was->yc_px_q16 + (int64_t)(at->y_px - was_at->y_px) * DROGUE_Q16_ONE);
+    const int64_t da = (int64_t)e->a_px_q16 - was->a_px_q16;
+    return da <= most && da >= -most && drogue_square_sum(dx, dy) <= drogue_square_sum(most, 0);
+}
+
+/* An outline that the ring mask cuts is looked for once more in a region that suits it; when that finds nothing, another
+ * one or less of it, what was found first stands. */
 static drogue_status find_outline_twice(drogue_result *out, frame *f, drogue_workspace *workspace,
                                         const drogue_config *config, const drogue_image *image,
                                         const drogue_region *region)
 {
-    drogue_region better;
-    drogue_status second;
-    drogue_q16 cover_q16;
     const drogue_status first = find_outline(out, f, workspace, config, image, region);
+    const drogue_ellipse was = f->outline.ellipse;
+    const drogue_region was_at = out->region;
+    const drogue_q16 cover_q16 = f->outline.cover_q16;
+    drogue_region better;
     if ((first != DROGUE_OK && first != DROGUE_E_NO_ELLIPSE) ||
-        f->outline.cover_q16 < drogue_shr_round_s64(config->min_cover_q16, 1) ||
-        f->outline.cover_q16 >= config->recentre_cover_q16 || ring_holds(&f->outline.ellipse, &f->mask)) {
+        cover_q16 < drogue_shr_round_s64(config->min_cover_q16, 1) || cover_q16 >= config->recentre_cover_q16 ||
+        ring_holds(&was, &f->mask)) {
         return first;
     }
-    better = region_about(&f->outline.ellipse, &out->region);
-    if ((uint32_t)better.width_px > workspace->capacity.width_px) {
-        return first;
+    better = region_about(&was, &was_at);
+    if ((uint32_t)better.width_px <= workspace->capacity.width_px &&
+        find_outline(out, f, workspace, config, image, &better) == DROGUE_OK && f->outline.cover_q16 >= cover_q16 &&
+        about_the_same(&f->outline.ellipse, &out->region, &was, &was_at)) {
+        return DROGUE_OK;
     }
-    cover_q16 = first == DROGUE_OK ? f->outline.cover_q16 : 0;
-    second = find_outline(out, f, workspace, config, image, &better);
-    return second == DROGUE_OK && f->outline.cover_q16 >= cover_q16
-               ? second
-               : find_outline(out, f, workspace, config, image, region);
+    return find_outline(out, f, workspace, config, image, region);
 }
 
 static drogue_q16 shifted(drogue_q16 v_px_q16, int32_t by_px)
@@ -178,9 +191,9 @@ static drogue_status find_inner(drogue_result *out, drogue_joint_inner *weighed,
                                                        config->min_dark_area_px, expected, count)
                                : DROGUE_E_NO_DARK_PART;
     if (status != DROGUE_OK) {
+        memset(&out->inner, 0, sizeof out->inner);
         return status == DROGUE_E_NO_DARK_PART ? DROGUE_OK : status;
     }
-    out->has_inner = 1;
     weighed->std_px_q16 = drogue_inner_std(&out->inner, &expected[which], &f->outline.ellipse, config);
     weighed->x_px_q16 = out->inner.x_px_q16 = shifted(out->inner.x_px_q16, out->region.x_px);
     weighed->y_px_q16 = out->inner.y_px_q16 = shifted(out->inner.y_px_q16, out->region.y_px);
@@ -188,10 +201,15 @@ static drogue_status find_inner(drogue_result *out, drogue_joint_inner *weighed,
         drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, model->inner_depth_m_q16, camera) !=
             DROGUE_OK) {
         weighed->std_px_q16 = 0; /* beyond the lens model, or behind the camera for one of the poses */
+        choice.index = 0;
+    }
+    *nearer = choice.index;
+    if (weighed->std_px_q16 == 0) { /* something dark: it orders the poses, but is not to be believed */
+        memset(&out->inner, 0, sizeof out->inner);
         return DROGUE_OK;
     }
+    out->has_inner = 1;
     out->ambiguity_q16 = choice.ambiguity_q16;
-    *nearer = choice.index;
     return DROGUE_OK;
 }
 

@@ -38,14 +38,20 @@ static drogue_status eliminate_linear_part(drogue_wide scatter[21])
 /* Products of wide numbers through pointers: what they need of the stack is given back. */
 static void minus_product(drogue_wide *out, const drogue_wide *a, const drogue_wide *b, const drogue_wide *c)
 {
-    *out = drogue_wide_neg(drogue_wide_mul(*a, drogue_wide_mul(*b, *c)));
+    drogue_wide_product(out, b, c);
+    drogue_wide_product(out, a, out);
+    out->mantissa = -out->mantissa;
 }
 
 /* a b 2^shift - c d */
 static void difference(drogue_wide *out, const drogue_wide *a, const drogue_wide *b, int shift, const drogue_wide *c,
                        const drogue_wide *d)
 {
-    *out = drogue_wide_sub(drogue_wide_scale(drogue_wide_mul(*a, *b), shift), drogue_wide_mul(*c, *d));
+    drogue_wide second;
+    drogue_wide_product(&second, c, d);
+    drogue_wide_product(out, a, b);
+    *out = drogue_wide_scale(*out, shift);
+    drogue_wide_difference(out, out, &second);
 }
 
 /* Cholesky factor of the reduced scatter matrix, inverted: lower triangle h with h M h' = 1. Pivots are judged against

@@ -52,12 +52,13 @@ drogue_q16 drogue_inner_std(const drogue_dark_part *part, const drogue_ellipse *
     const drogue_q16 fill = drogue_dark_fill(part, expected);
     const uint64_t away2_q32 = drogue_square_sum(drogue_q16_sub(part->x_px_q16, expected->xc_px_q16),
                                                  drogue_q16_sub(part->y_px_q16, expected->yc_px_q16));
-    const drogue_q16 gate = drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16);
+    const drogue_q16 gate =
+        drogue_q16_add(config->inner_gate_px_q16, drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16));
     const int64_t share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
     const int64_t least = config->inner_std_px_q16;
     const int64_t spread = drogue_q16_mul(part->spread_px_q16, config->inner_std_spread_q16);
-    if (fill < config->min_fill_q16 || fill > config->max_fill_q16 || away2_q32 > drogue_square_sum(gate, 0) ||
-        !within_outline(part, expected, outline)) {
+    if (part->contrast < config->min_inner_contrast || fill < config->min_fill_q16 || fill > config->max_fill_q16 ||
+        away2_q32 > drogue_square_sum(gate, 0) || !within_outline(part, expected, outline)) {
         return 0;
     }
     return drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)(share * share + least * least + spread * spread)));

@@ -7,6 +7,17 @@
 
 void drogue_moments_clear(drogue_moments *m) { memset(m, 0, sizeof *m); }
 
+/* Add a product of four coordinates. */
+static void accumulate(drogue_s128 *sum, int64_t product)
+{
+    const uint64_t low = sum->lo + (uint64_t)product;
+    const int32_t change = (int32_t)(low < (uint64_t)product) + (int32_t)(product >> 63);
+    sum->lo = low;
+    if (change != 0) { /* seldom */
+        sum->hi += change;
+    }
+}
+
 void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
 {
     const int32_t xx = x * x; /* at most 2^30 */
@@ -24,11 +35,11 @@ void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
     m->m21 += (int64_t)xx * y;
     m->m12 += (int64_t)yy * x;
     m->m03 += (int64_t)yy * y;
-    m->m40 = drogue_s128_add(m->m40, drogue_s128_from_s64((int64_t)xx * xx));
-    m->m31 = drogue_s128_add(m->m31, drogue_s128_from_s64((int64_t)xx * xy));
-    m->m22 = drogue_s128_add(m->m22, drogue_s128_from_s64((int64_t)xx * yy));
-    m->m13 = drogue_s128_add(m->m13, drogue_s128_from_s64((int64_t)xy * yy));
-    m->m04 = drogue_s128_add(m->m04, drogue_s128_from_s64((int64_t)yy * yy));
+    accumulate(&m->m40, (int64_t)xx * xx);
+    accumulate(&m->m31, (int64_t)xx * xy);
+    accumulate(&m->m22, (int64_t)xx * yy);
+    accumulate(&m->m13, (int64_t)xy * yy);
+    accumulate(&m->m04, (int64_t)yy * yy);
 }
 
 void drogue_moments_add(drogue_moments *m, const drogue_moments *other)

@@ -181,13 +181,21 @@ typedef struct collection {
     int frac_bits;
 } collection;
 
+/* Offset in the fit's unit, rounded; beyond 16 bits where a - b leaves 32. */
+static int32_t in_unit(drogue_q16 a, drogue_q16 b, int frac_bits)
+{
+    const int64_t d = (int64_t)a - b;
+    const int32_t low = (int32_t)d;
+    return low == d ? (low >> (16 - frac_bits)) + ((low >> (15 - frac_bits)) & 1) : INT32_MAX;
+}
+
 static void collect_point(collection *c, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
-    int64_t x = drogue_shr_round_s64((int64_t)x_px_q16 - c->x_px_q16, 16 - c->frac_bits);
-    int64_t y = drogue_shr_round_s64((int64_t)y_px_q16 - c->y_px_q16, 16 - c->frac_bits);
+    const int32_t x = in_unit(x_px_q16, c->x_px_q16, c->frac_bits);
+    const int32_t y = in_unit(y_px_q16, c->y_px_q16, c->frac_bits);
     DROGUE_NOTE("outline: point in the fit's unit", x, 16);
     if (c->moments.n < DROGUE_MAX_FIT_POINTS && x >= INT16_MIN && x <= INT16_MAX && y >= INT16_MIN && y <= INT16_MAX) {
-        drogue_moments_add_point(&c->moments, (int32_t)x, (int32_t)y);
+        drogue_moments_add_point(&c->moments, x, y);
     }
 }
 
@@ -217,15 +225,26 @@ static drogue_status collection_fit(drogue_ellipse *out, const collection *c)
  * at those of the minor. */
 static void undo_blur(drogue_ellipse *e, const drogue_config *config)
 {
-    const drogue_wide own = drogue_wide_from_q16(config->smooth ? DROGUE_Q16(82, 100) : DROGUE_Q16(32, 100));
-    drogue_wide blur = drogue_wide_from_q16(config->optics_blur_px_q16);
-    drogue_wide half = drogue_wide_add(own, drogue_wide_scale(drogue_wide_mul(blur, blur), -1));
-    drogue_wide a = drogue_wide_from_q16(e->a_px_q16);
-    drogue_wide b = drogue_wide_from_q16(e->b_px_q16);
-    e->a_px_q16 =
-        drogue_wide_to_q16(drogue_wide_add(a, drogue_wide_div(drogue_wide_mul(half, a), drogue_wide_mul(b, b))));
-    e->b_px_q16 =
-        drogue_wide_to_q16(drogue_wide_add(b, drogue_wide_div(drogue_wide_mul(half, b), drogue_wide_mul(a, a))));
+    drogue_wide own;
+    drogue_wide half;
+    drogue_wide axis[2];
+    drogue_wide grown[2];
+    int k;
+    drogue_wide_set_q16(&own, config->smooth ? DROGUE_Q16(82, 100) : DROGUE_Q16(32, 100));
+    drogue_wide_set_q16(&half, config->optics_blur_px_q16);
+    drogue_wide_product(&half, &half, &half);
+    half = drogue_wide_scale(half, -1);
+    drogue_wide_sum(&half, &own, &half);
+    drogue_wide_set_q16(&axis[0], e->a_px_q16);
+    drogue_wide_set_q16(&axis[1], e->b_px_q16);
+    for (k = 0; k < 2; k++) {
+        drogue_wide_product(&own, &axis[1 - k], &axis[1 - k]);
+        drogue_wide_product(&grown[k], &half, &axis[k]);
+        drogue_wide_quotient(&grown[k], &grown[k], &own);
+        drogue_wide_sum(&grown[k], &axis[k], &grown[k]);
+    }
+    e->a_px_q16 = drogue_wide_to_q16(grown[0]);
+    e->b_px_q16 = drogue_wide_to_q16(grown[1]);
 }
 
 /* Collect the edge points that belong to an outline: counts by bin, residuals and moments. Bins have the polarity that

@@ -77,6 +77,8 @@ static void follow_rays(rays *r, const drogue_search_level *level, const drogue_
         int32_t best = 0;
         int32_t t;
         r->used[i] = 0;
+        r->x_q4[i] = 0;
+        r->y_q4[i] = 0;
         for (t = first; t <= last + 1; t++) {
             const int32_t x = disc->x + ((ray_x[i] * t + 128) >> 8);
             const int32_t y = disc->y + ((ray_y[i] * t + 128) >> 8);

@@ -222,6 +222,38 @@ drogue_wide drogue_wide_sqrt(drogue_wide v)
     return wide_finish((int64_t)root, (exponent - 61) / 2);
 }
 
+void drogue_wide_set(drogue_wide *out, int64_t v, int32_t exponent) { *out = drogue_wide_from_s64(v, exponent); }
+
+void drogue_wide_set_q16(drogue_wide *out, drogue_q16 v) { *out = drogue_wide_from_s64(v, -16); }
+
+void drogue_wide_sum(drogue_wide *out, const drogue_wide *a, const drogue_wide *b) { *out = drogue_wide_add(*a, *b); }
+
+void drogue_wide_difference(drogue_wide *out, const drogue_wide *a, const drogue_wide *b)
+{
+    *out = drogue_wide_sub(*a, *b);
+}
+
+void drogue_wide_product(drogue_wide *out, const drogue_wide *a, const drogue_wide *b)
+{
+    *out = drogue_wide_mul(*a, *b);
+}
+
+void drogue_wide_quotient(drogue_wide *out, const drogue_wide *a, const drogue_wide *b)
+{
+    *out = drogue_wide_div(*a, *b);
+}
+
+void drogue_wide_root(drogue_wide *out, const drogue_wide *a) { *out = drogue_wide_sqrt(*a); }
+
+void drogue_wide_products(drogue_wide *out, const drogue_wide *a, const drogue_wide *b, const drogue_wide *c,
+                          const drogue_wide *d)
+{
+    drogue_wide second;
+    drogue_wide_product(&second, c, d);
+    drogue_wide_product(out, a, b);
+    drogue_wide_sum(out, out, &second);
+}
+
 int drogue_wide_cmp(drogue_wide a, drogue_wide b)
 {
     int64_t d = drogue_wide_sub(a, b).mantissa;

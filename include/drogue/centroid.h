@@ -21,9 +21,10 @@ uint8_t drogue_otsu(const uint32_t *histogram);
 typedef struct drogue_dark_part {
     drogue_q16 x_px_q16; /* centroid, region coordinates */
     drogue_q16 y_px_q16;
-    uint32_t area_px;
+    uint32_t area_px;         /* pixels; drogue_dark_disc_find(): sum of darkness */
     drogue_q16 spread_px_q16; /* drogue_dark_disc_find(): between the centroids at a lower and a higher threshold */
-    uint8_t threshold;        /* Otsu's, grey level */
+    uint8_t threshold; /* Otsu's of the disc, or of drogue_dark_disc_find()'s window about the part; grey level */
+    uint8_t contrast;  /* drogue_dark_disc_find(): between the means of what is above and below it, grey levels */
 } drogue_dark_part;
 
 /* Find the largest dark component inside a disc.

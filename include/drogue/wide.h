@@ -109,6 +109,18 @@ static inline drogue_wide drogue_wide_scale(drogue_wide v, int n)
     return v;
 }
 
+/* The same through pointers, where many in a row would cost code and stack by their copies. 'out' may be an operand. */
+void drogue_wide_set(drogue_wide *out, int64_t v, int32_t exponent); /* v * 2^exponent */
+void drogue_wide_set_q16(drogue_wide *out, drogue_q16 v);
+void drogue_wide_sum(drogue_wide *out, const drogue_wide *a, const drogue_wide *b);
+void drogue_wide_difference(drogue_wide *out, const drogue_wide *a, const drogue_wide *b);
+void drogue_wide_product(drogue_wide *out, const drogue_wide *a, const drogue_wide *b);
+void drogue_wide_quotient(drogue_wide *out, const drogue_wide *a, const drogue_wide *b);
+void drogue_wide_root(drogue_wide *out, const drogue_wide *a);
+/* a b + c d, each operation rounded */
+void drogue_wide_products(drogue_wide *out, const drogue_wide *a, const drogue_wide *b, const drogue_wide *c,
+                          const drogue_wide *d);
+
 /* Order of two numbers: -1, 0 or 1. */
 int drogue_wide_cmp(drogue_wide a, drogue_wide b);
 
