@@ -83,7 +83,7 @@ enum {
  *               -> winner: index members
  *  centroid     image; params: centre2_x centre2_y longest min_area -> part: status threshold area x y
  *  disc         image; params: centre2_x centre2_y longest min_area; expected: xc yc a b of one or two discs
- *               -> part: status threshold area x y spread which fill
+ *               -> part: status threshold area x y spread which fill contrast
  *  eigen        matrix (64 bits): a00 a01 a02 a11 a12 a22
  *               -> values: 3, matrix's unit * 2^30; vectors: 3 x 3, Q30; full (64 bits): both unrounded, vectors Q60
  *  undistort    camera: fx fy cx cy k1 k2 p1 p2 k3; points: x y

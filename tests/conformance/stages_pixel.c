@@ -176,7 +176,7 @@ int stage_disc(stage_run *r)
     const int32_t *p = stage_input32(r, 1);
     const int32_t *w = stage_input32(r, 2);
     const size_t count = r->in[2].count / 4;
-    int32_t *out = stage_output32(r, "part", 8);
+    int32_t *out = stage_output32(r, "part", 9);
     drogue_workspace workspace;
     drogue_dark_part part;
     drogue_ellipse expected[2];
@@ -209,6 +209,7 @@ int stage_disc(stage_run *r)
         out[5] = part.spread_px_q16;
         out[6] = (int32_t)which;
         out[7] = drogue_dark_fill(&part, &expected[which]);
+        out[8] = part.contrast;
     }
     return 0;
 }

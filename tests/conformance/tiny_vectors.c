@@ -173,7 +173,7 @@ static void pixel_cases(const conf_array *image)
     in[1] = words("params", 32, COUNT(centroid), centroid);
     write_case("centroid", in, 2, "[0, 0, 0, 1, 1]", 3, 1);
     in[2] = words("expected", 32, COUNT(expected), expected);
-    write_case("disc", in, 3, "[0, 0, 0, 1, 1, 3, 0, 1]", 3, 1);
+    write_case("disc", in, 3, "[0, 0, 0, 1, 1, 3, 0, 1, 0]", 3, 1);
 }
 
 static void geometry_cases(void)

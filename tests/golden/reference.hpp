@@ -63,6 +63,7 @@ struct DarkDisc {
     int threshold;     /* of the disc looked in when nothing is found, else of the window about the part */
     int64_t area;      /* sum of darkness, rounded */
     Real x, y, spread; /* centroid of darkness, and between those at a lower and a higher threshold */
+    int contrast;      /* between the means above and below the threshold, each rounded down */
     Real fill;         /* area over that of the expected disc */
 };
 /* The dark disc where one of the expected ones lies, as drogue/centroid.h describes it. */

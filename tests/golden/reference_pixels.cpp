@@ -261,12 +261,15 @@ DarkDisc dark_disc(const cv::Mat &image, int centre2_x, int centre2_y, int longe
     DarkPart own = {};
     const std::vector<uint8_t> levels = levels_in(image, window(image, at, 1.6L * e.a));
     find_threshold(own, levels);
-    int64_t count = 0, sum = 0;
+    int64_t count[2] = {0, 0}, sum[2] = {0, 0};
     for (const uint8_t level : levels) {
-        count += level <= own.threshold;
-        sum += level <= own.threshold ? level : 0;
+        count[level > own.threshold]++;
+        sum[level > own.threshold] += level;
     }
-    const int half = (own.threshold - (count > 0 ? static_cast<int>(sum / count) : 0)) / 3;
+    const int dark = count[0] > 0 ? static_cast<int>(sum[0] / count[0]) : 0,
+              bright = count[1] > 0 ? static_cast<int>(sum[1] / count[1]) : 0;
+    out.contrast = std::max(0, bright - dark);
+    const int half = (own.threshold - dark) / 3;
     const int range = 2 * half + 1, full = own.threshold - half;
     weigh(at, image, window(image, at, 1.2L * e.a), full, range);
     const cv::Mat inside = window(image, at, 1.2L * e.a);

@@ -73,9 +73,9 @@ Words words_of(const mirror::Result &r)
         w[ARCS] |= r.outline.arcs[k] != DROGUE_NO_ARC ? 1 << k : 0;
     }
     w[REFIT] = r.outline.refit_points;
-    w[INNER + 3] = r.part.threshold;
     w[HAS_INNER] = r.has_inner;
     if (r.has_inner) {
+        w[INNER + 3] = r.part.threshold;
         w[INNER] = q16(r.inner.x);
         w[INNER + 1] = q16(r.inner.y);
         w[INNER + 2] = r.part.area;
@@ -218,7 +218,7 @@ void bound_poses(Bound &bound, const mirror::Task &task, const mirror::Result &r
     for (size_t i = POSE; i < RESOLVED; i++) {
         bound[i] = s.at(i, 4);
     }
-    bound[AMBIGUITY] = f.placed ? s.at(AMBIGUITY, ambiguity_error(task, f)) : 0;
+    bound[AMBIGUITY] = r.has_inner ? s.at(AMBIGUITY, ambiguity_error(task, f)) : 0;
     for (size_t i = COVARIANCE; i < ALL; i++) {
         bound[i] = s.at(i, 4 + std::fabs(static_cast<Real>(own[i])) * 0x1p-20L);
     }

@@ -167,7 +167,7 @@ Tiers disc_tier(const Arrays &in, const Arrays &exact)
 {
     const Words &p = in[1].words, &w = in[2].words;
     if (p[2] < 1 || p[2] > 1 << 20 || std::abs(p[0]) > 1 << 15 || std::abs(p[1]) > 1 << 15) {
-        return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0, 0, 0, 0, 0, 0}), {}}};
+        return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0, 0, 0, 0, 0, 0, 0}), {}}};
     }
     std::vector<reference::Ellipse> expected;
     for (size_t i = 0; i < w.size(); i += 4) {
@@ -176,11 +176,12 @@ Tiers disc_tier(const Arrays &in, const Arrays &exact)
     const reference::DarkDisc d =
         reference::dark_disc(image_of(in[0]), as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]), expected);
     if (!d.found) {
-        return {{like(exact[0], {DROGUE_E_NO_DARK_PART, d.threshold, 0, 0, 0, 0, 0, 0}), {}}};
+        return {{like(exact[0], {DROGUE_E_NO_DARK_PART, d.threshold, 0, 0, 0, 0, 0, 0, 0}), {}}};
     }
     /* each centroid is rounded once, their distance twice from those */
-    return {{like(exact[0], {DROGUE_OK, d.threshold, d.area, q16(d.x), q16(d.y), q16(d.spread), d.which, q16(d.fill)}),
-             {0, 0, 0, 1, 1, 3, 0, 1 + lsb(65536 * d.fill * 0x1p-16L)}}};
+    return {{like(exact[0], {DROGUE_OK, d.threshold, d.area, q16(d.x), q16(d.y), q16(d.spread), d.which, q16(d.fill),
+                             d.contrast}),
+             {0, 0, 0, 1, 1, 3, 0, 1 + lsb(65536 * d.fill * 0x1p-16L), 0}}};
 }
 
 Tiers joint_tier(const Arrays &in, const Arrays &exact)

@@ -92,11 +92,15 @@ drogue_status outline_twice(Result &out, Frame &f, const Task &task, const drogu
     if (better[2] > static_cast<int64_t>(task.capacity.width_px)) {
         return status;
     }
-    const Real first = status == DROGUE_OK ? cover : 0;
+    const Ellipse was = out.outline.ellipse;
+    const cv::Point was_at = out.region.tl();
     out.outline = Outline();
-    const drogue_status second = outline_in(out, f, task, better, library != nullptr);
-    if (second == DROGUE_OK && out.outline.cover >= first) {
-        return second;
+    if (outline_in(out, f, task, better, library != nullptr) == DROGUE_OK && out.outline.cover >= cover) {
+        const Ellipse &e = out.outline.ellipse; /* about the same? */
+        const Real dx = e.xc - was.xc + out.region.x - was_at.x, dy = e.yc - was.yc + out.region.y - was_at.y;
+        if (std::fabs(e.a - was.a) <= was.a / 3 && std::hypot(dx, dy) <= was.a / 3) {
+            return DROGUE_OK;
+        }
     }
     out.outline = Outline(); /* what was found first stands */
     return outline_in(out, f, task, task.region, library != nullptr);
@@ -134,9 +138,11 @@ bool trust(const Result &out, const Ellipse &expected, const drogue_config &conf
     const Ellipse &rim = out.outline.ellipse;
     const Real c = std::cos(rim.angle), s = std::sin(rim.angle), dx = out.part.x - rim.xc, dy = out.part.y - rim.yc;
     const Real u = (dx * c + dy * s) / rim.a, v = (dy * c - dx * s) / rim.b, room = 1 - expected.a / rim.b;
-    return out.part.fill >= real(config.min_fill_q16) && out.part.fill <= real(config.max_fill_q16) &&
-           std::hypot(out.part.x - expected.xc, out.part.y - expected.yc) <= real(config.inner_gate_q16) * rim.a &&
-           room > 0 && std::hypot(u, v) <= room;
+    const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * rim.a;
+    return out.part.contrast >= config.min_inner_contrast && out.part.fill >= real(config.min_fill_q16) &&
+           out.part.fill <= real(config.max_fill_q16) &&
+           std::hypot(out.part.x - expected.xc, out.part.y - expected.yc) <= gate && room > 0 &&
+           std::hypot(u, v) <= room;
 }
 
 Real inner_std(const Result &out, const Ellipse &expected, const drogue_config &config)
@@ -209,11 +215,9 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
         return;
     }
     const bool placed = f.placed && reference::choose(pair, f.inner.at, task.model.inner_depth, task.camera, choice);
-    if (placed) {
-        out.ambiguity = choice.ambiguity;
-    } else {
-        choice.index = 0;
-    }
+    out.has_inner = f.trusted && placed; /* else something dark: it orders the poses, but is not to be believed */
+    out.ambiguity = out.has_inner ? choice.ambiguity : 1;
+    choice.index = placed ? choice.index : 0;
     if (!reference::outline_covariance(outline, f.ideal, f.support, real(config.outline_shading_q16),
                                        real(config.optics_blur_std_px2_q16))) {
         out.status = DROGUE_E_DOMAIN;
@@ -221,7 +225,7 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
     }
     const auto nearer = static_cast<size_t>(choice.index);
     Together t = {{}, nearer, false, false};
-    if (f.trusted && placed) {
+    if (out.has_inner) {
         t = solve_together(pair, nearer, f, outline, task, library);
     }
     if (!t.agree) {
