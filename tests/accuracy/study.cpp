@@ -80,6 +80,7 @@ bool study(const Arguments &a)
     declare_known(report);
     section_distances(report, options);
     section_conditions(report, options);
+    section_loss(report, options);
     section_extraction(report, options);
     section_pose_noise(report, options);
     section_approach(report, options);

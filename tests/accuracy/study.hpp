@@ -31,6 +31,8 @@ void section_distances(Report &report, const StudyOptions &options);
 void section_conditions(Report &report, const StudyOptions &options);
 /* The paper's Fig. 6: extraction of the ellipse under illumination and blur. */
 void section_extraction(Report &report, const StudyOptions &options);
+/* Fixed point beside the same pipeline in floating point. */
+void section_loss(Report &report, const StudyOptions &options);
 /* Photographs of circle boards. */
 void section_boards(Report &report, const StudyOptions &options);
 /* The paper's Fig. 7 to 9, tables 1 to 3: the pose under noise on the ellipse. */

@@ -54,7 +54,7 @@ typedef struct conf_stage_report {
     uint64_t words;         /* that may differ */
 } conf_stage_report;
 
-#define CONF_MAX_STAGES 15
+#define CONF_MAX_STAGES 19
 
 typedef struct conf_run {
     conf_put put;

@@ -54,13 +54,17 @@ int stage_canny(stage_run *r);
 int stage_mask_images(stage_run *r);
 int stage_arcs(stage_run *r);
 int stage_centroid(stage_run *r);
+int stage_disc(stage_run *r);
 int stage_constraints(stage_run *r);
+int stage_select(stage_run *r);
 int stage_ellipse_fit(stage_run *r);
 int stage_quality(stage_run *r);
+int stage_support(stage_run *r);
 int stage_cluster(stage_run *r);
 int stage_eigen(stage_run *r);
 int stage_undistort(stage_run *r);
 int stage_pose(stage_run *r);
+int stage_joint(stage_run *r);
 int stage_kalman(stage_run *r);
 int stage_frame(stage_run *r);
 

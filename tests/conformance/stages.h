@@ -68,13 +68,22 @@ enum {
  *  constraints  points (16 bits): x y, px, raster order; params: centre2_x centre2_y longest class min_short
  *               -> verdict: xc yc short long (Q16), quadrant (-1: rejected), polarity (2: rejected);
  *                  distance2 (64 bits, px^2 Q32)
+ *  select       points (16 bits): x y of all arcs, one after the other, each in raster order; arcs: count class of each;
+ *               params: centre2_x centre2_y longest min_short polarity
+ *               -> choices: status, two arcs of each quadrant (-1: none)
  *  ellipse      points (16 bits): x y, unit 2^-frac_bits px; params: frac_bits -> ellipse: status xc yc a b angle
  *  quality      ellipse: xc yc a b angle; points: x y; params: fit_error k1 k2
  *               -> quality: threshold circumference, deviation of each point (0 when the status is not OK), then
  *                  fit_ratio length_ratio axis_ratio score reliability; status: of drogue_ellipse_frame_of()
+ *  support      ellipse; edges: x_q5 y_q5 gx gy each; params: half_width cos stride polarity
+ *               -> summary: status of drogue_ellipse_frame_of(), points counted at that stride, bright_bins, covered, cover
+ *                  (Q16), points in the sums; then over all edges: bins: count dark, count bright, sum (Q16) of each;
+ *                  members: bin + 32 polarity of each edge (-1: does not belong); sums (64 bits): squares (Q32) gradient
  *  cluster      candidates: xc yc a b angle reliability polarity each; config: centre a b angle round
  *               -> winner: index members
  *  centroid     image; params: centre2_x centre2_y longest min_area -> part: status threshold area x y
+ *  disc         image; params: centre2_x centre2_y longest min_area; expected: xc yc a b of one or two discs
+ *               -> part: status threshold area x y spread which fill contrast
  *  eigen        matrix (64 bits): a00 a01 a02 a11 a12 a22
  *               -> values: 3, matrix's unit * 2^30; vectors: 3 x 3, Q30; full (64 bits): both unrounded, vectors Q60
  *  undistort    camera: fx fy cx cy k1 k2 p1 p2 k3; points: x y
@@ -82,15 +91,20 @@ enum {
  *  pose         ellipse; camera; params: radius depth inner_x inner_y
  *               -> pose: status, twice (position 3, axis 3, yaw, pitch), choice, distance 2, ambiguity; a failed
  *                  choice (behind the camera) leaves the poses
+ *  joint        ellipse; camera; bins: count sum (Q16) of each of 32; params: rim_radius inner_radius inner_depth, start
+ *               x y z yaw pitch, inner x y std, shading blur, gradient (whole), steps (whole)
+ *               -> joint: status, pose 8, chi2; disc: status xc yc a b of the start's inner disc; covariance (64 bits, Q48)
+ *                  of x y z yaw pitch, packed by rows of the lower triangle; outline (64 bits, Q48): that of m0 .. m4
  *  kalman       params: dt_us, process std 5, start std 5 x (value rate acceleration), start value 5;
  *               frames: value 5, std 5 each (all five std 0: frame missed, predicted only)
  *               -> states: per frame value 5, rate 5, acceleration 5; parameters in the order x y z pitch yaw
  *  frame        image; camera; model: rim_radius inner_radius inner_depth; region: x y width height (px);
  *               default thresholds
  *               -> frame: status, ellipse 5, ideal 5, polarity, bit set of quadrants with an arc, refit_points,
- *                  has_inner, inner x y area threshold, pose 8, alternative 8, resolved, ambiguity;
+ *                  has_inner, inner x y area threshold spread, pose 8, alternative 8, resolved, ambiguity;
  *                  detail: region 4, edge_count arc_count, arc of each quadrant (-1: none),
  *                  fit_ratio length_ratio axis_ratio score reliability, members, cover;
+ *                  covariance (64 bits, Q48) as of 'joint'; std (64 bits, Q32): x y z, axis;
  *                  whatever is known for every status
  */
 int conf_run_stage(const char *stage, const conf_array *inputs, int input_count, conf_array *outputs,

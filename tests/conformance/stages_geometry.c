@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Adapters of the stages from points to the chosen ellipse: constraints, ellipse, quality, cluster, eigen. */
+/* Adapters of the stages from points to the chosen ellipse: constraints, select, ellipse, quality, cluster, eigen. */
 #include "stage_run.h"
 
 #include <string.h>
@@ -55,6 +55,54 @@ int stage_constraints(stage_run *r)
     out[4] = verdict.quadrant;
     out[5] = (int32_t)verdict.polarity;
     distance2[0] = verdict.distance2_q32;
+    return 0;
+}
+
+/* Edge points and table of arcs from their points, one arc after the other, and 'count class' of each. */
+static int arcs_of_words(drogue_arc *arcs, drogue_edge *edges, const int16_t *points, size_t point_count,
+                         const int32_t *words, size_t arc_count)
+{
+    size_t first = 0;
+    size_t i;
+    for (i = 0; i < arc_count; i++) {
+        const size_t count = words[2 * i] > 0 ? (size_t)words[2 * i] : 0;
+        if (count == 0 || count > point_count - first || words[2 * i + 1] < 0 || words[2 * i + 1] > 3 ||
+            !edges_of_points(edges + first, points + 2 * first, count)) {
+            return 0;
+        }
+        arcs[i].first = (uint32_t)first;
+        arcs[i].count = (uint32_t)count;
+        arcs[i].direction = (uint32_t)words[2 * i + 1];
+        first += count;
+    }
+    return first == point_count;
+}
+
+int stage_select(stage_run *r)
+{
+    const size_t points = r->in[0].count / 2;
+    const size_t count = r->in[1].count / 2;
+    const int32_t *p = stage_input32(r, 2);
+    int32_t *out = stage_output32(r, "choices", 1 + 4 * DROGUE_ARC_CHOICES);
+    drogue_edge *edges = (drogue_edge *)stage_take(r, points * sizeof *edges);
+    drogue_arc *arcs = (drogue_arc *)stage_take(r, count * sizeof *arcs);
+    drogue_point *hull = (drogue_point *)stage_take(r, DROGUE_HULL_MAX * sizeof *hull);
+    drogue_arc_choices choices;
+    drogue_mask mask;
+    int k;
+    if (out == NULL || edges == NULL || arcs == NULL || hull == NULL) {
+        return CONF_E_MEMORY;
+    }
+    if (!stage_mask(&mask, p) || p[4] < 0 || p[4] > 2 ||
+        !arcs_of_words(arcs, edges, (const int16_t *)r->in[0].data, points, stage_input32(r, 1), count)) {
+        return CONF_E_MALFORMED;
+    }
+    *out++ =
+        (int32_t)drogue_select_arcs(&choices, hull, edges, arcs, (uint32_t)count, &mask, p[3], (drogue_polarity)p[4]);
+    for (k = 0; k < 4 * DROGUE_ARC_CHOICES; k++) {
+        const uint32_t arc = choices.arc[k / DROGUE_ARC_CHOICES][k % DROGUE_ARC_CHOICES];
+        *out++ = arc == DROGUE_NO_ARC ? -1 : (int32_t)arc;
+    }
     return 0;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Adapters of the stages that read an image: smooth to arcs, centroid. */
+/* Adapters of the stages that read an image: smooth to arcs, centroid, disc. */
 #include "stage_run.h"
 
 #include <string.h>
@@ -166,6 +166,50 @@ int stage_centroid(stage_run *r)
         out[2] = (int32_t)part.area_px;
         out[3] = part.x_px_q16;
         out[4] = part.y_px_q16;
+    }
+    return 0;
+}
+
+int stage_disc(stage_run *r)
+{
+    const drogue_image image = stage_input_image(r);
+    const int32_t *p = stage_input32(r, 1);
+    const int32_t *w = stage_input32(r, 2);
+    const size_t count = r->in[2].count / 4;
+    int32_t *out = stage_output32(r, "part", 9);
+    drogue_workspace workspace;
+    drogue_dark_part part;
+    drogue_ellipse expected[2];
+    drogue_mask disc;
+    uint32_t which;
+    size_t i;
+    if (!stage_mask(&disc, p) || p[3] < 0 || count < 1 || count > 2) {
+        return CONF_E_MALFORMED;
+    }
+    for (i = 0; i < count; i++, w += 4) {
+        memset(&expected[i], 0, sizeof expected[i]);
+        expected[i].xc_px_q16 = w[0];
+        expected[i].yc_px_q16 = w[1];
+        expected[i].a_px_q16 = w[2];
+        expected[i].b_px_q16 = w[3];
+        if (w[2] < DROGUE_Q16_ONE || w[2] > DROGUE_Q16(2048, 1) || w[3] < 1 || w[3] > w[2]) {
+            return CONF_E_MALFORMED;
+        }
+    }
+    if (out == NULL || !stage_workspace(r, &workspace, image.width_px)) {
+        return CONF_E_MEMORY;
+    }
+    out[0] = (int32_t)drogue_dark_disc_find(&part, &which, &workspace, &image, &disc, (uint32_t)p[3], expected,
+                                            (uint32_t)count);
+    out[1] = part.threshold;
+    if (out[0] == DROGUE_OK) {
+        out[2] = (int32_t)part.area_px;
+        out[3] = part.x_px_q16;
+        out[4] = part.y_px_q16;
+        out[5] = part.spread_px_q16;
+        out[6] = (int32_t)which;
+        out[7] = drogue_dark_fill(&part, &expected[which]);
+        out[8] = part.contrast;
     }
     return 0;
 }

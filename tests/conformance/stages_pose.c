@@ -132,6 +132,7 @@ static void put_frame(int32_t *at, const drogue_result *result)
     *at++ = result->inner.y_px_q16;
     *at++ = (int32_t)result->inner.area_px;
     *at++ = result->inner.threshold;
+    *at++ = result->inner.spread_px_q16;
     at = stage_put_pose(at, &result->pose);
     at = stage_put_pose(at, &result->alternative);
     *at++ = result->orientation_resolved;
@@ -159,14 +160,31 @@ static void put_detail(int32_t *at, const drogue_result *result)
     *at = result->cover_q16;
 }
 
+static void put_covariance(int64_t *covariance, int64_t *std, const drogue_result *result)
+{
+    int i;
+    int j;
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j <= i; j++) {
+            *covariance++ = result->covariance_q48[i][j];
+        }
+    }
+    for (i = 0; i < 3; i++) {
+        *std++ = result->position_std_m_q32[i];
+    }
+    *std = result->axis_std_rad_q32;
+}
+
 int stage_frame(stage_run *r)
 {
     const drogue_image image = stage_input_image(r);
     const drogue_camera camera = stage_camera(stage_input32(r, 1));
     const int32_t *model_words = stage_input32(r, 2);
     const int32_t *region_words = stage_input32(r, 3);
-    int32_t *frame = stage_output32(r, "frame", 37);
+    int32_t *frame = stage_output32(r, "frame", 38);
     int32_t *detail = stage_output32(r, "detail", 17);
+    int64_t *covariance = (int64_t *)stage_output(r, "covariance", 64, 15);
+    int64_t *std = (int64_t *)stage_output(r, "std", 64, 4);
     drogue_model model;
     drogue_region region;
     drogue_workspace workspace;
@@ -179,12 +197,14 @@ int stage_frame(stage_run *r)
     model.rim_radius_m_q16 = model_words[0];
     model.inner_radius_m_q16 = model_words[1];
     model.inner_depth_m_q16 = model_words[2];
-    if (frame == NULL || detail == NULL || !stage_workspace(r, &workspace, region.width_px)) {
+    if (frame == NULL || detail == NULL || covariance == NULL || std == NULL ||
+        !stage_workspace(r, &workspace, region.width_px)) {
         return CONF_E_MEMORY;
     }
     drogue_config_default(&config);
     (void)drogue_measure(&result, &workspace, &config, &camera, &model, &image, &region);
     put_frame(frame, &result);
     put_detail(detail, &result);
+    put_covariance(covariance, std, &result);
     return 0;
 }

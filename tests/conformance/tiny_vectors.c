@@ -158,7 +158,8 @@ static void pixel_cases(const conf_array *image)
     static const int32_t mask[] = {33, 21, 32, 20, 33};
     static const int32_t arcs[] = {40, 100, 1, 1, SIDE - 1, SIDE - 1, SIDE, 10};
     static const int32_t centroid[] = {SIDE - 1, SIDE - 1, SIDE, 9};
-    conf_array in[2];
+    static const int32_t expected[] = {47 * ONE, 47 * ONE, 10 * ONE, 9 * ONE, 30 * ONE, 40 * ONE, 10 * ONE, 9 * ONE};
+    conf_array in[3];
     in[0] = *image;
     write_case("smooth", in, 1, NULL, 0, 0);
     write_case("gradient", in, 1, NULL, 0, 0);
@@ -171,6 +172,8 @@ static void pixel_cases(const conf_array *image)
     write_case("arcs", in, 2, NULL, 0, 0);
     in[1] = words("params", 32, COUNT(centroid), centroid);
     write_case("centroid", in, 2, "[0, 0, 0, 1, 1]", 3, 1);
+    in[2] = words("expected", 32, COUNT(expected), expected);
+    write_case("disc", in, 3, "[0, 0, 0, 1, 1, 3, 0, 1, 0]", 3, 1);
 }
 
 static void geometry_cases(void)
@@ -185,12 +188,19 @@ static void geometry_cases(void)
     static const int32_t candidates[] = {0,   0, 25 * ONE, 15 * ONE, 0, 60000, 0,
                                          ONE, 0, 25 * ONE, 15 * ONE, 0, 50000, 0};
     static const int32_t config[] = {3 * ONE, 3 * ONE, 3 * ONE, 13107, 58982};
+    static const int32_t arcs[] = {9, 0};
+    static const int32_t select[] = {40, 40, 41, 98304, 2};
+    static const int32_t edges[] = {800, 0, 90, 0, 0, 480, 0, 70, 400, 300, 50, 50, 500, 20, 90, 1};
+    static const int32_t band[] = {ONE, 57016, 1, 2};
     static const int64_t matrix[] = {INT64_C(1) << 58, 12345, -(INT64_C(1) << 50),
                                      INT64_C(1) << 57, 999,   -(INT64_C(1) << 56)};
     conf_array in[3];
     in[0] = words("points", 16, COUNT(arc), arc);
     in[1] = words("params", 32, COUNT(constraints), constraints);
     write_case("constraints", in, 2, "[4, 4, 4, 4, 0, 0]", 0, -4);
+    in[1] = words("arcs", 32, COUNT(arcs), arcs);
+    in[2] = words("params", 32, COUNT(select), select);
+    write_case("select", in, 3, NULL, 0, 0);
     in[0] = words("points", 16, COUNT(points), points);
     in[1] = words("params", 32, 1, frac_bits);
     write_case("ellipse", in, 2, "[0, 4, 4, 4, 4, 64]", 1, 4);
@@ -198,6 +208,9 @@ static void geometry_cases(void)
     in[1] = words("points", 32, COUNT(near_points), near_points);
     in[2] = words("params", 32, COUNT(quality), quality);
     write_case("quality", in, 3, "4", 0, 4);
+    in[1] = words("edges", 32, COUNT(edges), edges);
+    in[2] = words("params", 32, COUNT(band), band);
+    write_case("support", in, 3, NULL, 0, 0);
     in[0] = words("candidates", 32, COUNT(candidates), candidates);
     in[1] = words("config", 32, COUNT(config), config);
     write_case("cluster", in, 2, NULL, 0, 0);
@@ -213,6 +226,10 @@ static void pose_cases(const conf_array *image)
     static const int32_t pose[] = {22938, 16384, 302 * ONE, 203 * ONE};
     static const int32_t model[] = {22938, 6554, 16384};
     static const int32_t region[] = {2, 3, 90, 90};
+    /* model, start, inner part, shading and blur, gradient, steps */
+    static const int32_t joint[] = {22938, 7864, 16384, -10000, -20000, 850000, 9000, -8000,
+                                    0,     0,    0,     249037, 7864,   300000, 5};
+    static int32_t bins[64];
     static int32_t filter[26];
     static int32_t frames[4 * 10];
     conf_array in[4];
@@ -224,6 +241,12 @@ static void pose_cases(const conf_array *image)
     in[1] = words("camera", 32, COUNT(camera), camera);
     in[2] = words("params", 32, COUNT(pose), pose);
     write_case("pose", in, 3, "[0, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 4, 0, 8, 8, 8]", 1, 4);
+    for (i = 0; i < 64; i++) {
+        bins[i] = i % 2 == 0 ? 7 : (i * 29) % 41 - 20;
+    }
+    in[2] = words("bins", 32, COUNT(bins), bins);
+    in[3] = words("params", 32, COUNT(joint), joint);
+    write_case("joint", in, 4, "[0, 4, 4, 4, 4, 4, 4, 4, 4, 8]", 1, 4);
     for (i = 0; i < 26; i++) {
         filter[i] = i == 0 ? 20000 : 2000 * i;
     }

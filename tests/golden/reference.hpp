@@ -52,6 +52,24 @@ struct DarkPart {
 DarkPart dark_part(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area);
 
 /* --- geometry --- */
+struct Ellipse {
+    Real xc, yc, a, b, angle; /* semi-axes a >= b; angle of the major axis in (-pi/2, pi/2] */
+    bool ok = true;
+};
+
+struct DarkDisc {
+    bool found;
+    int which;         /* index of the expected disc that fits better */
+    int threshold;     /* of the disc looked in when nothing is found, else of the window about the part */
+    int64_t area;      /* sum of darkness, rounded */
+    Real x, y, spread; /* centroid of darkness, and between those at a lower and a higher threshold */
+    int contrast;      /* between the means above and below the threshold, each rounded down */
+    Real fill;         /* area over that of the expected disc */
+};
+/* The dark disc where one of the expected ones lies, as drogue/centroid.h describes it. */
+DarkDisc dark_disc(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area,
+                   const std::vector<Ellipse> &expected);
+
 struct Rect {
     Real xc, yc, shorter, longer;
 };
@@ -59,10 +77,21 @@ struct Rect {
 std::vector<Rect> min_area_rects(const std::vector<cv::Point> &pixels);
 inline Rect min_area_rect(const std::vector<cv::Point> &pixels) { return min_area_rects(pixels).front(); }
 
-struct Ellipse {
-    Real xc, yc, a, b, angle; /* semi-axes a >= b; angle of the major axis in (-pi/2, pi/2] */
-    bool ok = true;
+struct Verdict {
+    Rect rect;
+    int quadrant; /* -1: rejected */
+    int polarity; /* 0 dark, 1 bright, 2 rejected */
+    Real distance2;
 };
+/* Straightness and position of an arc of a direction class, its rectangle rounded to Q16 as thresholds are. */
+Verdict judge_arc(const std::vector<cv::Point> &pixels, int centre2_x, int centre2_y, int direction,
+                  int64_t min_short_q16);
+
+/* Arcs of each quadrant: of the four longest, the farthest with at least half the points of the longest, then the longest
+ * of the others; -1: none. Polarity 2: arcs of either. */
+using Choices = std::array<std::array<int, 2>, 4>;
+Choices select_arcs(const std::vector<Verdict> &verdicts, const std::vector<int> &points, int polarity);
+
 /* Direct fit (Halir and Flusser) in quadruple precision; points in px. Not ok: fewer than 6 points, points on a line
  * or on more than one conic, or exactly on one that is no ellipse, or a parameter beyond Q16. The angle of a circle
  * (equal in Q16) is 0. */
@@ -75,6 +104,52 @@ struct Quality {
     Real fit_ratio, length_ratio, axis_ratio, score, reliability;
 };
 Quality quality(const Ellipse &e, int near_count, int total, Real k1, Real k2);
+/* The same with the covered share of the circumference in place of (12). */
+Quality quality_of_cover(const Ellipse &e, Real fit_ratio, Real cover, Real k1, Real k2);
+
+/* --- support of an ellipse by edge points --- */
+constexpr int SUPPORT_BINS = 32;
+struct Edge {
+    Point at;
+    Real gx, gy; /* y down */
+};
+struct Band {
+    Real width, cosine; /* largest distance |F| / |grad F|, px; least cosine between gradient and normal */
+};
+/* An edge point in an ellipse's frame. */
+struct BandPoint {
+    Real u, v, f; /* f = u^2 + v^2 - 1 */
+    bool held;    /* belongs to the outline */
+    int polarity; /* 0: the gradient points outward */
+    int bin;
+    Real past_width, past_cosine; /* beyond the band's limits: px, cosine; negative inside */
+    Real from_next_bin;           /* rad to the nearest limit of a bin */
+
+    /* Would limits that move by so much decide 'held' otherwise? */
+    bool undecided(Real width, Real cosine) const
+    {
+        const bool fails = past_width > width || past_cosine > cosine || f > 1 + cosine || f < -0.75L - cosine;
+        return !fails && !(past_width < -width && past_cosine < -cosine && held);
+    }
+};
+BandPoint band_point(const Ellipse &e, const Band &band, const Edge &edge);
+
+struct Support {
+    std::array<std::array<int, 2>, SUPPORT_BINS> count = {};
+    std::array<Real, SUPPORT_BINS> sum = {}; /* of f / 2 over the points of the bin's polarity */
+    Real squares = 0, gradient = 0;
+    int points = 0;
+    uint32_t bright = 0; /* bit set of the bins that are brighter inside */
+    int covered = 0;
+};
+/* Count a point; add it to the sums when its polarity is that of its bin. */
+bool support_add(Support &s, const BandPoint &p, const Edge &edge);
+/* Polarity of the bins and how many are covered, from the counts; polarity 2: either. */
+void support_judge(Support &s, const Ellipse &e, int polarity, int stride);
+/* How many bins are covered by points of the given polarities. */
+void support_judge_as(Support &s, const Ellipse &e, uint32_t bright, int stride);
+/* Points that cover a bin, not rounded. */
+Real support_needed(const Ellipse &e, int bin);
 
 struct Candidate {
     Ellipse ellipse;
@@ -119,6 +194,33 @@ struct Choice {
 };
 /* Pose whose projected inner centre is nearer to p; false when one lies behind the camera. */
 bool choose(const std::array<Pose, 2> &pair, Point p, Real depth, const Camera &c, Choice &out);
+
+/* --- joint pose --- */
+using Covariance = cv::Matx<double, 5, 5>;
+/* Covariance of m0 .. m4 (drogue/joint.h) from the residuals of the bins; false when too few hold points. */
+bool outline_covariance(Covariance &out, const Ellipse &e, const Support &s, Real shading, Real blur);
+/* Trace of the counts' matrix times that of its inverse: at least its condition. */
+double condition_of(const Support &s);
+
+struct Model {
+    Real rim_radius, inner_radius, inner_depth;
+};
+struct Inner {
+    Point at;
+    Real std; /* 0: none */
+};
+enum class Solved { ok, degenerate, domain, behind };
+struct Joint {
+    Pose pose;
+    Covariance covariance; /* of x, y, z, yaw, pitch */
+    double chi2;
+    Solved solved;
+};
+/* Gauss-Newton from a pose, at most 'steps' after the first; 0: none at all. */
+Joint solve_joint(const Pose &start, const Ellipse &e, const Covariance &outline, const Inner &inner, const Camera &c,
+                  const Model &model, int steps);
+/* Image of the inner disc of a pose: centre exact, semi-axes to first order. */
+Solved disc_image(Ellipse &out, const Pose &pose, const Camera &c, const Model &model);
 
 /* cv::KalmanFilter(15, 5, 0, CV_64F) with the model of drogue/kalman.h; pitch and yaw compared modulo 2 pi. */
 class Kalman {

@@ -251,6 +251,47 @@ std::vector<Rect> min_area_rects(const std::vector<cv::Point> &pixels)
     return rects;
 }
 
+Verdict judge_arc(const std::vector<cv::Point> &pixels, int centre2_x, int centre2_y, int direction,
+                  int64_t min_short_q16)
+{
+    Verdict v = {min_area_rect(pixels), -1, 2, 0};
+    const int64_t dx = q16(v.rect.xc) - static_cast<int64_t>(centre2_x) * 32768;
+    const int64_t dy = q16(v.rect.yc) - static_cast<int64_t>(centre2_y) * 32768;
+    v.distance2 = (static_cast<Real>(dx) * dx + static_cast<Real>(dy) * dy) / 4294967296.0L;
+    if (dx != 0 && dy != 0 && q16(v.rect.shorter) >= min_short_q16) {
+        const int quadrant = dy < 0 ? (dx > 0 ? 0 : 1) : (dx < 0 ? 2 : 3);
+        const int turn = (quadrant - direction) & 3;
+        v.quadrant = turn % 2 == 0 ? quadrant : -1;
+        v.polarity = turn % 2 == 0 ? turn / 2 : 2;
+    }
+    return v;
+}
+
+Choices select_arcs(const std::vector<Verdict> &verdicts, const std::vector<int> &points, int polarity)
+{
+    Choices chosen;
+    for (int q = 0; q < 4; q++) {
+        std::vector<size_t> own;
+        for (size_t i = 0; i < verdicts.size(); i++) {
+            if (verdicts[i].quadrant == q && (polarity == 2 || verdicts[i].polarity == polarity)) {
+                own.push_back(i);
+            }
+        }
+        std::stable_sort(own.begin(), own.end(), [&](size_t i, size_t k) { return points[i] > points[k]; });
+        own.resize(std::min<size_t>(own.size(), 4));
+        size_t far = 0;
+        for (size_t i = 1; i < own.size(); i++) {
+            if (2 * points[own[i]] >= points[own[0]] && verdicts[own[i]].distance2 > verdicts[own[far]].distance2) {
+                far = i;
+            }
+        }
+        const size_t other = far == 0 ? 1 : 0;
+        chosen[static_cast<size_t>(q)] = {far < own.size() ? static_cast<int>(own[far]) : -1,
+                                          other < own.size() ? static_cast<int>(own[other]) : -1};
+    }
+    return chosen;
+}
+
 Ellipse fit(const std::vector<cv::Point2d> &points)
 {
     quad mx = 0, my = 0, s[6][6] = {}, theta[6];
@@ -283,16 +324,22 @@ Real deviation_threshold(const Ellipse &e, Real error) { return 2 * error / e.a;
 
 Real circumference(const Ellipse &e) { return PI * (3 * (e.a + e.b) - std::sqrt((3 * e.a + e.b) * (e.a + 3 * e.b))); }
 
-Quality quality(const Ellipse &e, int near_count, int total, Real k1, Real k2)
+Quality quality_of_cover(const Ellipse &e, Real fit_ratio, Real cover, Real k1, Real k2)
 {
     Quality q;
-    q.fit_ratio = static_cast<Real>(near_count) / total;
-    q.length_ratio = std::min<Real>(1, total / circumference(e));
+    q.fit_ratio = fit_ratio;
+    q.length_ratio = cover;
     q.axis_ratio = e.b / e.a;
     const Real s = (q.axis_ratio - k2) / (1 - k2);
     q.score = q.length_ratio / 2 + (s > 0 ? ((s - 1) * std::exp(-k1 * s) + 1) / 2 : 0);
     q.reliability = (q.score + q.fit_ratio) / 2;
     return q;
+}
+
+Quality quality(const Ellipse &e, int near_count, int total, Real k1, Real k2)
+{
+    return quality_of_cover(e, static_cast<Real>(near_count) / total, std::min<Real>(1, total / circumference(e)), k1,
+                            k2);
 }
 
 bool same_ellipse(const Candidate &i, const Candidate &j, const ClusterConfig &config)

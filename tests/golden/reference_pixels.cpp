@@ -3,6 +3,7 @@
 #include "reference.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include <opencv2/imgproc.hpp>
@@ -139,10 +140,11 @@ std::vector<Arc> arcs(const cv::Mat &edges, const cv::Mat &gx, const cv::Mat &gy
     return all;
 }
 
-DarkPart dark_part(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area)
+namespace {
+
+/* Levels of the pixels inside a mask. */
+std::vector<uint8_t> levels_in(const cv::Mat &image, const cv::Mat &inside)
 {
-    DarkPart part = {};
-    const cv::Mat inside = disc(image.cols, image.rows, centre2_x, centre2_y, longest);
     std::vector<uint8_t> levels;
     for (int y = 0; y < image.rows; y++) {
         for (int x = 0; x < image.cols; x++) {
@@ -151,7 +153,55 @@ DarkPart dark_part(const cv::Mat &image, int centre2_x, int centre2_y, int longe
             }
         }
     }
-    find_threshold(part, levels);
+    return levels;
+}
+
+Point centroid_of(const std::vector<cv::Point> &pixels)
+{
+    Point sum = {0, 0};
+    for (const cv::Point p : pixels) {
+        sum.x += p.x;
+        sum.y += p.y;
+    }
+    const auto count = static_cast<Real>(pixels.size());
+    return {sum.x / count, sum.y / count};
+}
+
+int rounded(Real v) { return static_cast<int>(std::floor(v + 0.5L)); }
+
+/* Mask of a disc about a point; its radius and a pixel are rounded as drogue_mask needs. */
+cv::Mat window(const cv::Mat &image, Point at, Real radius)
+{
+    return disc(image.cols, image.rows, rounded(2 * at.x), rounded(2 * at.y), rounded(3 * radius) + 3);
+}
+
+/* Sum of darkness, which falls from 'range' at the level 'full' to 0, and its centroid; 'at' is kept when it is 0. */
+Real weigh(Point &at, const cv::Mat &image, const cv::Mat &inside, int full, int range)
+{
+    Real sum = 0, x_sum = 0, y_sum = 0;
+    for (int y = 0; y < image.rows; y++) {
+        for (int x = 0; x < image.cols; x++) {
+            const int darkness = std::clamp(full + range - image.at<uint8_t>(y, x), 0, range);
+            if (inside.at<uint8_t>(y, x) != 0 && darkness > 0) {
+                sum += darkness;
+                x_sum += static_cast<Real>(darkness) * x;
+                y_sum += static_cast<Real>(darkness) * y;
+            }
+        }
+    }
+    if (sum > 0) {
+        at = {x_sum / sum, y_sum / sum};
+    }
+    return sum;
+}
+
+} // namespace
+
+DarkPart dark_part(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area)
+{
+    DarkPart part = {};
+    const cv::Mat inside = disc(image.cols, image.rows, centre2_x, centre2_y, longest);
+    find_threshold(part, levels_in(image, inside));
     part.dark = (image <= part.threshold) & inside;
     cv::morphologyEx(part.dark, part.opened, cv::MORPH_OPEN, cv::Mat::ones(3, 3, CV_8U));
     part.area_unique = true;
@@ -163,16 +213,77 @@ DarkPart dark_part(const cv::Mat &image, int centre2_x, int centre2_y, int longe
         }
         part.area = area;
         part.area_unique = true;
-        part.x = part.y = 0;
-        for (const cv::Point p : pixels) {
-            part.x += p.x;
-            part.y += p.y;
-        }
-        part.x /= area;
-        part.y /= area;
+        const Point centre = centroid_of(pixels);
+        part.x = centre.x;
+        part.y = centre.y;
     }
     part.found = part.area > 0 && part.area >= min_area;
     return part;
+}
+
+DarkDisc dark_disc(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area,
+                   const std::vector<Ellipse> &expected)
+{
+    constexpr Real PI = 3.14159265358979323846264338327950288L;
+    const DarkPart all = dark_part(image, centre2_x, centre2_y, longest, min_area);
+    DarkDisc out = {};
+    Real least = 0;
+    Point at = {0, 0};
+    out.threshold = all.threshold;
+    for (size_t i = 0; i < expected.size(); i++) {
+        const Ellipse &e = expected[i];
+        std::vector<cv::Point> members;
+        for (const std::vector<cv::Point> &pixels : components(all.opened)) {
+            const Point p = centroid_of(pixels);
+            if (static_cast<int>(pixels.size()) >= min_area && std::hypot(p.x - e.xc, p.y - e.yc) <= e.a) {
+                members.insert(members.end(), pixels.begin(), pixels.end());
+            }
+        }
+        if (members.empty()) {
+            continue;
+        }
+        const Point p = centroid_of(members);
+        const Real fill = static_cast<Real>(members.size()) / (PI * e.a * e.b);
+        const Real misfit = std::hypot(p.x - e.xc, p.y - e.yc) / e.a + std::fabs(fill - 1);
+        if (!out.found || misfit < least) {
+            least = misfit;
+            at = p;
+            out.which = static_cast<int>(i);
+            out.area = static_cast<int64_t>(members.size());
+        }
+        out.found = true;
+    }
+    if (!out.found) {
+        return out;
+    }
+    /* about the part's own threshold, a third of the way to the dark level on either side */
+    const Ellipse &e = expected[static_cast<size_t>(out.which)];
+    DarkPart own = {};
+    const std::vector<uint8_t> levels = levels_in(image, window(image, at, 1.6L * e.a));
+    find_threshold(own, levels);
+    int64_t count[2] = {0, 0}, sum[2] = {0, 0};
+    for (const uint8_t level : levels) {
+        count[level > own.threshold]++;
+        sum[level > own.threshold] += level;
+    }
+    const int dark = count[0] > 0 ? static_cast<int>(sum[0] / count[0]) : 0,
+              bright = count[1] > 0 ? static_cast<int>(sum[1] / count[1]) : 0;
+    out.contrast = std::max(0, bright - dark);
+    const int half = (own.threshold - dark) / 3;
+    const int range = 2 * half + 1, full = own.threshold - half;
+    weigh(at, image, window(image, at, 1.2L * e.a), full, range);
+    const cv::Mat inside = window(image, at, 1.2L * e.a);
+    const Real darkness = weigh(at, image, inside, full, range);
+    Point lower = at, upper = at;
+    weigh(lower, image, inside, full - half, range);
+    weigh(upper, image, inside, full + half, range);
+    out.threshold = own.threshold;
+    out.x = at.x;
+    out.y = at.y;
+    out.area = darkness > 0 ? static_cast<int64_t>(std::floor(darkness / range + 0.5L)) : out.area;
+    out.spread = std::hypot(upper.x - lower.x, upper.y - lower.y);
+    out.fill = static_cast<Real>(out.area) / (PI * e.a * e.b);
+    return out;
 }
 
 } // namespace reference

@@ -80,7 +80,7 @@ slot() {
 
 # compile INCLUDE SOURCE OBJECT [FLAG...]: with INCLUDE before the tree's own headers
 compile() {
-    gcc -O1 -std=c99 -I "$1" -I include -I tests/conformance -MMD -c "$2" -o "$3" "${@:4}"
+    gcc -O1 -std=c99 -I "$1" -I include -I src -I tests/conformance -MMD -c "$2" -o "$3" "${@:4}"
 }
 
 # build_base: objects of the unchanged core with their dependencies, the conformance run, the vectors; its digest

@@ -88,13 +88,17 @@ void add_canny(Set &set);
 void add_mask(Set &set);
 void add_arcs(Set &set);
 void add_constraints(Set &set);
+void add_select(Set &set);
 void add_ellipse(Set &set);
 void add_quality(Set &set);
+void add_support(Set &set);
 void add_cluster(Set &set);
 void add_centroid(Set &set);
+void add_disc(Set &set);
 void add_eigen(Set &set);
 void add_undistort(Set &set);
 void add_pose(Set &set);
+void add_joint(Set &set);
 void add_kalman(Set &set);
 void add_frame(Set &set, const std::string &scenes_folder);
 

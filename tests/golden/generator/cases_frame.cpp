@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Cases of the whole measurement: rendered scenes, drawn rings, and frames in which there is nothing to measure. */
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "conditions.hpp"
 #include "images.hpp"
 #include "scene.hpp"
 
@@ -241,7 +243,25 @@ void add_regions(Set &set)
     add_frame(set, "inner-unknown", Tier::ordinary, {"inner-missing"}, f);
     f = all;
     f.depth = -14;
-    add_frame(set, "inner-behind-camera", Tier::must_reject, {"behind-camera"}, f);
+    add_frame(set, "inner-behind-camera", Tier::stress, {"behind-camera", "inner-missing"}, f);
+}
+
+/* A scene of each condition of the accuracy study, at a distance that makes it small. */
+void add_conditions(Set &set)
+{
+    for (int i = 1; i < accuracy::conditions; i++) {
+        for (int index = 0; index < 2; index++) {
+            const auto condition = static_cast<accuracy::Condition>(i);
+            const accuracy::Trial t = accuracy::trial_at(7, condition, index, 13 + index);
+            Frame f = photograph(t.scene, t.region, 0);
+            f.radius = t.model.rim_radius_m_q16 / 65536.0;
+            f.inner_radius = t.model.inner_radius_m_q16 / 65536.0;
+            f.depth = t.model.inner_depth_m_q16 / 65536.0;
+            std::string name = std::string("condition-") + accuracy::name_of(condition) + "-" + std::to_string(index);
+            std::replace(name.begin(), name.end(), '_', '-');
+            add_frame(set, name, Tier::ordinary, {}, f);
+        }
+    }
 }
 
 /* Ring with an inner dark disc, drawn. */
@@ -351,6 +371,7 @@ void add_frame(Set &set, const std::string &scenes_folder)
     add_plain_scenes(set);
     add_disturbed_scenes(set);
     add_regions(set);
+    add_conditions(set);
     add_drawings(set);
 }
 

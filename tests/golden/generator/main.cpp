@@ -142,13 +142,17 @@ int main(int argc, char **argv)
         add_mask(set);
         add_arcs(set);
         add_constraints(set);
+        add_select(set);
         add_ellipse(set);
         add_quality(set);
+        add_support(set);
         add_cluster(set);
         add_centroid(set);
+        add_disc(set);
         add_eigen(set);
         add_undistort(set);
         add_pose(set);
+        add_joint(set);
         add_kalman(set);
         add_frame(set, (folder / "frame").string());
         const Files files = files_of(set, version_of(folder));

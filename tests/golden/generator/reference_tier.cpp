@@ -5,9 +5,9 @@
 #include <map>
 
 #include "case.hpp"
-#include "mirror.hpp"
 #include "reference.hpp"
 #include "stages.h"
+#include "tiers.hpp"
 
 #include "drogue/drogue.h"
 
@@ -18,8 +18,6 @@ namespace {
 using reference::q16;
 using reference::Real;
 using Words = std::vector<int64_t>;
-using Arrays = std::vector<Array>;
-using Tiers = std::vector<Expected>;
 
 constexpr uint32_t ANY_ANGLE = 205887; /* pi: the angle of a circle says nothing */
 
@@ -139,19 +137,9 @@ Tiers constraints_tier(const Arrays &in, const Arrays &exact)
     for (size_t i = 0; i < in[0].words.size(); i += 2) {
         points.emplace_back(as_int(in[0].words[i]), as_int(in[0].words[i + 1]));
     }
-    const reference::Rect r = reference::min_area_rect(points);
-    const int64_t dx = q16(r.xc) - p[0] * 32768;
-    const int64_t dy = q16(r.yc) - p[1] * 32768;
-    int64_t quadrant = -1;
-    int64_t polarity = DROGUE_POLARITY_BOTH;
-    if (dx != 0 && dy != 0 && q16(r.shorter) >= p[4]) {
-        const int64_t position = dy < 0 ? (dx > 0 ? 0 : 1) : (dx < 0 ? 2 : 3);
-        if ((position - p[3]) % 2 == 0) {
-            quadrant = position;
-            polarity = position == p[3] ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
-        }
-    }
-    return {{like(exact[0], {q16(r.xc), q16(r.yc), q16(r.shorter), q16(r.longer), quadrant, polarity}),
+    const reference::Verdict v = reference::judge_arc(points, as_int(p[0]), as_int(p[1]), as_int(p[3]), p[4]);
+    return {{like(exact[0],
+                  {q16(v.rect.xc), q16(v.rect.yc), q16(v.rect.shorter), q16(v.rect.longer), v.quadrant, v.polarity}),
              {4, 4, 4, 4, 0, 0}}};
 }
 
@@ -407,12 +395,6 @@ Tiers kalman_tier(const Arrays &in, const Arrays &exact)
     return {{like(exact[0], words), {16}}};
 }
 
-Tiers frame_tier(const Arrays &in, const Arrays &exact)
-{
-    const FrameReference r = mirror_frame(image_of(in[0]), in[1].words, in[2].words, in[3].words);
-    return {{like(exact[0], r.words), r.bound}};
-}
-
 } // namespace
 
 Tiers reference_of(const std::string &stage, const Arrays &inputs, const Arrays &exact)
@@ -423,7 +405,9 @@ Tiers reference_of(const std::string &stage, const Arrays &inputs, const Arrays 
         {"mask", mask_tier},         {"arcs", arcs_tier},         {"constraints", constraints_tier},
         {"ellipse", ellipse_tier},   {"quality", quality_tier},   {"cluster", cluster_tier},
         {"centroid", centroid_tier}, {"eigen", eigen_tier},       {"undistort", undistort_tier},
-        {"pose", pose_tier},         {"kalman", kalman_tier},     {"frame", frame_tier}};
+        {"pose", pose_tier},         {"kalman", kalman_tier},     {"frame", frame_tier},
+        {"select", select_tier},     {"support", support_tier},   {"disc", disc_tier},
+        {"joint", joint_tier}};
     return tiers.at(stage)(inputs, exact);
 }
 

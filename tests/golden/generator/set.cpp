@@ -50,19 +50,31 @@ int format_of(const std::string &stage, const std::string &output)
                                                        {"constraints/verdict", 16},
                                                        {"constraints/distance2", 32},
                                                        {"ellipse/ellipse", 16},
+                                                       {"select/choices", 0},
                                                        {"quality/quality", 16},
                                                        {"quality/status", 0},
+                                                       {"support/summary", 16},
+                                                       {"support/bins", 16},
+                                                       {"support/members", 0},
+                                                       {"support/sums", 32},
                                                        {"cluster/winner", 0},
                                                        {"centroid/part", 16},
+                                                       {"disc/part", 16},
                                                        {"eigen/values", 30},
                                                        {"eigen/vectors", 30},
                                                        {"eigen/full", 60},
                                                        {"undistort/undistorted", 16},
                                                        {"undistort/distorted", 16},
                                                        {"pose/pose", 16},
+                                                       {"joint/joint", 16},
+                                                       {"joint/disc", 16},
+                                                       {"joint/covariance", 48},
+                                                       {"joint/outline", 48},
                                                        {"kalman/states", 16},
                                                        {"frame/frame", 16},
-                                                       {"frame/detail", 16}};
+                                                       {"frame/detail", 16},
+                                                       {"frame/covariance", 48},
+                                                       {"frame/std", 32}};
     const auto found = formats.find(stage + "/" + output);
     if (found == formats.end()) {
         throw std::runtime_error("no format for output " + stage + "/" + output);

@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The reference tier of a frame by the mirror, and how far the library may be from it: the ellipse by what its fit may,
+ * everything behind it by what such an ellipse, such a centroid and rounded residuals move it. */
+#include "tiers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "mirror.hpp"
+#include "stages.h"
+
+namespace vectors {
+
+namespace {
+
+using mirror::real;
+using reference::Ellipse;
+using reference::q16;
+using reference::Real;
+using Words = std::vector<int64_t>;
+using Bound = std::vector<uint32_t>;
+
+enum Word {
+    STATUS = 0,
+    SEEN = 1,
+    IDEAL = 6,
+    POLARITY = 11,
+    ARCS,
+    REFIT,
+    HAS_INNER,
+    INNER, /* x y area threshold spread */
+    POSE = 20,
+    OTHER = 28,
+    RESOLVED = 36,
+    AMBIGUITY,
+    WORDS
+};
+constexpr uint32_t ELLIPSE_LSB = 4;
+constexpr uint32_t ANY_ANGLE = 205887; /* pi */
+
+/* The three outputs with a reference, one after the other. */
+constexpr size_t COVARIANCE = WORDS, STD = COVARIANCE + 15, ALL = STD + 4;
+
+int64_t rounded(Real v, int frac) { return static_cast<int64_t>(std::floor(std::ldexp(v, frac) + 0.5L)); }
+
+void put_ellipse(int64_t *at, const Ellipse &e)
+{
+    const Real v[5] = {e.xc, e.yc, e.a, e.b, e.angle};
+    std::transform(v, v + 5, at, q16);
+}
+
+void put_pose(int64_t *at, const reference::Pose &p)
+{
+    const Real v[8] = {p.position[0], p.position[1], p.position[2], p.axis[0], p.axis[1], p.axis[2], p.yaw, p.pitch};
+    std::transform(v, v + 8, at, q16);
+}
+
+Words words_of(const mirror::Result &r)
+{
+    Words w(ALL, 0);
+    w[STATUS] = r.status;
+    w[AMBIGUITY] = q16(r.ambiguity);
+    if (!r.found) {
+        return w;
+    }
+    put_ellipse(&w[SEEN], r.seen);
+    if (r.ideal.ok) {
+        put_ellipse(&w[IDEAL], r.ideal);
+    }
+    w[POLARITY] = r.outline.polarity;
+    for (size_t k = 0; k < 4; k++) {
+        w[ARCS] |= r.outline.arcs[k] != DROGUE_NO_ARC ? 1 << k : 0;
+    }
+    w[REFIT] = r.outline.refit_points;
+    w[HAS_INNER] = r.has_inner;
+    if (r.has_inner) {
+        w[INNER + 3] = r.part.threshold;
+        w[INNER] = q16(r.inner.x);
+        w[INNER + 1] = q16(r.inner.y);
+        w[INNER + 2] = r.part.area;
+        w[INNER + 4] = q16(r.part.spread);
+    }
+    if (r.status != DROGUE_OK) {
+        return w;
+    }
+    put_pose(&w[POSE], r.pose);
+    put_pose(&w[OTHER], r.alternative);
+    w[RESOLVED] = r.resolved;
+    for (int i = 0, at = COVARIANCE; i < 5; i++) {
+        for (int j = 0; j <= i; j++) {
+            w[static_cast<size_t>(at++)] = rounded(r.covariance(i, j), 48);
+        }
+    }
+    for (size_t k = 0; k < 3; k++) {
+        w[STD + k] = rounded(r.position_std[k], 32);
+    }
+    w[STD + 3] = rounded(r.axis_std, 32);
+    return w;
+}
+
+/* Edge points enter the last fit exactly. With the lens undone they are rounded, each in its own way, to a grid in which
+ * four semi-axes fit 16 bits: half a pitch bounds what that can do. */
+std::array<uint32_t, 5> ellipse_bound(const Ellipse &e, bool lens)
+{
+    uint32_t pitch = 64; /* LSB */
+    while (pitch < 65536 && 4 * e.a * 65536 / pitch > 32767) {
+        pitch *= 2;
+    }
+    const uint32_t axis = lens ? ELLIPSE_LSB + pitch / 2 : ELLIPSE_LSB;
+    const Real angle = axis + std::ceil(axis / std::max<Real>(e.a - e.b, 1e-9L));
+    return {axis, axis, axis, axis, angle < ANY_ANGLE ? static_cast<uint32_t>(angle) : ANY_ANGLE};
+}
+
+/* Relative error of the scatter of the bins' sums: every offset is rounded to 2^-16 semi-axes, on its own, and the ellipse
+ * itself lies off by an LSB of a pixel. */
+Real scatter_error(const reference::Support &s, const Ellipse &e)
+{
+    Real scatter = 0, points = 0;
+    int bins = 0;
+    for (int k = 0; k < reference::SUPPORT_BINS; k++) {
+        const int n = s.count[static_cast<size_t>(k)][s.bright >> k & 1];
+        const Real sum = 65536 * s.sum[static_cast<size_t>(k)];
+        scatter += n > 0 ? sum * sum / n : 0;
+        points += n;
+        bins += n > 0;
+    }
+    scatter = std::max<Real>(scatter, 1e-6L);
+    return 5 * 2 * 0.29L / std::sqrt(scatter) + bins / 12.0L / scatter + 2 / e.b * std::sqrt(points / scatter);
+}
+
+/* What the words behind the ellipse move by when what they come from does. */
+class Sensitivity {
+public:
+    Sensitivity(const mirror::Task &task, const mirror::Result &result, const mirror::Features &features,
+                const drogue_result *library)
+        : task_(task), result_(result), features_(features), library_(library), own_(words_of(result)), sum_(ALL, 0)
+    {}
+
+    /* Change one number by so much, up and down. */
+    template <class Member> void move(Member member, Real by)
+    {
+        std::vector<Real> most(ALL, 0);
+        for (const int sign : {1, -1}) {
+            mirror::Features f = features_;
+            mirror::Result r = result_;
+            member(f, sign * by);
+            f.ideal.b = std::min(f.ideal.b, f.ideal.a);
+            r.status = DROGUE_OK;
+            mirror::finish(r, task_, f, library_);
+            const Words w = words_of(r);
+            for (size_t i = POSE; r.status == DROGUE_OK && i < ALL; i++) {
+                most[i] = std::max(most[i], std::fabs(static_cast<Real>(w[i]) - static_cast<Real>(own_[i])));
+            }
+        }
+        for (size_t i = 0; i < ALL; i++) {
+            sum_[i] += most[i];
+        }
+    }
+    uint32_t at(size_t i, Real beside) const
+    {
+        return static_cast<uint32_t>(std::min<Real>(UINT32_MAX, std::ceil(sum_[i] + beside)));
+    }
+
+private:
+    const mirror::Task &task_;
+    const mirror::Result &result_;
+    const mirror::Features &features_;
+    const drogue_result *library_;
+    Words own_;
+    std::vector<Real> sum_;
+};
+
+/* LSB of the ambiguity when each word of the poses that the choice starts from may be off by 4. */
+Real ambiguity_error(const mirror::Task &task, const mirror::Features &f)
+{
+    std::array<reference::Pose, 2> pair;
+    reference::Choice choice, moved;
+    Real sum = 1;
+    if (!reference::poses(f.ideal, task.camera, task.model.rim_radius, pair) ||
+        !reference::choose(pair, f.inner.at, task.model.inner_depth, task.camera, choice)) {
+        return 0;
+    }
+    for (size_t i = 0; i < 2; i++) {
+        for (size_t k = 0; k < 6; k++) {
+            std::array<reference::Pose, 2> other = pair;
+            (k < 3 ? other[i].position[k] : other[i].axis[k - 3]) += 4 / 65536.0L;
+            if (reference::choose(other, f.inner.at, task.model.inner_depth, task.camera, moved)) {
+                sum += 65536 * std::fabs(moved.ambiguity - choice.ambiguity);
+            }
+        }
+    }
+    return sum;
+}
+
+void bound_poses(Bound &bound, const mirror::Task &task, const mirror::Result &r, const mirror::Features &f,
+                 const std::array<uint32_t, 5> &ellipse, const drogue_result *library)
+{
+    Sensitivity s(task, r, f, library);
+    Real Ellipse::*const member[5] = {&Ellipse::xc, &Ellipse::yc, &Ellipse::a, &Ellipse::b, &Ellipse::angle};
+    for (size_t k = 0; k < 5; k++) {
+        s.move([&](mirror::Features &g, Real by) { g.ideal.*member[k] += by; }, ellipse[k] / 65536.0L);
+    }
+    const Real error = scatter_error(f.support, f.ideal);
+    s.move(
+        [](mirror::Features &g, Real by) {
+            for (Real &sum : g.support.sum) {
+                sum *= std::sqrt(std::max<Real>(0, 1 + by));
+            }
+        },
+        error);
+    if (f.placed) {
+        s.move([](mirror::Features &g, Real by) { g.inner.at.x += by; }, 2 / 65536.0L);
+        s.move([](mirror::Features &g, Real by) { g.inner.at.y += by; }, 2 / 65536.0L);
+        s.move([](mirror::Features &g, Real by) { g.inner.std += by; }, 3 / 65536.0L);
+    }
+    const Words own = words_of(r);
+    for (size_t i = POSE; i < RESOLVED; i++) {
+        bound[i] = s.at(i, 4);
+    }
+    bound[AMBIGUITY] = r.has_inner ? s.at(AMBIGUITY, ambiguity_error(task, f)) : 0;
+    for (size_t i = COVARIANCE; i < ALL; i++) {
+        bound[i] = s.at(i, 4 + std::fabs(static_cast<Real>(own[i])) * 0x1p-20L);
+    }
+}
+
+mirror::Task task_of(const std::vector<Array> &in)
+{
+    const Words &c = in[1].words, &m = in[2].words, &g = in[3].words;
+    const bool fits = g[2] >= 1 && g[2] <= DROGUE_MAX_SIDE; /* as the stage's workspace */
+    mirror::Task t = {
+        image_of(in[0]),
+        {real(c[0]), real(c[1]), real(c[2]), real(c[3]), real(c[4]), real(c[5]), real(c[6]), real(c[7]), real(c[8])},
+        {real(m[0]), real(m[1]), real(m[2])},
+        {g[0], g[1], g[2], g[3]},
+        {},
+        {static_cast<uint32_t>(fits ? g[2] : DROGUE_MAX_SIDE), CONF_MAX_EDGES, CONF_MAX_LABELS, CONF_MAX_ARCS}};
+    drogue_config_default(&t.config);
+    return t;
+}
+
+/* What the mirror follows, from the words of the exact tier. */
+drogue_result library_of(const std::vector<Array> &exact)
+{
+    const Words &w = exact[0].words, &d = exact[1].words;
+    drogue_result r = {};
+    r.region = {static_cast<int32_t>(d[0]), static_cast<int32_t>(d[1]), static_cast<int32_t>(d[2]),
+                static_cast<int32_t>(d[3])};
+    for (size_t k = 0; k < 3; k++) {
+        r.pose.position_m_q16[k] = static_cast<int32_t>(w[POSE + k]);
+        r.pose.axis_q16[k] = static_cast<int32_t>(w[POSE + 3 + k]);
+        r.alternative.position_m_q16[k] = static_cast<int32_t>(w[OTHER + k]);
+        r.alternative.axis_q16[k] = static_cast<int32_t>(w[OTHER + 3 + k]);
+    }
+    return r;
+}
+
+Array like(const Array &exact, Words words)
+{
+    Array a = exact;
+    a.words = std::move(words);
+    return a;
+}
+
+} // namespace
+
+std::vector<Expected> frame_tier(const std::vector<Array> &in, const std::vector<Array> &exact)
+{
+    if (exact[0].words.size() != WORDS || exact[2].name != "covariance" || exact[3].name != "std") {
+        throw std::runtime_error("the frame stage's outputs are not those expected");
+    }
+    const mirror::Task task = task_of(in);
+    const drogue_result library = library_of(exact);
+    mirror::Features features = {};
+    const mirror::Result r = mirror::measure(task, &library, &features);
+    const Words w = words_of(r);
+    Bound bound(ALL, 0);
+    if (r.found) {
+        const bool lens = std::any_of(in[1].words.begin() + 4, in[1].words.end(), [](int64_t v) { return v != 0; });
+        const std::array<uint32_t, 5> seen = ellipse_bound(r.seen, false), ideal = ellipse_bound(r.ideal, lens);
+        std::copy(seen.begin(), seen.end(), bound.begin() + SEEN);
+        std::copy(ideal.begin(), ideal.end(), bound.begin() + IDEAL);
+        if (r.has_inner) {
+            bound[INNER] = bound[INNER + 1] = 1;
+            bound[INNER + 4] = 3;
+        }
+        if (r.status == DROGUE_OK) {
+            bound_poses(bound, task, r, features, ideal, &library);
+        }
+    }
+    const auto part = [](const auto &all, size_t from, size_t to) {
+        return std::decay_t<decltype(all)>(all.begin() + static_cast<long>(from), all.begin() + static_cast<long>(to));
+    };
+    return {{like(exact[0], part(w, 0, COVARIANCE)), part(bound, 0, COVARIANCE)},
+            {like(exact[2], part(w, COVARIANCE, STD)), part(bound, COVARIANCE, STD)},
+            {like(exact[3], part(w, STD, ALL)), part(bound, STD, ALL)}};
+}
+
+} // namespace vectors

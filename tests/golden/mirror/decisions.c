@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The outline stage with its static functions in reach, so that its rounds can be followed. */
+#include "decisions.h"
+
+#define drogue_outline_find decisions_outline_find
+#define drogue_outline_undistorted decisions_outline_undistorted
+drogue_status decisions_outline_find(drogue_outline *, const drogue_workspace *, const drogue_edge_list *,
+                                     const drogue_mask *, const drogue_config *);
+drogue_status decisions_outline_undistorted(drogue_ellipse *, const drogue_outline *, const drogue_workspace *,
+                                            const drogue_edge_list *, const drogue_config *, const drogue_camera *,
+                                            int32_t, int32_t);
+#include "../../../src/outline.c"
+
+/* As refit() in outline.c, written down on the way. */
+static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, const context *x)
+{
+    drogue_band band = band_about(&o->ellipse, x->config->search_band_q16, x->config);
+    collection c;
+    uint32_t n;
+    int done = 0;
+    for (n = 0; n <= x->config->refit_rounds && !done;) {
+        drogue_ellipse ellipse;
+        const drogue_q16 width = band.half_width_px_q16;
+        const uint32_t bright_bins = o->support.bright_bins;
+        rounds[n].ellipse = o->ellipse;
+        rounds[n].band = band;
+        n++;
+        if (collect_outline(&c, &o->support, &o->ellipse, &band, x) != DROGUE_OK) {
+            break;
+        }
+        drogue_support_judge(&o->support, &o->ellipse, x->config->polarity, 1);
+        if (o->support.bright_bins == bright_bins) {
+            if (collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, x->config)) {
+                break;
+            }
+            narrow(&band, &o->support, &ellipse, x->config);
+            done = band.half_width_px_q16 == width && settled(&ellipse, &o->ellipse);
+            o->ellipse = ellipse;
+        }
+    }
+    return (int)n;
+}
+
+int decisions_of_refit(decisions_round rounds[DECISIONS_MAX], const drogue_workspace *workspace,
+                       const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config,
+                       const uint32_t arcs[4])
+{
+    drogue_candidate candidate;
+    drogue_outline outline;
+    context x;
+    uint32_t chosen = 0;
+    int k;
+    x.workspace = workspace;
+    x.list = list;
+    x.mask = mask;
+    x.config = config;
+    for (k = 0; k < 4; k++) {
+        x.choices.arc[k][0] = arcs[k];
+        x.choices.arc[k][1] = DROGUE_NO_ARC;
+        chosen |= (uint32_t)usable(&x, k, 0) << (4 * k);
+    }
+    (void)try_arcs(&candidate, chosen, &x);
+    memset(&outline, 0, sizeof outline);
+    outline.ellipse = candidate.ellipse;
+    outline.support.bright_bins = candidate.polarity;
+    return follow(rounds, &outline, &x);
+}

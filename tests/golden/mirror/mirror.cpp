@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The measurement of a frame in floating point: region, outline, dark part, poses, choice, joint solution. */
+#include "mirror.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mirror {
+
+using reference::Ellipse;
+using reference::Point;
+using reference::Pose;
+
+namespace {
+
+/* The region within the image, and the circles about the region asked for in its coordinates. */
+bool place(cv::Rect &clipped, drogue_mask &mask, const cv::Mat &image, const std::array<int64_t, 4> &region)
+{
+    const auto far = [](int64_t v) { return v > 1 << 20 || v < -(1 << 20); };
+    if (region[2] < 1 || region[3] < 1 || region[2] > DROGUE_MAX_REGION || region[3] > DROGUE_MAX_REGION ||
+        far(region[0]) || far(region[1])) {
+        return false;
+    }
+    const cv::Rect asked(static_cast<int>(region[0]), static_cast<int>(region[1]), static_cast<int>(region[2]),
+                         static_cast<int>(region[3]));
+    clipped = asked & cv::Rect(0, 0, image.cols, image.rows);
+    mask.centre2_x = asked.width - 1 + 2 * (asked.x - clipped.x);
+    mask.centre2_y = asked.height - 1 + 2 * (asked.y - clipped.y);
+    mask.longest_px = std::max(asked.width, asked.height);
+    return !clipped.empty() && clipped.width <= DROGUE_MAX_SIDE && clipped.height <= DROGUE_MAX_SIDE &&
+           clipped.br().x <= INT16_MAX && clipped.br().y <= INT16_MAX;
+}
+
+int rounded(Real v) { return static_cast<int>(std::floor(v + 0.5L)); }
+
+/* A frame's outline in the making. */
+struct Frame {
+    cv::Mat view;
+    drogue_mask mask;
+    std::unique_ptr<FrontEnd> front;
+    drogue_outline decided; /* the library's */
+    Follow follow;
+};
+
+drogue_status outline_in(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region, bool follow)
+{
+    if (!place(out.region, f.mask, task.image, region)) {
+        return DROGUE_E_REGION;
+    }
+    drogue_capacity capacity = task.capacity;
+    capacity.width_px = static_cast<uint32_t>(out.region.width);
+    f.view = task.image(out.region).clone();
+    f.front = run_front_end(f.view, f.mask, task.config, capacity);
+    f.follow.library = nullptr;
+    if (follow && f.front->status == DROGUE_OK) {
+        (void)drogue_outline_find(&f.decided, &f.front->workspace, &f.front->list, &f.mask, &task.config);
+        f.follow.library = &f.decided;
+    }
+    const drogue_status status = find_outline(out.outline, *f.front, f.mask, task.config, f.follow);
+    return status;
+}
+
+bool ring_holds(const Ellipse &e, const drogue_mask &mask)
+{
+    const Real off = std::hypot(e.xc - mask.centre2_x / 2.0L, e.yc - mask.centre2_y / 2.0L);
+    return 2 * (e.a + off + 1) <= mask.longest_px && 3 * (e.b - off - 1) >= mask.longest_px;
+}
+
+/* Region whose ring suits an outline; a side or corner halfway between pixels to what the library resolves is its. */
+std::array<int64_t, 4> region_about(const Ellipse &e, cv::Point origin, const drogue_result *library)
+{
+    const auto pick = [](Real v, int other) {
+        return std::fabs(std::fabs(v - other) - 0.5L) < Follow::score ? other : rounded(v);
+    };
+    const Real exact = std::max(2 * e.a + 4, e.a + 1.5L * e.b);
+    const int side = library != nullptr ? pick(exact, library->region.width_px) : rounded(exact);
+    const Real x = e.xc - (side - 1) / 2.0L, y = e.yc - (side - 1) / 2.0L;
+    return {origin.x + (library != nullptr ? pick(x, library->region.x_px - origin.x) : rounded(x)),
+            origin.y + (library != nullptr ? pick(y, library->region.y_px - origin.y) : rounded(y)), side, side};
+}
+
+drogue_status outline_twice(Result &out, Frame &f, const Task &task, const drogue_result *library)
+{
+    const drogue_status status = outline_in(out, f, task, task.region, library != nullptr);
+    const Real cover = out.outline.cover;
+    if ((status != DROGUE_OK && status != DROGUE_E_NO_ELLIPSE) ||
+        cover < std::floor(task.config.min_cover_q16 / 2.0L + 0.5L) / 65536 ||
+        cover >= real(task.config.recentre_cover_q16) || ring_holds(out.outline.ellipse, f.mask)) {
+        return status;
+    }
+    const std::array<int64_t, 4> better = region_about(out.outline.ellipse, out.region.tl(), library);
+    if (better[2] > static_cast<int64_t>(task.capacity.width_px)) {
+        return status;
+    }
+    const Ellipse was = out.outline.ellipse;
+    const cv::Point was_at = out.region.tl();
+    out.outline = Outline();
+    if (outline_in(out, f, task, better, library != nullptr) == DROGUE_OK && out.outline.cover >= cover) {
+        const Ellipse &e = out.outline.ellipse; /* about the same? */
+        const Real dx = e.xc - was.xc + out.region.x - was_at.x, dy = e.yc - was.yc + out.region.y - was_at.y;
+        if (std::fabs(e.a - was.a) <= was.a / 3 && std::hypot(dx, dy) <= was.a / 3) {
+            return DROGUE_OK;
+        }
+    }
+    out.outline = Outline(); /* what was found first stands */
+    return outline_in(out, f, task, task.region, library != nullptr);
+}
+
+bool distorts(const reference::Camera &c) { return c.k1 != 0 || c.k2 != 0 || c.p1 != 0 || c.p2 != 0 || c.k3 != 0; }
+
+/* Look for the inner part where a pose expects it; 'expected' is the disc that it was found by. */
+void find_inner(Result &out, Ellipse &expected, const Frame &f, const std::array<Pose, 2> &pair, const Task &task)
+{
+    const Ellipse &rim = out.outline.ellipse;
+    std::vector<Ellipse> discs;
+    for (const Pose &pose : pair) {
+        Ellipse e;
+        Point at;
+        if (reference::disc_image(e, pose, task.camera, task.model) != reference::Solved::ok || e.a < 1) {
+            continue;
+        }
+        at = {e.xc, e.yc};
+        if (reference::distort(task.camera, at)) {
+            discs.push_back({at.x - out.region.x, at.y - out.region.y, e.a, e.b, 0, true});
+        }
+    }
+    out.part = reference::dark_disc(f.view, rounded(2 * rim.xc), rounded(2 * rim.yc), rounded(2.5L * rim.b),
+                                    static_cast<int>(task.config.min_dark_area_px), discs);
+    out.has_inner = out.part.found;
+    if (out.has_inner) {
+        expected = discs[static_cast<size_t>(out.part.which)];
+    }
+}
+
+/* Of about the expected size, near the expected place, not cut by the rim? */
+bool trust(const Result &out, const Ellipse &expected, const drogue_config &config)
+{
+    const Ellipse &rim = out.outline.ellipse;
+    const Real c = std::cos(rim.angle), s = std::sin(rim.angle), dx = out.part.x - rim.xc, dy = out.part.y - rim.yc;
+    const Real u = (dx * c + dy * s) / rim.a, v = (dy * c - dx * s) / rim.b, room = 1 - expected.a / rim.b;
+    const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * rim.a;
+    return out.part.contrast >= config.min_inner_contrast && out.part.fill >= real(config.min_fill_q16) &&
+           out.part.fill <= real(config.max_fill_q16) &&
+           std::hypot(out.part.x - expected.xc, out.part.y - expected.yc) <= gate && room > 0 &&
+           std::hypot(u, v) <= room;
+}
+
+Real inner_std(const Result &out, const Ellipse &expected, const drogue_config &config)
+{
+    return std::hypot(std::hypot(real(config.inner_std_share_q16) * expected.a, real(config.inner_std_px_q16)),
+                      real(config.inner_std_spread_q16) * out.part.spread);
+}
+
+bool same_solution(const reference::Joint &p, const reference::Joint &q)
+{
+    const auto yaw = static_cast<double>(p.pose.yaw - q.pose.yaw),
+               pitch = static_cast<double>(p.pose.pitch - q.pose.pitch);
+    return yaw * yaw <= p.covariance(3, 3) && pitch * pitch <= p.covariance(4, 4);
+}
+
+Real apart(const Pose &p, const drogue_pose &q)
+{
+    Real sum = 0;
+    for (size_t k = 0; k < 3; k++) {
+        sum += std::fabs(p.position[k] - real(q.position_m_q16[k])) + std::fabs(p.axis[k] - real(q.axis_q16[k]));
+    }
+    return sum;
+}
+
+/* The pose that outline and inner part agree with best. */
+struct Together {
+    reference::Joint joint;
+    size_t index;
+    bool resolved, agree;
+};
+
+Together solve_together(const std::array<Pose, 2> &poses, size_t nearer, const Features &f,
+                        const reference::Covariance &outline, const Task &task, const drogue_result *library)
+{
+    constexpr int STEPS = 5, OTHER_STEPS = 1;
+    const auto solve = [&](size_t which, int steps) {
+        return reference::solve_joint(poses[which], f.ideal, outline, f.inner, task.camera, task.model, steps);
+    };
+    Together t = {solve(nearer, STEPS), nearer, false, false};
+    reference::Joint other = solve(1 - nearer, OTHER_STEPS);
+    const bool near_ok = t.joint.solved == reference::Solved::ok, far_ok = other.solved == reference::Solved::ok;
+    bool turn = far_ok && (!near_ok || other.chi2 < t.joint.chi2);
+    if (library != nullptr && near_ok && far_ok && std::fabs(other.chi2 - t.joint.chi2) < 0.01 * (1 + t.joint.chi2)) {
+        turn = apart(poses[nearer], library->alternative) < apart(poses[1 - nearer], library->alternative);
+    }
+    if (turn) {
+        std::swap(t.joint, other);
+        t.index = 1 - nearer;
+        t.joint = solve(t.index, STEPS);
+    }
+    if (t.joint.solved != reference::Solved::ok) {
+        return t;
+    }
+    t.resolved = !far_ok || !near_ok || same_solution(t.joint, other) ||
+                 other.chi2 - t.joint.chi2 >= static_cast<double>(real(task.config.min_chi2_gap_q16));
+    t.agree = t.joint.chi2 <= static_cast<double>(real(task.config.max_chi2_q16));
+    return t;
+}
+
+} // namespace
+
+void finish(Result &out, const Task &task, const Features &f, const drogue_result *library)
+{
+    std::array<Pose, 2> pair;
+    reference::Choice choice = {0, {0, 0}, 1};
+    reference::Covariance outline;
+    const drogue_config &config = task.config;
+    if (!reference::poses(f.ideal, task.camera, task.model.rim_radius, pair)) {
+        out.status = DROGUE_E_DOMAIN;
+        return;
+    }
+    const bool placed = f.placed && reference::choose(pair, f.inner.at, task.model.inner_depth, task.camera, choice);
+    out.has_inner = f.trusted && placed; /* else something dark: it orders the poses, but is not to be believed */
+    out.ambiguity = out.has_inner ? choice.ambiguity : 1;
+    choice.index = placed ? choice.index : 0;
+    if (!reference::outline_covariance(outline, f.ideal, f.support, real(config.outline_shading_q16),
+                                       real(config.optics_blur_std_px2_q16))) {
+        out.status = DROGUE_E_DOMAIN;
+        return;
+    }
+    const auto nearer = static_cast<size_t>(choice.index);
+    Together t = {{}, nearer, false, false};
+    if (out.has_inner) {
+        t = solve_together(pair, nearer, f, outline, task, library);
+    }
+    if (!t.agree) {
+        t = {reference::solve_joint(pair[nearer], f.ideal, outline, {{0, 0}, 0}, task.camera, task.model, 0), nearer,
+             false, false};
+    }
+    out.status = t.joint.solved == reference::Solved::ok ? DROGUE_OK : DROGUE_E_DOMAIN;
+    if (out.status != DROGUE_OK) {
+        return;
+    }
+    out.resolved = t.resolved;
+    out.pose = t.joint.pose;
+    out.alternative = pair[1 - t.index];
+    out.covariance = t.joint.covariance;
+    for (int k = 0; k < 3; k++) {
+        out.position_std[static_cast<size_t>(k)] = std::sqrt(static_cast<Real>(out.covariance(k, k)));
+    }
+    const Real c = std::cos(out.pose.pitch);
+    out.axis_std = std::sqrt(out.covariance(3, 3) * c * c + out.covariance(4, 4));
+}
+
+Result measure(const Task &task, const drogue_result *library, Features *features)
+{
+    Result out;
+    Frame f;
+    const reference::Camera &camera = task.camera;
+    out.outline.arcs.fill(DROGUE_NO_ARC);
+    if (!(camera.fx > 0) || !(camera.fy > 0) || !(task.model.rim_radius > 0) || task.model.inner_radius < 0) {
+        out.status = DROGUE_E_ARGUMENT;
+        return out;
+    }
+    out.status = outline_twice(out, f, task, library);
+    if (out.status != DROGUE_OK) {
+        return out;
+    }
+    out.found = true;
+    out.seen = out.outline.ellipse;
+    out.seen.xc += out.region.x;
+    out.seen.yc += out.region.y;
+    out.ideal =
+        distorts(camera) ? ideal_of(out.outline, *f.front, task.config, f.follow, camera, out.region.tl()) : out.seen;
+    if (!out.ideal.ok) {
+        out.status = DROGUE_E_NO_ELLIPSE;
+        return out;
+    }
+    Features from = {out.ideal, out.outline.support, {{0, 0}, 0}, false, false};
+    std::array<Pose, 2> pair;
+    if (!reference::poses(out.ideal, camera, task.model.rim_radius, pair)) {
+        out.status = DROGUE_E_DOMAIN;
+        return out;
+    }
+    if (task.model.inner_radius > 0) {
+        Ellipse expected = {0, 0, 0, 0, 0, false};
+        find_inner(out, expected, f, pair, task);
+        if (out.has_inner) {
+            from.trusted = trust(out, expected, task.config);
+            out.inner = {out.part.x + out.region.x, out.part.y + out.region.y};
+            from.inner = {out.inner, inner_std(out, expected, task.config)};
+            from.placed = reference::undistort(camera, from.inner.at);
+            from.trusted = from.trusted && from.placed;
+        }
+    }
+    if (features != nullptr) {
+        *features = from;
+    }
+    finish(out, task, from, library);
+    return out;
+}
+
+} // namespace mirror

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The measurement of a frame in floating point, on the edge list of the exact front end. */
+#pragma once
+
+#include <array>
+
+#include "outline.hpp"
+
+namespace mirror {
+
+/* What a frame is measured with; 'image' 8-bit grey. */
+struct Task {
+    cv::Mat image;
+    reference::Camera camera;
+    reference::Model model;
+    std::array<int64_t, 4> region; /* x y width height */
+    drogue_config config;
+    drogue_capacity capacity; /* of the workspace; 'width_px' is set as the region needs */
+};
+
+/* As drogue_result, unrounded. */
+struct Result {
+    drogue_status status = DROGUE_OK;
+    cv::Rect region;
+    bool found = false; /* an outline, whatever came of it */
+    Outline outline;    /* in coordinates of the region */
+    reference::Ellipse seen = {0, 0, 0, 0, 0, false}, ideal = {0, 0, 0, 0, 0, false};
+    bool has_inner = false;
+    reference::DarkDisc part = {};
+    reference::Point inner = {0, 0}; /* as seen, px of the whole image */
+    Real ambiguity = 1;
+    bool resolved = false;
+    reference::Pose pose = {}, alternative = {};
+    reference::Covariance covariance = {};
+    std::array<Real, 3> position_std = {};
+    Real axis_std = 0;
+};
+
+/* What the last part of a measurement starts from, for those who ask how far its result moves with it. */
+struct Features {
+    reference::Ellipse ideal;
+    reference::Support support;
+    reference::Inner inner; /* undistorted */
+    bool trusted;           /* in its place and of its size */
+    bool placed;            /* there, and its lens undone */
+};
+
+/* Follows the library's documented method from edge points to the pose.
+ *
+ *  library   what drogue_measure() gave for the same task, to decide as it did where the margin is below what it
+ *            resolves (outline.hpp); NULL: all decisions are the mirror's own
+ *  features  out: what finish() starts from; NULL: not wanted
+ */
+Result measure(const Task &task, const drogue_result *library = nullptr, Features *features = nullptr);
+
+/* The poses, their choice and covariance from the features; 'out' has what comes before. */
+void finish(Result &out, const Task &task, const Features &features, const drogue_result *library = nullptr);
+
+} // namespace mirror

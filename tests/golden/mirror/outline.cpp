@@ -1,0 +1,453 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* From edge points to the outline in floating point. Edge points, their subpixel places and arcs are the front end's, which
+ * is exact; from there on every number is unrounded, and every threshold is the configuration's. */
+#include "outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "decisions.h"
+
+namespace mirror {
+
+using reference::BandPoint;
+using reference::Edge;
+using reference::Ellipse;
+using reference::Point;
+using reference::q16;
+using reference::Support;
+
+namespace {
+
+constexpr uint32_t NONE = DROGUE_NO_ARC;
+constexpr Real SETTLED = 1 / 64.0L; /* px */
+
+/* An edge point and what is decided about it: the library's choice where the margin is below what it resolves. */
+BandPoint decide(const Ellipse &e, const reference::Band &band, const Edge &edge, const drogue_edge &q,
+                 const drogue_ellipse_frame *frame, const drogue_band *library)
+{
+    BandPoint p = reference::band_point(e, band, edge);
+    drogue_band_point own;
+    if (library == nullptr) {
+        return p;
+    }
+    const bool held =
+        drogue_ellipse_band_holds(&own, frame, library, drogue_edge_x_q16(&q), drogue_edge_y_q16(&q), q.gx, q.gy) != 0;
+    if (p.undecided(Follow::width(e, band.width), Follow::cosine)) {
+        p.held = held;
+    }
+    if (p.held && held && p.from_next_bin < Follow::angle(e)) {
+        p.bin = static_cast<int>(drogue_support_bin_of(own.u_q24, own.v_q24));
+    }
+    return p;
+}
+
+/* One collection of edge points about an ellipse. */
+std::vector<BandPoint> collect(const Ellipse &e, const reference::Band &band, const FrontEnd &front,
+                               const decisions_round *library)
+{
+    std::vector<BandPoint> points;
+    drogue_ellipse_frame frame = {};
+    if (library != nullptr && drogue_ellipse_frame_of(&frame, &library->ellipse) != DROGUE_OK) {
+        library = nullptr;
+    }
+    for (size_t i = 0; i < front.edges.size(); i++) {
+        points.push_back(decide(e, band, front.edges[i], front.workspace.edges[i], &frame,
+                                library != nullptr ? &library->band : nullptr));
+    }
+    return points;
+}
+
+Ellipse fit(const std::vector<Point> &points)
+{
+    std::vector<cv::Point2d> plain;
+    for (const Point &p : points) {
+        plain.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y));
+    }
+    return reference::fit(plain);
+}
+
+/* The stage on one frame. */
+class Finder {
+public:
+    Finder(const FrontEnd &front, const drogue_mask &mask, const drogue_config &config, const Follow &follow)
+        : front_(front), mask_(mask), config_(config), follow_(follow)
+    {}
+    drogue_status find(Outline &out);
+
+private:
+    using Arcs = std::array<uint32_t, 4>;
+    struct Candidate {
+        reference::Candidate rated;
+        reference::Quality quality;
+        Arcs arcs;
+        Real slack; /* by which reliability may differ from the library's */
+    };
+
+    bool select();
+    Real cover(uint32_t &bright, Real &slack, const Ellipse &e) const;
+    bool rate(Candidate &out, const Arcs &arcs) const;
+    std::vector<Candidate> candidates() const;
+    size_t choose(int &members, const std::vector<Candidate> &all) const;
+    bool plausible(const Ellipse &e) const;
+    reference::Band band_about(const Ellipse &e) const;
+    Outline refine(const Candidate &candidate) const;
+    void narrow(reference::Band &band, const Support &s, const Ellipse &e) const;
+    reference::ClusterConfig cluster() const;
+
+    const FrontEnd &front_;
+    const drogue_mask &mask_;
+    const drogue_config &config_;
+    const Follow &follow_;
+    std::array<std::array<uint32_t, DROGUE_ARC_CHOICES>, 4> choices_ = {};
+};
+
+bool Finder::select()
+{
+    std::vector<reference::Verdict> verdicts;
+    std::vector<int> counts;
+    bool any = false;
+    for (uint32_t i = 0; i < front_.list.arc_count; i++) {
+        const drogue_arc &arc = front_.workspace.arcs[i];
+        std::vector<cv::Point> pixels;
+        for (uint32_t k = arc.first; k < arc.first + arc.count; k++) {
+            const drogue_edge *e = &front_.workspace.edges[k];
+            pixels.emplace_back(drogue_edge_x_px(e), drogue_edge_y_px(e));
+        }
+        verdicts.push_back(reference::judge_arc(pixels, mask_.centre2_x, mask_.centre2_y,
+                                                static_cast<int>(arc.direction), config_.min_short_px_q16));
+        counts.push_back(static_cast<int>(arc.count));
+    }
+    const reference::Choices chosen = reference::select_arcs(verdicts, counts, config_.polarity);
+    for (size_t q = 0; q < 4; q++) {
+        for (size_t i = 0; i < 2; i++) {
+            choices_[q][i] = chosen[q][i] < 0 ? NONE : static_cast<uint32_t>(chosen[q][i]);
+            any = any || chosen[q][i] >= 0;
+        }
+    }
+    return any;
+}
+
+bool Finder::plausible(const Ellipse &e) const
+{
+    return e.ok && e.b >= e.a * real(config_.min_axis_ratio_q16) &&
+           e.a >= real(config_.min_size_q16) * mask_.longest_px && e.a <= real(config_.max_size_q16) * mask_.longest_px;
+}
+
+reference::Band Finder::band_about(const Ellipse &e) const
+{
+    const Real share = std::min<Real>(8, real(config_.search_band_q16) * e.a);
+    return {std::max(real(config_.refit_band_px_q16), share), real(config_.refit_cos_q16)};
+}
+
+/* Covered share of an ellipse by some of all edge points; 'slack' is what undecided points and bins could change. */
+Real Finder::cover(uint32_t &bright, Real &slack, const Ellipse &e) const
+{
+    const size_t stride = front_.edges.size() / 512 + 1;
+    const reference::Band band = band_about(e);
+    Support with, without;
+    for (size_t i = 0; i < front_.edges.size(); i += stride) {
+        const BandPoint p = reference::band_point(e, band, front_.edges[i]);
+        const bool unsure = p.undecided(Follow::width(e, band.width), Follow::cosine);
+        const bool torn = p.from_next_bin < Follow::angle(e);
+        if (p.held || unsure) {
+            reference::support_add(with, p, front_.edges[i]);
+        }
+        if (p.held && !unsure && !torn) {
+            reference::support_add(without, p, front_.edges[i]);
+        }
+    }
+    Support own;
+    for (size_t i = 0; i < front_.edges.size(); i += stride) {
+        const BandPoint p = reference::band_point(e, band, front_.edges[i]);
+        if (p.held) {
+            reference::support_add(own, p, front_.edges[i]);
+        }
+    }
+    for (Support *s : {&own, &with, &without}) {
+        reference::support_judge(*s, e, config_.polarity, static_cast<int>(stride));
+    }
+    bright = own.bright;
+    const int most = std::max({own.covered, with.covered, without.covered}),
+              least = std::min({own.covered, with.covered, without.covered});
+    slack = static_cast<Real>(most - least) / reference::SUPPORT_BINS;
+    return static_cast<Real>(own.covered) / reference::SUPPORT_BINS;
+}
+
+/* Fit and score the union of arcs; false when it is no candidate. */
+bool Finder::rate(Candidate &out, const Arcs &arcs) const
+{
+    std::vector<Point> points;
+    for (const uint32_t index : arcs) {
+        for (uint32_t k = 0; index != NONE && k < front_.workspace.arcs[index].count; k++) {
+            points.push_back(front_.edges[front_.workspace.arcs[index].first + k].at);
+        }
+    }
+    const Ellipse e = fit(points);
+    if (!plausible(e) || e.b < 1) {
+        return false;
+    }
+    const Real error = std::max(e.a * real(config_.search_band_q16), real(config_.quality.fit_error_px_q16));
+    const Real threshold = reference::deviation_threshold(e, error), total = static_cast<Real>(points.size());
+    Real near_count = 0, unsure = 0, slack = 0;
+    for (const Point &p : points) {
+        const Real d = reference::deviation(e, p);
+        near_count += d < threshold;
+        unsure += std::fabs(d - threshold) < 8 / 65536.0L;
+    }
+    uint32_t bright = 0;
+    const Real covered = cover(bright, slack, e);
+    out.quality = reference::quality_of_cover(e, near_count / total, covered, real(config_.quality.k1_q16),
+                                              real(config_.quality.k2_q16));
+    out.rated = {e, real(q16(out.quality.reliability)), static_cast<int>(bright)}; /* equal in Q16 is equal */
+    out.arcs = arcs;
+    out.slack = Follow::score + unsure / total / 2 + slack / 4;
+    return out.quality.fit_ratio >= real(config_.min_fit_ratio_q16);
+}
+
+std::vector<Finder::Candidate> Finder::candidates() const
+{
+    std::vector<Candidate> all;
+    Candidate c;
+    if (rate(c, {choices_[0][0], choices_[1][0], choices_[2][0], choices_[3][0]})) {
+        all.push_back(c);
+        if (c.quality.length_ratio >= 0.9L) {
+            return all;
+        }
+    }
+    for (size_t k = 0; k < 4; k++) {
+        for (size_t l = k + 1; l < 4; l++) {
+            for (const uint32_t first : choices_[k]) {
+                for (const uint32_t second : choices_[l]) {
+                    Arcs arcs = {NONE, NONE, NONE, NONE};
+                    arcs[k] = first;
+                    arcs[l] = second;
+                    if (first != NONE && second != NONE && rate(c, arcs)) {
+                        all.push_back(c);
+                    }
+                }
+            }
+        }
+    }
+    return all;
+}
+
+reference::ClusterConfig Finder::cluster() const
+{
+    const drogue_cluster_config &c = config_.cluster;
+    return {real(c.centre_px_q16), real(c.a_px_q16), real(c.b_px_q16), real(c.angle_rad_q16), real(c.round_q16)};
+}
+
+/* The winner; among those that reliability cannot tell apart, the one that the library took. */
+size_t Finder::choose(int &members, const std::vector<Candidate> &all) const
+{
+    std::vector<reference::Candidate> rated;
+    for (const Candidate &c : all) {
+        rated.push_back(c.rated);
+    }
+    size_t best = static_cast<size_t>(reference::cluster_best(rated, cluster(), members));
+    if (follow_.library != nullptr) {
+        for (size_t i = 0; i < all.size(); i++) {
+            if (std::equal(all[i].arcs.begin(), all[i].arcs.end(), follow_.library->arcs) &&
+                all[i].rated.reliability + all[i].slack + all[best].slack >= all[best].rated.reliability) {
+                best = i;
+            }
+        }
+        members = 0;
+        for (const Candidate &c : all) {
+            members += &c == &all[best] || reference::same_ellipse(all[best].rated, c.rated, cluster());
+        }
+    }
+    return best;
+}
+
+/* Band for the next round: three spreads of the points, from a third of the configured width to the last one. */
+void Finder::narrow(reference::Band &band, const Support &s, const Ellipse &e) const
+{
+    const Real spread = s.points > 0 ? 3 * e.a * std::sqrt(s.squares / s.points) : 0;
+    if (spread < band.width) {
+        band.width = std::max(spread, (config_.refit_band_px_q16 / 3 + 1) / 65536.0L);
+    }
+}
+
+Outline Finder::refine(const Candidate &candidate) const
+{
+    Outline o;
+    decisions_round rounds[DECISIONS_MAX];
+    const int known = follow_.library != nullptr ? decisions_of_refit(rounds, &front_.workspace, &front_.list, &mask_,
+                                                                      &config_, candidate.arcs.data())
+                                                 : 0;
+    o.arcs = candidate.arcs;
+    o.quality = candidate.quality;
+    o.ellipse = candidate.rated.ellipse;
+    o.support.bright = static_cast<uint32_t>(candidate.rated.polarity);
+    reference::Band band = band_about(o.ellipse);
+    bool done = false;
+    for (int round = 0; round <= static_cast<int>(config_.refit_rounds) && !done; round++) {
+        const decisions_round *library = round < known ? &rounds[round] : nullptr;
+        const std::vector<BandPoint> points = collect(o.ellipse, band, front_, library);
+        std::vector<Point> members;
+        Support s;
+        s.bright = o.support.bright;
+        for (size_t i = 0; i < points.size(); i++) {
+            if (points[i].held && reference::support_add(s, points[i], front_.edges[i])) {
+                members.push_back(front_.edges[i].at);
+            }
+        }
+        const uint32_t summed = s.bright;
+        reference::support_judge(s, o.ellipse, config_.polarity, 1);
+        const bool last = round == static_cast<int>(config_.refit_rounds), turned = s.bright != summed;
+        if (last && turned) {
+            reference::support_judge_as(s, o.ellipse, summed, 1);
+        }
+        o.support = s;
+        o.band = band.width;
+        if (last || turned) { /* turned: once more, with the polarities that the counts show */
+            continue;
+        }
+        const Ellipse e = fit(members);
+        if (!plausible(e)) {
+            break;
+        }
+        const Real width = band.width;
+        narrow(band, s, e);
+        const Real moved = std::max({std::fabs(e.xc - o.ellipse.xc), std::fabs(e.yc - o.ellipse.yc),
+                                     std::fabs(e.a - o.ellipse.a), std::fabs(e.b - o.ellipse.b)});
+        const bool unsure = std::fabs(moved - SETTLED) < Follow::score ||
+                            (moved <= SETTLED && width - band.width < Follow::width(e, width));
+        done = moved <= SETTLED && width - band.width < 1 / 65536.0L;
+        if (known > 0 && unsure) {
+            done = round + 1 >= known;
+        }
+        o.ellipse = e;
+        o.refit_points = static_cast<int64_t>(members.size());
+    }
+    o.cover = static_cast<Real>(o.support.covered) / reference::SUPPORT_BINS;
+    o.polarity = o.support.bright == 0            ? DROGUE_POLARITY_DARK
+                 : o.support.bright == UINT32_MAX ? DROGUE_POLARITY_BRIGHT
+                                                  : DROGUE_POLARITY_BOTH;
+    return o;
+}
+
+/* The most reliable candidate, refined; while it covers little, the next that differ, and the one that covers most. */
+drogue_status Finder::find(Outline &out)
+{
+    if (front_.status != DROGUE_OK || front_.edges.empty()) {
+        return front_.status != DROGUE_OK ? front_.status : DROGUE_E_NO_EDGES;
+    }
+    if (!select()) {
+        return DROGUE_E_NO_ARCS;
+    }
+    std::vector<Candidate> all = candidates();
+    out.cover = -1;
+    for (int tries = 0; tries < 3 && out.cover < 0.75L && !all.empty(); tries++) {
+        int members = 0;
+        const Candidate chosen = all[choose(members, all)];
+        Outline trial = refine(chosen);
+        trial.members = members;
+        if (trial.cover > out.cover) {
+            out = trial;
+        }
+        all.erase(std::remove_if(
+                      all.begin(), all.end(),
+                      [&](const Candidate &c) { return reference::same_ellipse(c.rated, chosen.rated, cluster()); }),
+                  all.end());
+    }
+    return out.cover >= real(config_.min_cover_q16) ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
+}
+
+/* Blur of variance v moves an edge of curvature c inward by v c / 2; the front end's own half variance as measured. */
+void undo_blur(Ellipse &e, const drogue_config &config)
+{
+    const Real own = config.smooth ? 0.82L : 0.32L, optics = real(config.optics_blur_px_q16);
+    const Real half = own + optics * optics / 2, a = e.a, b = e.b;
+    e.a += half * a / (b * b);
+    e.b += half * b / (a * a);
+}
+
+} // namespace
+
+std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &mask, const drogue_config &config,
+                                        const drogue_capacity &capacity)
+{
+    auto out = std::make_unique<FrontEnd>();
+    drogue_frontend frontend;
+    drogue_frontend_config front = {};
+    front.canny_low = config.canny_low;
+    front.canny_high = config.canny_high;
+    front.smooth = config.smooth;
+    front.use_ring = 1;
+    front.ring = mask;
+    front.min_arc_px = std::max(
+        config.min_arc_px, static_cast<uint32_t>(std::floor(real(config.min_arc_share_q16) * mask.longest_px + 0.5L)));
+    out->memory.resize(drogue_workspace_bytes(&capacity) / 4 + 1);
+    if (drogue_workspace_init(&out->workspace, out->memory.data(), out->memory.size() * 4, &capacity) != DROGUE_OK ||
+        drogue_frontend_begin(&frontend, &out->workspace, &front, view.cols, view.rows) != DROGUE_OK) {
+        throw std::runtime_error("the front end does not start");
+    }
+    for (int y = 0; y < view.rows; y++) {
+        drogue_frontend_row(&frontend, view.ptr<uint8_t>(y));
+    }
+    out->status = drogue_frontend_end(&out->list, &frontend);
+    for (uint32_t i = 0; i < out->list.edge_count; i++) {
+        const drogue_edge &e = out->workspace.edges[i];
+        out->edges.push_back({{static_cast<Real>(e.x_q5) / 32, static_cast<Real>(e.y_q5) / 32},
+                              static_cast<Real>(e.gx),
+                              static_cast<Real>(e.gy)});
+    }
+    return out;
+}
+
+drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
+                           const Follow &follow)
+{
+    out.arcs.fill(NONE);
+    out.cover = -1;
+    const drogue_status status = Finder(front, mask, config, follow).find(out);
+    if (out.cover < 0) { /* no candidate */
+        out.cover = 0;
+        out.ellipse = {0, 0, 0, 0, 0, false};
+    } else {
+        out.fitted = out.ellipse;
+        undo_blur(out.ellipse, config);
+    }
+    return status;
+}
+
+Ellipse ideal_of(const Outline &outline, const FrontEnd &front, const drogue_config &config, const Follow &follow,
+                 const reference::Camera &camera, cv::Point origin)
+{
+    const Ellipse none = {0, 0, 0, 0, 0, false};
+    Point centre = {outline.fitted.xc + origin.x, outline.fitted.yc + origin.y};
+    if (!reference::undistort(camera, centre)) {
+        return none;
+    }
+    decisions_round library = {};
+    if (follow.library != nullptr) {
+        library.ellipse = follow.library->fitted;
+        library.band = drogue_band_of(follow.library->band_px_q16, config.refit_cos_q16);
+    }
+    const std::vector<BandPoint> points = collect(outline.fitted, {outline.band, real(config.refit_cos_q16)}, front,
+                                                  follow.library != nullptr ? &library : nullptr);
+    std::vector<Point> straight;
+    size_t members = 0;
+    for (size_t i = 0; i < points.size(); i++) {
+        if (!points[i].held || static_cast<int>(outline.support.bright >> points[i].bin & 1) != points[i].polarity) {
+            continue;
+        }
+        Point q = {front.edges[i].at.x + origin.x, front.edges[i].at.y + origin.y};
+        members++;
+        if (reference::undistort(camera, q)) {
+            straight.push_back(q);
+        }
+    }
+    Ellipse e = fit(straight);
+    if (!e.ok || 4 * straight.size() < 3 * members || e.b < e.a * real(config.min_axis_ratio_q16) || e.b < 1) {
+        return none;
+    }
+    undo_blur(e, config);
+    return e;
+}
+
+} // namespace mirror

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* From the exact front end's edge points to the outline, in floating point. */
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "reference.hpp"
+
+#include "drogue/drogue.h"
+
+namespace mirror {
+
+using reference::Real;
+
+inline Real real(int64_t q16) { return static_cast<Real>(q16) / 65536; }
+
+/* What the front end leaves: the library's own lists, and the same as numbers. */
+struct FrontEnd {
+    drogue_status status;
+    std::vector<uint32_t> memory;
+    drogue_workspace workspace;
+    drogue_edge_list list;
+    std::vector<reference::Edge> edges;
+};
+std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &mask, const drogue_config &config,
+                                        const drogue_capacity &capacity);
+
+/* Where a number lies nearer to a limit than the library resolves, its own decision is taken; by how much it may be
+ * off is stated here, and a decision with a wider margin is never taken from it. */
+struct Follow {
+    const drogue_outline *library; /* NULL: every decision is the mirror's own */
+    static constexpr Real cosine = 3e-4L;
+    /* px: the ellipse to 8 LSB, the normal to 14 bits; the band's width is 3 spreads whose root is cut to 16 bits of a
+     * semi-axis */
+    static Real width(const reference::Ellipse &e, Real band) { return 3e-4L + 3e-4L * band + 4 * e.a / 65536; }
+    /* rad: the ellipse to 8 LSB, its angle the less sure the rounder it is */
+    static Real angle(const reference::Ellipse &e)
+    {
+        return 1e-4L + 8 / 65536.0L * (1 + 1 / std::max<Real>(e.a - e.b, 1e-6L));
+    }
+    static constexpr Real score = 8 / 65536.0L;
+};
+
+/* An outline: its ellipse in region coordinates, the arcs it came from. */
+struct Outline {
+    reference::Ellipse ellipse, fitted; /* with and without what blur took put back */
+    reference::Quality quality;
+    int polarity = 0;
+    std::array<uint32_t, 4> arcs;
+    int members = 0;
+    int64_t refit_points = 0;
+    Real cover = 0, band = 0;
+    reference::Support support;
+};
+
+/* The outline with its blur undone, or why there is none. */
+drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
+                           const Follow &follow);
+
+/* Ellipse as the ideal camera would see it, px of the whole image; not ok when the lens cannot be undone. */
+reference::Ellipse ideal_of(const Outline &outline, const FrontEnd &front, const drogue_config &config,
+                            const Follow &follow, const reference::Camera &camera, cv::Point origin);
+
+} // namespace mirror
