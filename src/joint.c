@@ -130,7 +130,7 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
     drogue_joint_state s;
     int last = 0;
     int step;
-    drogue_status status = drogue_joint_weigh(&weights, normal, outline, inner, camera);
+    drogue_status status = drogue_joint_weigh(&weights, normal, out->covariance, outline, inner, camera);
     if (status == DROGUE_OK) {
         status = drogue_joint_begin(&s, &frame, start, &outline->ellipse, camera, model);
     }

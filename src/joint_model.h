@@ -72,11 +72,11 @@ drogue_status drogue_joint_inner_rows(drogue_joint_rows *out, const drogue_joint
 
 /* Weights from the outline's covariance and the inner part's standard deviation.
  *
- *  root    working space for a packed matrix
- *  return  DROGUE_OK; DROGUE_E_DEGENERATE when the covariance is not positive definite
+ *  root         working space, as is 'information'
+ *  return       DROGUE_OK; DROGUE_E_DEGENERATE when the covariance is not positive definite
  */
 drogue_status drogue_joint_weigh(drogue_joint_weights *out, drogue_wide root[DROGUE_PACKED_MAX],
-                                 const drogue_joint_outline *outline, const drogue_joint_inner *inner,
-                                 const drogue_camera *camera);
+                                 drogue_wide information[DROGUE_PACKED_MAX], const drogue_joint_outline *outline,
+                                 const drogue_joint_inner *inner, const drogue_camera *camera);
 
 #endif
