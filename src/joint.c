@@ -13,6 +13,24 @@
 #define RIGHT DROGUE_PACKED(FIT, 0)
 #define CHI2 DROGUE_PACKED(FIT, FIT)
 
+#define STEEPEST (DROGUE_JOINT_ONE << 10) /* semi-axes, or focal lengths, a radius or radian */
+
+/* Is every row small enough for the normal equations? */
+static int measurable(const drogue_joint_rows *rows)
+{
+    int p;
+    int i;
+    for (p = 0; p <= FIT; p++) {
+        for (i = 0; i < DROGUE_JOINT_ROWS; i++) {
+            DROGUE_NOTE("joint: row", rows->column[p][i], 61);
+            if (rows->column[p][i] > STEEPEST || rows->column[p][i] < -STEEPEST) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
 /* Weighted products of all columns with each other, packed: the normal equations, their negative right side, and chi2.
  * Angles get the information 1 / rad^2, which only matters where nothing else says anything. */
 static void normal_equations(drogue_wide normal[CHI2 + 1], const drogue_joint_rows *rows, const drogue_joint_weights *w)
@@ -113,12 +131,18 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
     drogue_joint_state s;
     int last = 0;
     int step;
-    drogue_status status = drogue_joint_weigh(&weights, normal, outline, inner, camera);
+    drogue_status status = drogue_joint_weigh(&weights, normal, out->covariance, outline, inner, camera);
     if (status == DROGUE_OK) {
         status = drogue_joint_begin(&s, &frame, start, &outline->ellipse, camera, model);
     }
     for (step = 0; !last && status == DROGUE_OK; step++) {
-        status = drogue_joint_model(&rows, &s, &frame, inner, camera, model);
+        status = drogue_joint_outline_rows(&rows, &s, &frame);
+        if (status == DROGUE_OK && inner->std_px_q16 > 0) {
+            status = drogue_joint_inner_rows(&rows, &s, inner, camera, model);
+        }
+        if (status == DROGUE_OK && !measurable(&rows)) {
+            status = DROGUE_E_DOMAIN;
+        }
         if (status != DROGUE_OK) {
             break;
         }

@@ -11,7 +11,6 @@
 #define LARGEST (INT64_C(1) << 60)
 #define FARTHEST (DROGUE_JOINT_ONE << 16) /* radii; an outline of 1 px is nearer with any focal length in Q16 */
 #define WIDEST (DROGUE_JOINT_ONE << 6)    /* focal lengths off the axis */
-#define STEEPEST (DROGUE_JOINT_ONE << 10) /* semi-axes a radius or radian */
 
 drogue_s128 drogue_joint_products(const int64_t *a, const int64_t *b, int n)
 {
@@ -177,7 +176,8 @@ static void turn_lifts(lift out[3], int p, const drogue_joint_state *s, const dr
 }
 
 /* Where the circle's image lies off the fitted ellipse, r(t) of joint.h, and how that changes with the pose. */
-static drogue_status outline_rows(drogue_joint_rows *out, const drogue_joint_state *s, const drogue_joint_frame *frame)
+drogue_status drogue_joint_outline_rows(drogue_joint_rows *out, const drogue_joint_state *s,
+                                        const drogue_joint_frame *frame)
 {
     const int64_t smallest = DROGUE_JOINT_ONE >> 16;
     const int64_t largest = DROGUE_JOINT_ONE << 7;
@@ -191,8 +191,9 @@ static drogue_status outline_rows(drogue_joint_rows *out, const drogue_joint_sta
     for (i = 0; i < 3; i++) {
         lift_ray(&at[i], d, frame->ray[i], dot(frame->ray[i], s->axis), s->position, DROGUE_JOINT_ONE);
     }
+    memset(out, 0, sizeof *out);
     conic_of(q, at, at);
-    if (q[0] + q[2] < smallest || q[0] + q[2] > largest) {
+    if (!within(s->position, FARTHEST) || q[0] + q[2] < smallest || q[0] + q[2] > largest) {
         return DROGUE_E_DOMAIN;
     }
     over = drogue_joint_ratio(DROGUE_JOINT_ONE, q[0] + q[2]);
@@ -248,8 +249,9 @@ static drogue_status see_disc(disc *out, const drogue_joint_state *s, const drog
 }
 
 /* The inner part's rows: image of the disc's centroid less the measured one; slopes are those of its middle. */
-static drogue_status inner_rows(drogue_joint_rows *out, const drogue_joint_state *s, const drogue_joint_inner *inner,
-                                const drogue_camera *camera, const drogue_model *model)
+drogue_status drogue_joint_inner_rows(drogue_joint_rows *out, const drogue_joint_state *s,
+                                      const drogue_joint_inner *inner, const drogue_camera *camera,
+                                      const drogue_model *model)
 {
     const int64_t depth = drogue_joint_ratio(model->inner_depth_m_q16, model->rim_radius_m_q16);
     int64_t measured[2];
@@ -273,29 +275,6 @@ static drogue_status inner_rows(drogue_joint_rows *out, const drogue_joint_state
         }
     }
     return DROGUE_OK;
-}
-
-drogue_status drogue_joint_model(drogue_joint_rows *out, const drogue_joint_state *state,
-                                 const drogue_joint_frame *frame, const drogue_joint_inner *inner,
-                                 const drogue_camera *camera, const drogue_model *model)
-{
-    drogue_status status;
-    int p;
-    int i;
-    memset(out, 0, sizeof *out);
-    status = within(state->position, FARTHEST) ? outline_rows(out, state, frame) : DROGUE_E_DOMAIN;
-    if (status == DROGUE_OK && inner->std_px_q16 > 0) {
-        status = inner_rows(out, state, inner, camera, model);
-    }
-    for (p = 0; status == DROGUE_OK && p <= DROGUE_JOINT_FIT; p++) {
-        for (i = 0; i < DROGUE_JOINT_ROWS; i++) {
-            DROGUE_NOTE("joint: row", out->column[p][i], 60);
-            if (limited(out->column[p][i], STEEPEST) != out->column[p][i]) {
-                return DROGUE_E_DOMAIN;
-            }
-        }
-    }
-    return status;
 }
 
 static drogue_q16 pixel_q16(int64_t ray, drogue_q16 focal_px_q16, drogue_q16 centre_px_q16)

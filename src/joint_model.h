@@ -2,7 +2,7 @@
 /* Inside the joint pose: its numbers, its measurement model, and the weights of what was measured.
  *
  * Numbers are Q42 unless they say otherwise, lengths in radii of the rim. Products are rounded once and saturated at
- * 2^60, that is 2^18: what is right stays well below, as drogue_joint_model() verifies. */
+ * 2^60, that is 2^18: what is right stays well below, as drogue_joint_outline_rows() and the solver verify. */
 #ifndef DROGUE_JOINT_MODEL_H
 #define DROGUE_JOINT_MODEL_H
 
@@ -55,22 +55,28 @@ void drogue_joint_turn(drogue_joint_state *state);
 drogue_status drogue_joint_begin(drogue_joint_state *state, drogue_joint_frame *frame, const drogue_pose *pose,
                                  const drogue_ellipse *ellipse, const drogue_camera *camera, const drogue_model *model);
 
-/* Rows of the outline, and of the inner part when its std_px is not 0; those are 0 else.
+/* Rows of the outline; those of the inner part become 0.
  *
- *  return  DROGUE_OK; DROGUE_E_BEHIND_CAMERA; DROGUE_E_DOMAIN when the pose has nothing to do with the measurement:
- *          numbers would be too large
+ *  return  DROGUE_OK; DROGUE_E_DOMAIN when the pose has nothing to do with the measurement: numbers would be too large
  */
-drogue_status drogue_joint_model(drogue_joint_rows *out, const drogue_joint_state *state,
-                                 const drogue_joint_frame *frame, const drogue_joint_inner *inner,
-                                 const drogue_camera *camera, const drogue_model *model);
+drogue_status drogue_joint_outline_rows(drogue_joint_rows *out, const drogue_joint_state *state,
+                                        const drogue_joint_frame *frame);
+
+/* Rows of the inner part.
+ *
+ *  return  DROGUE_OK; DROGUE_E_BEHIND_CAMERA; DROGUE_E_DOMAIN
+ */
+drogue_status drogue_joint_inner_rows(drogue_joint_rows *out, const drogue_joint_state *state,
+                                      const drogue_joint_inner *inner, const drogue_camera *camera,
+                                      const drogue_model *model);
 
 /* Weights from the outline's covariance and the inner part's standard deviation.
  *
- *  root    working space for a packed matrix
- *  return  DROGUE_OK; DROGUE_E_DEGENERATE when the covariance is not positive definite
+ *  root         working space, as is 'information'
+ *  return       DROGUE_OK; DROGUE_E_DEGENERATE when the covariance is not positive definite
  */
 drogue_status drogue_joint_weigh(drogue_joint_weights *out, drogue_wide root[DROGUE_PACKED_MAX],
-                                 const drogue_joint_outline *outline, const drogue_joint_inner *inner,
-                                 const drogue_camera *camera);
+                                 drogue_wide information[DROGUE_PACKED_MAX], const drogue_joint_outline *outline,
+                                 const drogue_joint_inner *inner, const drogue_camera *camera);
 
 #endif

@@ -137,10 +137,9 @@ static void scale_weights(drogue_joint_weights *out, const wide information[DROG
 }
 
 drogue_status drogue_joint_weigh(drogue_joint_weights *out, wide root[DROGUE_PACKED_MAX],
-                                 const drogue_joint_outline *outline, const drogue_joint_inner *inner,
-                                 const drogue_camera *camera)
+                                 wide information[DROGUE_PACKED_MAX], const drogue_joint_outline *outline,
+                                 const drogue_joint_inner *inner, const drogue_camera *camera)
 {
-    wide information[DROGUE_PACKED_MAX];
     wide by_inner[2];
     wide std;
     memcpy(root, outline->covariance, sizeof outline->covariance);
