@@ -132,6 +132,9 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
     int last = 0;
     int step;
     drogue_status status = drogue_joint_weigh(&weights, normal, out->covariance, outline, inner, camera);
+    if (status == DROGUE_OK && start->position_m_q16[2] <= 0) {
+        status = DROGUE_E_BEHIND_CAMERA;
+    }
     if (status == DROGUE_OK) {
         status = drogue_joint_begin(&s, &frame, start, &outline->ellipse, camera, model);
     }
