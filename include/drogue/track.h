@@ -34,19 +34,20 @@ typedef enum drogue_track_state {
 const char *drogue_track_state_name(drogue_track_state state);
 
 typedef struct drogue_track_config {
-    uint32_t max_missed;             /* 10 frames: after more in a row, missed or refused, the track is lost */
-    uint32_t agree_frames;           /* 4 frames: so many refused in a row that agree are believed; at least 1 */
-    uint32_t reconsider_frames;      /* 50 frames: after so many in a row whose inner part, known to the model, does not
+    uint32_t max_missed;          /* 10 frames: after more in a row, missed or refused, the track is lost */
+    uint32_t agree_frames;        /* 4: so many refused measurements that agree are believed, frames without one between
+                                        them not counted; at least 1 */
+    uint32_t reconsider_frames;   /* 50 frames: after so many in a row whose inner part, known to the model, does not
                                    decide, drogue_track_frame() searches the whole frame for one that does; 0: never */
-    drogue_q16 gate_q16;             /* 20.515: chi-square of 5 degrees of freedom at 0.1 % */
-    drogue_q16 position_gate_q16;    /* 16.266: the same of 3, where the angles are not compared */
-    drogue_q16 region_scale_q16;     /* 2.5: side of the next region in predicted major semi-axes */
-    drogue_q16 region_sigmas_q16;    /* 3: standard deviations that region and search allow for */
-    int32_t min_region_px;           /* 32 px */
-    int32_t max_region_px;           /* DROGUE_MAX_SIDE; what the workspace holds */
-    drogue_q16 lateral_std_q16;      /* 0.0005: standard deviation of x and y, share of the distance; this and the */
-    drogue_q16 depth_std_q16;        /* 0.002: of z, share of the distance; next two where a result has no covariance */
-    drogue_q16 angle_std_rad_q16;    /* 0.02 rad: of pitch and yaw */
+    drogue_q16 gate_q16;          /* 20.515: chi-square of 5 degrees of freedom at 0.1 % */
+    drogue_q16 position_gate_q16; /* 16.266: the same of 3, where the angles are not compared */
+    drogue_q16 region_scale_q16;  /* 2.5: side of the next region in predicted major semi-axes */
+    drogue_q16 region_sigmas_q16; /* 3: standard deviations that region and search allow for */
+    int32_t min_region_px;        /* 32 px */
+    int32_t max_region_px;        /* DROGUE_MAX_SIDE; what the workspace holds */
+    drogue_q16 lateral_std_q16;   /* 0.0005: standard deviation of x and y, share of the distance; this and the */
+    drogue_q16 depth_std_q16;     /* 0.002: of z, share of the distance; next two where a result has no covariance */
+    drogue_q16 angle_std_rad_q16; /* 0.02 rad: of pitch and yaw */
     drogue_q16 position_floor_m_q16; /* 0.0001 m: added in quadrature to the measured standard deviations */
     drogue_q16 angle_floor_rad_q16;  /* 0.0005 rad */
     drogue_q16 process_std_q16[DROGUE_PARAMETERS]; /* change of acceleration per frame: x, y 0.2 m/s^2, z 0.02 m/s^2,
