@@ -6,26 +6,13 @@
 #include <cstring>
 
 #include "ablation.hpp"
+#include "check.hpp"
 #include "measure.hpp"
 #include "plain.hpp"
 
 using namespace accuracy;
 
 namespace {
-
-int checks = 0;
-int failures = 0;
-
-void near(const char *what, double got, double want, double tolerance)
-{
-    checks++;
-    if (!(std::fabs(got - want) <= tolerance)) {
-        failures++;
-        std::printf("FAIL %s: got %.9g, want %.9g within %.3g\n", what, got, want, tolerance);
-    }
-}
-
-void truth(const char *what, bool holds) { near(what, holds ? 1 : 0, 1, 0); }
 
 const drogue_model model = {to_q16(0.35), to_q16(0.12), to_q16(0.25)};
 
@@ -138,6 +125,5 @@ int main()
     test_undisturbed();
     test_nothing_there();
     test_border();
-    std::printf("ablation_test: checks=%d failures=%d\n", checks, failures);
-    return failures == 0 ? 0 : 1;
+    return verdict("ablation_test");
 }

@@ -6,25 +6,12 @@
 #include <cstdio>
 
 #include "baselines.hpp"
+#include "check.hpp"
 #include "scene.hpp"
 
 using namespace accuracy;
 
 namespace {
-
-int checks = 0;
-int failures = 0;
-
-void near(const char *what, double got, double want, double tolerance)
-{
-    checks++;
-    if (!(std::fabs(got - want) <= tolerance)) {
-        failures++;
-        std::printf("FAIL %s: got %.9g, want %.9g within %.3g\n", what, got, want, tolerance);
-    }
-}
-
-void truth(const char *what, bool holds) { near(what, holds ? 1 : 0, 1, 0); }
 
 const Camera camera = {1465.5, 1465.5, 1023.5, 1023.5};
 const Camera oblong = {900, 1100, 640, 300}; /* pixels that are not square */
@@ -183,6 +170,5 @@ int main()
     test_tilt_in_field();
     test_refusals();
     test_inner_ellipse();
-    std::printf("baselines_test: checks=%d failures=%d\n", checks, failures);
-    return failures == 0 ? 0 : 1;
+    return verdict("baselines_test");
 }

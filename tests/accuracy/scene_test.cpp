@@ -8,25 +8,12 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "check.hpp"
 #include "scene.hpp"
 
 using namespace accuracy;
 
 namespace {
-
-int checks = 0;
-int failures = 0;
-
-void near(const char *what, double got, double want, double tolerance)
-{
-    checks++;
-    if (!(std::fabs(got - want) <= tolerance)) {
-        failures++;
-        std::printf("FAIL %s: got %.9g, want %.9g within %.3g\n", what, got, want, tolerance);
-    }
-}
-
-void truth(const char *what, bool holds) { near(what, holds ? 1 : 0, 1, 0); }
 
 const Camera barrel = {842.16254, 841.36851, 510.2825,   365.61146, -0.4352204,
                        0.2898102, 0.0008622, -0.0001471, -0.1643185};
@@ -384,6 +371,5 @@ int main()
     test_picture();
     test_sensor();
     test_motion();
-    std::printf("scene_test: checks=%d failures=%d\n", checks, failures);
-    return failures == 0 ? 0 : 1;
+    return verdict("scene_test");
 }

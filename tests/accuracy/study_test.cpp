@@ -9,26 +9,13 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "check.hpp"
 #include "evaluate.hpp"
 #include "report.hpp"
 
 using namespace accuracy;
 
 namespace {
-
-int checks = 0;
-int failures = 0;
-
-void near(const char *what, double got, double want, double tolerance)
-{
-    checks++;
-    if (!(std::fabs(got - want) <= tolerance)) {
-        failures++;
-        std::printf("FAIL %s: got %.9g, want %.9g within %.3g\n", what, got, want, tolerance);
-    }
-}
-
-void truth(const char *what, bool holds) { near(what, holds ? 1 : 0, 1, 0); }
 
 /* Largest share of a canopy's outline whose background is within 10 grey levels of it, over the scenes. */
 double low_contrast_share(const Trial &t)
@@ -247,6 +234,5 @@ int main(int argc, char **argv)
     test_calibration();
     test_verdicts();
     test_bars(argv[1]);
-    std::printf("study_test: checks=%d failures=%d\n", checks, failures);
-    return failures == 0 ? 0 : 1;
+    return verdict("study_test");
 }
