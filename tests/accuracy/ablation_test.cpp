@@ -125,5 +125,5 @@ int main()
     test_undisturbed();
     test_nothing_there();
     test_border();
-    return verdict("ablation_test");
+    return finish("ablation_test");
 }

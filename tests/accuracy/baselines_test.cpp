@@ -170,5 +170,5 @@ int main()
     test_tilt_in_field();
     test_refusals();
     test_inner_ellipse();
-    return verdict("baselines_test");
+    return finish("baselines_test");
 }

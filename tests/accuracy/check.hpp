@@ -22,7 +22,7 @@ inline void near(const char *what, double got, double want, double tolerance)
 inline void truth(const char *what, bool holds) { near(what, holds ? 1 : 0, 1, 0); }
 
 /* Last line of a self-test; its exit status. */
-inline int verdict(const char *test)
+inline int finish(const char *test)
 {
     std::printf("%s: checks=%d failures=%d\n", test, checks, failures);
     return failures == 0 ? 0 : 1;

@@ -371,5 +371,5 @@ int main()
     test_picture();
     test_sensor();
     test_motion();
-    return verdict("scene_test");
+    return finish("scene_test");
 }

@@ -234,5 +234,5 @@ int main(int argc, char **argv)
     test_calibration();
     test_verdicts();
     test_bars(argv[1]);
-    return verdict("study_test");
+    return finish("study_test");
 }
