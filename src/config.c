@@ -32,10 +32,10 @@ void drogue_config_default(drogue_config *config)
     config->optics_blur_px_q16 = DROGUE_Q16(6, 10);
     config->min_dark_area_px = 9;
     config->min_inner_contrast = 6;
-    config->inner_gate_px_q16 = DROGUE_Q16(3, 2);
+    config->inner_gate_px_q16 = DROGUE_Q16(15, 10);
     config->inner_gate_q16 = DROGUE_Q16(5, 100);
-    config->min_fill_q16 = DROGUE_Q16(75, 100);
-    config->max_fill_q16 = DROGUE_Q16(125, 100);
+    config->min_fill_q16 = DROGUE_Q16(8, 10);
+    config->max_fill_q16 = DROGUE_Q16(11, 10);
     config->outline_shading_q16 = DROGUE_Q16(38, 10);
     config->optics_blur_std_px2_q16 = DROGUE_Q16(12, 100);
     config->inner_std_px_q16 = DROGUE_Q16(3, 100);

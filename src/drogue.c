@@ -190,27 +190,25 @@ static drogue_status find_inner(drogue_result *out, drogue_joint_inner *weighed,
                                ? drogue_dark_disc_find(&out->inner, &which, workspace, &f->view, &disc,
                                                        config->min_dark_area_px, expected, count)
                                : DROGUE_E_NO_DARK_PART;
-    if (status != DROGUE_OK) {
+    if (status == DROGUE_OK) {
+        weighed->std_px_q16 = drogue_inner_std(&out->inner, &expected[which], &f->outline.ellipse, config);
+        weighed->x_px_q16 = out->inner.x_px_q16 = shifted(out->inner.x_px_q16, out->region.x_px);
+        weighed->y_px_q16 = out->inner.y_px_q16 = shifted(out->inner.y_px_q16, out->region.y_px);
+        if (drogue_undistort_point(&weighed->x_px_q16, &weighed->y_px_q16, camera) != DROGUE_OK ||
+            drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, model->inner_depth_m_q16,
+                               camera) != DROGUE_OK) {
+            weighed->std_px_q16 = 0; /* beyond the lens model, or behind the camera for one of the poses */
+            choice.index = 0;
+        }
+        *nearer = choice.index;
+    }
+    if (weighed->std_px_q16 > 0) {
+        out->has_inner = 1;
+        out->ambiguity_q16 = choice.ambiguity_q16;
+    } else { /* what is dark orders the poses, but is not to be believed */
         memset(&out->inner, 0, sizeof out->inner);
-        return status == DROGUE_E_NO_DARK_PART ? DROGUE_OK : status;
     }
-    weighed->std_px_q16 = drogue_inner_std(&out->inner, &expected[which], &f->outline.ellipse, config);
-    weighed->x_px_q16 = out->inner.x_px_q16 = shifted(out->inner.x_px_q16, out->region.x_px);
-    weighed->y_px_q16 = out->inner.y_px_q16 = shifted(out->inner.y_px_q16, out->region.y_px);
-    if (drogue_undistort_point(&weighed->x_px_q16, &weighed->y_px_q16, camera) != DROGUE_OK ||
-        drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, model->inner_depth_m_q16, camera) !=
-            DROGUE_OK) {
-        weighed->std_px_q16 = 0; /* beyond the lens model, or behind the camera for one of the poses */
-        choice.index = 0;
-    }
-    *nearer = choice.index;
-    if (weighed->std_px_q16 == 0) { /* something dark: it orders the poses, but is not to be believed */
-        memset(&out->inner, 0, sizeof out->inner);
-        return DROGUE_OK;
-    }
-    out->has_inner = 1;
-    out->ambiguity_q16 = choice.ambiguity_q16;
-    return DROGUE_OK;
+    return status == DROGUE_E_NO_DARK_PART ? DROGUE_OK : status;
 }
 
 static drogue_status measure(drogue_result *out, drogue_workspace *workspace, const drogue_config *config,

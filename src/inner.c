@@ -46,10 +46,20 @@ static int within_outline(const drogue_dark_part *part, const drogue_ellipse *ex
     return room_q24 > 0 && (int64_t)u_q24 * u_q24 + (int64_t)v_q24 * v_q24 <= room_q24 * room_q24;
 }
 
+#define FILL_ROOM DROGUE_Q16(1, 2) /* px that blur and threshold may move the disc's edge */
+
+/* Area over that of the expected disc, made larger by so many pixels all round. */
+static drogue_q16 fill_of(const drogue_dark_part *part, const drogue_ellipse *expected, drogue_q16 by_px_q16)
+{
+    drogue_ellipse grown = *expected;
+    grown.a_px_q16 += by_px_q16;
+    grown.b_px_q16 += by_px_q16;
+    return drogue_dark_fill(part, &grown);
+}
+
 drogue_q16 drogue_inner_std(const drogue_dark_part *part, const drogue_ellipse *expected, const drogue_ellipse *outline,
                             const drogue_config *config)
 {
-    const drogue_q16 fill = drogue_dark_fill(part, expected);
     const uint64_t away2_q32 = drogue_square_sum(drogue_q16_sub(part->x_px_q16, expected->xc_px_q16),
                                                  drogue_q16_sub(part->y_px_q16, expected->yc_px_q16));
     const drogue_q16 gate =
@@ -57,8 +67,9 @@ drogue_q16 drogue_inner_std(const drogue_dark_part *part, const drogue_ellipse *
     const int64_t share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
     const int64_t least = config->inner_std_px_q16;
     const int64_t spread = drogue_q16_mul(part->spread_px_q16, config->inner_std_spread_q16);
-    if (part->contrast < config->min_inner_contrast || fill < config->min_fill_q16 || fill > config->max_fill_q16 ||
-        away2_q32 > drogue_square_sum(gate, 0) || !within_outline(part, expected, outline)) {
+    if (part->contrast < config->min_inner_contrast || fill_of(part, expected, -FILL_ROOM) < config->min_fill_q16 ||
+        fill_of(part, expected, FILL_ROOM) > config->max_fill_q16 || away2_q32 > drogue_square_sum(gate, 0) ||
+        !within_outline(part, expected, outline)) {
         return 0;
     }
     return drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)(share * share + least * least + spread * spread)));

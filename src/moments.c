@@ -42,27 +42,6 @@ void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
     accumulate(&m->m04, (int64_t)yy * yy);
 }
 
-static void add_fourth(drogue_s128 *sum, const drogue_s128 *other) { *sum = drogue_s128_add(*sum, *other); }
-
-void drogue_moments_add(drogue_moments *m, const drogue_moments *other)
-{
-    m->n += other->n;
-    m->m10 += other->m10;
-    m->m01 += other->m01;
-    m->m20 += other->m20;
-    m->m11 += other->m11;
-    m->m02 += other->m02;
-    m->m30 += other->m30;
-    m->m21 += other->m21;
-    m->m12 += other->m12;
-    m->m03 += other->m03;
-    add_fourth(&m->m40, &other->m40);
-    add_fourth(&m->m31, &other->m31);
-    add_fourth(&m->m22, &other->m22);
-    add_fourth(&m->m13, &other->m13);
-    add_fourth(&m->m04, &other->m04);
-}
-
 /* v * c modulo 2^128 */
 static drogue_s128 s128_scale(drogue_s128 v, int64_t c)
 {

@@ -43,7 +43,8 @@ typedef struct drogue_config {
     int32_t min_inner_contrast;    /* 6 grey levels, [0, 255]: less contrast with its surround is no inner part */
     drogue_q16 inner_gate_px_q16;  /* 1.5 px, 0.05: the inner part is believed when it lies within so many pixels and */
     drogue_q16 inner_gate_q16;     /* this share of the major semi-axis of where a pose expects it */
-    drogue_q16 min_fill_q16;       /* 0.75, 1.25: and when its area over the expected disc's is between these */
+    drogue_q16 min_fill_q16;       /* 0.8, 1.1: and when its area over the expected disc's is between these, half a
+                                        pixel of its radius allowed for blur */
     drogue_q16 max_fill_q16;
     drogue_q16 outline_shading_q16; /* 3.8 px grey * 8: error of the outline that its own residuals cannot show, over
                                        the gradient along it (joint.h) */

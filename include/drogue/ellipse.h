@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Direct least-squares fit of an ellipse (Fitzgibbon, in Halir and Flusser's form; paper (7)-(9)) from exact,
- * additive moments: the moments of a union of arcs are the sums of the arcs' moments. */
+/* Direct least-squares fit of an ellipse (Fitzgibbon, in Halir and Flusser's form; paper (7)-(9)) from exact
+ * moments, which do not depend on the order of the points. */
 #ifndef DROGUE_ELLIPSE_H
 #define DROGUE_ELLIPSE_H
 
@@ -27,9 +27,6 @@ void drogue_moments_clear(drogue_moments *m);
 
 /* Add one point; x and y in [-32768, 32767], in units of the caller's choice. */
 void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y);
-
-/* Add the moments of another set about the same origin in the same units. */
-void drogue_moments_add(drogue_moments *m, const drogue_moments *other);
 
 /* Scatter matrix of the monomials 1, x, y, x^2, xy, y^2 about the points' centre, packed by rows of its lower triangle
  * (cholesky.h); x and y have changed roles where the return value is 1, so that x has the larger spread.

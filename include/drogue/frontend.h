@@ -32,7 +32,7 @@ typedef struct drogue_capacity {
  * 443 px 10.6 edge points and 5.6 labels a pixel of side, where the frames in vectors/ need 6.3 and 2.1. No more than 88
  * arcs of an eighth of the side fit into the edge points. */
 #define DROGUE_EDGES_FOR(side_px) (10u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 512u)
-#define DROGUE_LABELS_FOR(side_px) (3u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 160u + 2u)
+#define DROGUE_LABELS_FOR(side_px) (3u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 140u + 2u)
 #define DROGUE_ARCS_FOR(side_px) ((size_t)96u)
 
 #define DROGUE_HULL_MAX 576 /* vertices of a strictly convex lattice polygon in 2048 x 2048: at most 569 */

@@ -39,8 +39,8 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.min_inner_contrast, 6);
     ck_assert_int_eq(c.inner_gate_px_q16, q16_of(1.5));
     ck_assert_int_eq(c.inner_gate_q16, q16_of(0.05));
-    ck_assert_int_eq(c.min_fill_q16, q16_of(0.75));
-    ck_assert_int_eq(c.max_fill_q16, q16_of(1.25));
+    ck_assert_int_eq(c.min_fill_q16, q16_of(0.8));
+    ck_assert_int_eq(c.max_fill_q16, q16_of(1.1));
     ck_assert_int_eq(c.outline_shading_q16, q16_of(3.8));
     ck_assert_int_eq(c.optics_blur_std_px2_q16, q16_of(0.12));
     ck_assert_int_eq(c.inner_std_px_q16, q16_of(0.03));

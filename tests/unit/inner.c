@@ -165,13 +165,13 @@ START_TEST(reasons_not_to_believe)
     finding f = usual_finding();
     int k;
     ck_assert(std_of(&f) > 0);
-    f.part.area_px = (uint32_t)(2827 * 0.76);
+    f.part.area_px = (uint32_t)(2827 * 0.78);
     ck_assert(std_of(&f) > 0);
-    f.part.area_px = (uint32_t)(2827 * 0.74); /* too small */
+    f.part.area_px = (uint32_t)(2827 * 0.77); /* too small */
     ck_assert(std_of(&f) == 0);
-    f.part.area_px = (uint32_t)(2827 * 1.24);
+    f.part.area_px = (uint32_t)(2827 * 1.13);
     ck_assert(std_of(&f) > 0);
-    f.part.area_px = (uint32_t)(2827 * 1.26); /* too large */
+    f.part.area_px = (uint32_t)(2827 * 1.14); /* too large */
     ck_assert(std_of(&f) == 0);
     f = usual_finding();
     f.part.contrast = 6;
