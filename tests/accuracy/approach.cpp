@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Draws the frames of an approach: each is a function of seed, index and frame alone. */
 #include "approach.hpp"
+#include "plain.hpp"
 
 #include <cmath>
 
@@ -85,7 +86,7 @@ Scene Approach::scene(int frame) const
     s.seed = hash_at(seed, index, frame); /* noise and texture anew */
     s.pose = pose(frame);
     s.drogue.rib_phase = random.uniform(0, 1);
-    s.look.sun = cv::normalize(cv::Vec3d(random.uniform(-1, 1), random.uniform(-1, -0.2), random.uniform(-1, 0.5)));
+    s.look.sun = draw_sun(random);
     s.sensor.blur_px = random.uniform(0.5, 0.9);
     const Ellipse rim = s.rim();
     const cv::Point2d centre(rim.xc_px, rim.yc_px);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Draws the scenes of every condition. */
 #include "conditions.hpp"
+#include "plain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,7 @@ void draw_pose(Trial &t, Random &random, double distance_m)
     Pose &pose = t.scene.pose;
     pose.axis = {std::sin(tilt) * std::cos(towards), std::sin(tilt) * std::sin(towards), std::cos(tilt)};
     do {
-        pose.position_m = distance_m * cv::Vec3d(random.uniform(-field, field), random.uniform(-field, field), 1);
+        pose.position_m = draw_place(random, distance_m, field);
     } while (angle_between_deg(pose.axis, cv::normalize(pose.position_m)) > 36);
 }
 
@@ -67,7 +68,7 @@ void draw_plain(Trial &t, Random &random)
     s.drogue.rib_phase = random.uniform(0, 1);
     s.look = i % 3 == 1 || i % 6 == 5 ? Look::bright() : Look::dark();
     s.background = i % 3 == 0 ? Background::sky() : i % 3 == 1 ? Background::ground() : Background::cloud();
-    s.look.sun = cv::normalize(cv::Vec3d(random.uniform(-1, 1), random.uniform(-1, -0.2), random.uniform(-1, 0.5)));
+    s.look.sun = draw_sun(random);
     s.sensor.blur_px = random.uniform(0.5, 0.9);
 }
 

@@ -11,6 +11,13 @@ struct PlainScene {
     cv::Rect region; /* where a detector would send the library */
 };
 
+/* A place at a distance, within so much of the optical axis across and down. Components are drawn from the last to the
+ * first: arguments of a call would be drawn in an order of the compiler's own. */
+cv::Vec3d draw_place(Random &random, double distance_m, double field);
+
+/* A direction of the sun: above, before or behind. */
+cv::Vec3d draw_sun(Random &random);
+
 /* Scene number 'index' of a distance.
  *
  *  axis        yaw and pitch uniform in +-20 degrees

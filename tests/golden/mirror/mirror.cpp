@@ -139,8 +139,13 @@ bool trust(const Result &out, const Ellipse &expected, const drogue_config &conf
     const Real c = std::cos(rim.angle), s = std::sin(rim.angle), dx = out.part.x - rim.xc, dy = out.part.y - rim.yc;
     const Real u = (dx * c + dy * s) / rim.a, v = (dy * c - dx * s) / rim.b, room = 1 - expected.a / rim.b;
     const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * rim.a;
-    return out.part.contrast >= config.min_inner_contrast && out.part.fill >= real(config.min_fill_q16) &&
-           out.part.fill <= real(config.max_fill_q16) &&
+    const auto fill = [&](Real room_px) { /* of the expected disc made larger by so much */
+                                          return static_cast<Real>(out.part.area) /
+                                                 (std::acos(Real(-1)) * (expected.a + room_px) *
+                                                  (expected.b + room_px));
+    };
+    return out.part.contrast >= config.min_inner_contrast && fill(-0.5L) >= real(config.min_fill_q16) &&
+           fill(0.5L) <= real(config.max_fill_q16) &&
            std::hypot(out.part.x - expected.xc, out.part.y - expected.yc) <= gate && room > 0 &&
            std::hypot(u, v) <= room;
 }
