@@ -151,7 +151,8 @@ void add_clutter(Trial &t, Random &random, double strength)
     b.octaves = 4;
     const int things = static_cast<int>(strength * random.uniform(3, 9));
     for (int i = 0; i < things; i++) {
-        const cv::Point2d at = centre_of(t.rim) + random.uniform(0.85, 1.5) * a * direction(any_angle(random));
+        const double angle = any_angle(random);
+        const cv::Point2d at = centre_of(t.rim) + random.uniform(0.85, 1.5) * a * direction(angle);
         const bool round = random.uniform(0, 1) < 0.6;
         const double half_length = random.uniform(0.1, round ? 0.4 : 1.2) * a;
         const double half_width = round ? half_length * random.uniform(0.4, 1) : random.uniform(0.02, 0.1) * a;
