@@ -98,55 +98,59 @@ static uint32_t changes(uint32_t bright, uint32_t covered)
     return count + (first != last);
 }
 
-/* Bins that hold enough points of a polarity. */
-static uint32_t enough_points(const drogue_support *support, const drogue_ellipse *ellipse, int polarity,
-                              uint32_t stride)
+/* Bins that hold enough points of each polarity. */
+static void enough_points(uint32_t enough[2], const drogue_support *support, const drogue_ellipse *ellipse,
+                          uint32_t stride)
 {
-    uint32_t enough = 0;
     uint32_t k;
+    enough[0] = 0;
+    enough[1] = 0;
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
         const int64_t needed_q16 = drogue_shr_round_s64(bin_length_q16(ellipse, k) * DROGUE_Q16(35, 100), 16);
-        const int64_t points = (int64_t)support->bin[k].count[polarity] * stride;
-        enough |= (uint32_t)(points * DROGUE_Q16_ONE >= needed_q16) << k;
+        const uint32_t *count = support->bin[k].count;
+        enough[0] |= (uint32_t)((int64_t)count[0] * stride * DROGUE_Q16_ONE >= needed_q16) << k;
+        enough[1] |= (uint32_t)((int64_t)count[1] * stride * DROGUE_Q16_ONE >= needed_q16) << k;
     }
-    return enough;
+}
+
+/* Covered bins when the bins have these polarities, less the changes of polarity. */
+static uint32_t covered_by(const uint32_t enough[2], uint32_t bright_bins)
+{
+    const uint32_t covered = (enough[0] & ~bright_bins) | (enough[1] & bright_bins);
+    const uint32_t lost = changes(bright_bins, covered);
+    return popcount(covered) > lost ? popcount(covered) - lost : 0;
 }
 
 void drogue_support_judge_as(drogue_support *support, const drogue_ellipse *ellipse, uint32_t bright_bins,
                              uint32_t stride)
 {
-    const uint32_t covered = (enough_points(support, ellipse, DROGUE_POLARITY_DARK, stride) & ~bright_bins) |
-                             (enough_points(support, ellipse, DROGUE_POLARITY_BRIGHT, stride) & bright_bins);
-    const uint32_t lost = changes(bright_bins, covered);
+    uint32_t enough[2];
+    enough_points(enough, support, ellipse, stride);
     support->bright_bins = bright_bins;
-    support->covered = popcount(covered) > lost ? popcount(covered) - lost : 0;
+    support->covered = covered_by(enough, bright_bins);
 }
 
 void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse, drogue_polarity polarity,
                           uint32_t stride)
 {
-    uint32_t majority = 0;
-    uint32_t pure;
+    uint32_t bins[3] = {0, UINT32_MAX, 0}; /* all dark, all bright, each by its majority: the first of equals */
+    uint32_t enough[2];
     uint32_t k;
     if (polarity != DROGUE_POLARITY_BOTH) {
-        drogue_support_judge_as(support, ellipse, polarity == DROGUE_POLARITY_BRIGHT ? UINT32_MAX : 0, stride);
+        drogue_support_judge_as(support, ellipse, bins[polarity], stride);
         return;
     }
-    drogue_support_judge_as(support, ellipse, UINT32_MAX, stride);
-    pure = support->covered;
-    drogue_support_judge_as(support, ellipse, 0, stride);
-    if (pure > support->covered) {
-        support->bright_bins = UINT32_MAX;
-        support->covered = pure;
-    }
-    pure = support->bright_bins;
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        majority |= (uint32_t)(support->bin[k].count[1] > support->bin[k].count[0]) << k;
+        bins[2] |= (uint32_t)(support->bin[k].count[1] > support->bin[k].count[0]) << k;
     }
-    k = support->covered;
-    drogue_support_judge_as(support, ellipse, majority, stride);
-    if (support->covered <= k) {
-        support->bright_bins = pure;
-        support->covered = k;
+    enough_points(enough, support, ellipse, stride);
+    support->bright_bins = bins[0];
+    support->covered = covered_by(enough, bins[0]);
+    for (k = 1; k < 3; k++) {
+        const uint32_t covered = covered_by(enough, bins[k]);
+        if (covered > support->covered) {
+            support->bright_bins = bins[k];
+            support->covered = covered;
+        }
     }
 }
