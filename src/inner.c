@@ -52,8 +52,8 @@ static int within_outline(const drogue_dark_part *part, const drogue_ellipse *ex
 static drogue_q16 fill_of(const drogue_dark_part *part, const drogue_ellipse *expected, drogue_q16 by_px_q16)
 {
     drogue_ellipse grown = *expected;
-    grown.a_px_q16 += by_px_q16;
-    grown.b_px_q16 += by_px_q16;
+    grown.a_px_q16 = drogue_q16_add(grown.a_px_q16, by_px_q16);
+    grown.b_px_q16 = drogue_q16_add(grown.b_px_q16, by_px_q16);
     return drogue_dark_fill(part, &grown);
 }
 

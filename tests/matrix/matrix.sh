@@ -29,7 +29,7 @@ riscv64    |  | riscv64-linux-gnu-gcc   | -O2                             | qemu
 s390x      |ci| s390x-linux-gnu-gcc     | -O2                             | qemu-s390x   | s390x 64 big -
 cortex-m0+ |  | arm-none-eabi-gcc       | -mcpu=cortex-m0plus -mthumb -Os | mps2-an385   | armv6-m 32 little Cortex-M3
 cortex-m3  |  | arm-none-eabi-gcc       | -mcpu=cortex-m3 -mthumb -O2     | mps2-an385   | armv7-m 32 little Cortex-M3
-cortex-m7  |  | arm-none-eabi-gcc       | -mcpu=cortex-m7 -mthumb -O3     | mps2-an500   | armv7e-m 32 little Cortex-M7
+cortex-m7  |ci| arm-none-eabi-gcc       | -mcpu=cortex-m7 -mthumb -O3     | mps2-an500   | armv7e-m 32 little Cortex-M7
 rv32       |ci| riscv64-unknown-elf-gcc | -march=rv32imac -mabi=ilp32 -O2 | virt         | rv32 32 little RV32
 "
 
