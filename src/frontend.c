@@ -242,11 +242,11 @@ static uint32_t *resolve_hysteresis(drogue_frontend *f)
     drogue_workspace *w = f->workspace;
     uint32_t *alive = w->arc_component;
     uint32_t i;
-    drogue_labels_flatten(&f->components);
+    drogue_labels_flatten(w->component_parent, f->components.count);
     for (i = 1; i < f->components.count; i++) {
         w->component_strong[w->component_parent[i]] |= w->component_strong[i];
     }
-    drogue_labels_flatten(&f->arc_labels);
+    drogue_labels_flatten(w->arc_parent, f->arc_labels.count);
     for (i = 1; i < f->arc_labels.count; i++) {
         if (w->arc_parent[i] == i) { /* a label that lost its root in its first row has no component noted */
             alive[i] = w->component_strong[w->component_parent[w->arc_component[i]]];
