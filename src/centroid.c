@@ -193,7 +193,7 @@ static void join_components(drogue_dark_pass *p)
 {
     drogue_workspace *w = p->workspace;
     uint32_t i;
-    drogue_labels_flatten(&p->labels);
+    drogue_labels_flatten(p->labels.parent, p->labels.count);
     for (i = 1; i < p->labels.count; i++) {
         uint32_t root = w->component_parent[i];
         if (root != i) {
