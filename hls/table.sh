@@ -8,6 +8,7 @@ simulations=$(realpath "$1")
 cd "$(dirname "$0")/.." || exit
 . hls/tops.sh
 work=build/hls
+export DROGUE_CONFORMANCE_EMBED=$simulations/../tests/conformance/conformance_embed
 mkdir -p "$work"
 status=0
 
@@ -25,6 +26,10 @@ examine() {
     if [ -z "$last" ] || [ "$(value failed "$last")" != 0 ] || [ "$(value cases "$last")" = 0 ]; then
         verdict='FAILED: simulation'
     fi
+    if ! hls/vectors.sh "$1" >"$work/$1.vectors" 2>&1; then
+        verdict="${verdict/#ok/FAILED:} vectors"
+        cat "$work/$1.vectors"
+    fi
     if ! hls/check/check.sh "$1" >"$work/$1.check"; then
         verdict="${verdict/#ok/FAILED:} check"
         grep -vE '^[a-z]+: functions=|^hls check' "$work/$1.check"
@@ -37,6 +42,7 @@ examine() {
 
 hls/check/selftest.sh || status=1
 hls/vitis/check.sh || status=1
+hls/bambu/selftest.sh || status=1
 rows=('top|cases|failed|skipped|functions|loops|annotated|findings|s|verdict')
 for name in $(all_tops); do
     top "$name"

@@ -6,10 +6,16 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . hls/tops.sh
-top "$(tops "${1:?usage: vectors.sh NAME [STAGE | STAGE/CASE]...}")"
+name=$(tops "${1:?usage: vectors.sh NAME [STAGE | STAGE/CASE]...}")
+top "$name"
 if [ $# -eq 1 ]; then
     read -ra chosen <<<"$cosimulated"
 else
     chosen=("${@:2}")
 fi
-tests/matrix/embed.sh "build/hls/$1" 1 "${chosen[@]}"
+if [ -n "${DROGUE_CONFORMANCE_EMBED:-}" ]; then # built already
+    mkdir -p "build/hls/$1"
+    "$DROGUE_CONFORMANCE_EMBED" vectors "build/hls/$1" 1 "${chosen[@]}"
+else
+    tests/matrix/embed.sh "build/hls/$1" 1 "${chosen[@]}"
+fi

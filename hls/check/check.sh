@@ -55,15 +55,17 @@ case ${1:-} in
     exit
     ;;
 --needed)
-    top "$(tops "$2")"
+    chosen=$(tops "$2")
+    top "$chosen"
     # shellcheck disable=SC2086
     make_ir "$work/needed" "$function" $sources src/*.c
     python3 hls/check/findings.py --needed "$work/needed/linked.ll"
     exit
     ;;
 esac
+chosen=$(tops "$@")
 status=0
-for name in $(tops "$@"); do
+for name in $chosen; do
     top "$name"
     if ! top_is_there; then
         echo "$name: not there yet" # to go once all are

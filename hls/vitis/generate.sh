@@ -110,7 +110,8 @@ END
 
 case ${1:-} in
 --config)
-    config "$(tops "$2")" "$PWD" "${DROGUE_HLS_PART:-$default_part}" "${DROGUE_HLS_CLOCK_NS:-$default_clock_ns}"
+    name=$(tops "$2")
+    config "$name" "$PWD" "${DROGUE_HLS_PART:-$default_part}" "${DROGUE_HLS_CLOCK_NS:-$default_clock_ns}"
     exit
     ;;
 --to) to=$2 ;;

@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# A top through Bambu (PandA), in build/hls/bambu/NAME: RTL; with --simulate the RTL beside the C, under Verilator, over
+# the vectors of build/hls/NAME; with --area what yosys makes of it for 7-series. One line: PASS, or FAIL, MISMATCH,
+# TIMEOUT. Exit status 0 only for PASS, 77 where there is no bambu.
+# usage: bambu.sh NAME [--simulate] [--area] [FLAG...]      other flags go to bambu
+# Device, clock and patience: DROGUE_HLS_BAMBU_DEVICE, DROGUE_HLS_CLOCK_NS, DROGUE_HLS_TIMEOUT_S.
+# Vectors other than those of hls/tops.txt: DROGUE_HLS_VECTORS="STAGE/CASE ...".
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+. hls/tops.sh
+root=$PWD
+name=$(tops "${1:?usage: bambu.sh NAME [--simulate] [--area] [FLAG...]}")
+top "$name"
+if ! command -v bambu >/dev/null; then
+    echo 'SKIPPED: no bambu'
+    exit 77
+fi
+simulated=no area=no extra=()
+for argument in "${@:2}"; do
+    case $argument in
+    --simulate) simulated=yes ;;
+    --area) area=yes ;;
+    *) extra+=("$argument") ;;
+    esac
+done
+
+flags=("--top-fname=$function" --std=c99 -O2 --generate-interface=INFER
+    "--device-name=${DROGUE_HLS_BAMBU_DEVICE:-xc7z020,-1,clg484,VVD}" "--clock-period=${DROGUE_HLS_CLOCK_NS:-5}"
+    "-I$root/include" "-I$root/hls" "-I$root/hls/bench" "-I$root/tests/conformance")
+design=()
+for file in $sources $core; do
+    design+=("$root/$file")
+done
+if [ $simulated = yes ]; then
+    read -ra vectors <<<"${DROGUE_HLS_VECTORS:-}"
+    hls/vectors.sh "$name" "${vectors[@]}"
+    flags+=(--simulate --simulator=VERILATOR)
+    # The test bench is a program apart, with a library of its own, and without the top: that is the RTL.
+    for file in $bench hls/bench/bench.c build/hls/"$name"/cases_*.c src/*.c; do
+        flags+=("--generate-tb=$root/$file")
+    done
+fi
+
+work=build/hls/bambu/$name
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+begin=$SECONDS
+status=0
+timeout --kill-after=10 "${DROGUE_HLS_TIMEOUT_S:-3600}" bambu "${flags[@]}" "${extra[@]}" "${design[@]}" >log 2>&1 </dev/null ||
+    status=$?
+
+# Bambu's exit status is no judge: it can be 0 after a mismatch.
+complaints() { grep -hE "error:|error ->|ERROR:|Returned error|mismatch|not supported" log HLS_output/simulation/testbench.log; }
+verdict=PASS
+if [ $status -eq 124 ] || [ $status -eq 137 ]; then
+    verdict=TIMEOUT
+elif [ $simulated = yes ] && grep -qE 'mismatch|Returned error|ERROR:' log HLS_output/simulation/testbench.log 2>/dev/null; then
+    verdict=MISMATCH
+elif [ $status -ne 0 ] || [ ! -s "$function.v" ]; then
+    verdict=FAIL
+elif [ $simulated = yes ] && ! grep -q 'Average execution' log; then
+    verdict=FAIL # nothing was simulated
+fi
+cycles=$(sed -nE 's/^.*(Total cycles|Number of executions|Average execution) *: *([0-9.]+).*/\1=\2/p' log | tr '\n' ' ')
+echo "$verdict $name simulated=$simulated seconds=$((SECONDS - begin)) ${cycles}log=$work/log"
+if [ $verdict != PASS ]; then
+    complaints 2>/dev/null | sort -u | head -8 || true
+    exit 1
+fi
+if [ $area = yes ]; then
+    yosys -q -p "read_verilog -defer $function.v; synth_xilinx -flatten -top $function; tee -o area stat" >yosys.log
+    awk -v name="$name" '
+        /^ +LUT[1-6] / { lut += $2 } /^ +FD[CPRS]E/ { ff += $2 } /^ +DSP48E1 / { dsp += $2 }
+        /^ +RAMB18E1 / { bram += $2 } /^ +RAMB36E1 / { bram += 2 * $2 } /^ +RAM(32|64|128|256)/ { lutram += $2 }
+        END { printf "area of %s: LUT=%d FF=%d DSP=%d BRAM18=%d LUTRAM=%d\n", name, lut, ff, dsp, bram, lutram }' area
+fi
