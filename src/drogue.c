@@ -16,13 +16,6 @@ const char *drogue_version(void)
     return VERSION_TEXT(DROGUE_VERSION_MAJOR, DROGUE_VERSION_MINOR, DROGUE_VERSION_PATCH);
 }
 
-static void clip(int32_t *at, int32_t *length, int32_t limit)
-{
-    int32_t end = *at + *length;
-    *at = *at < 0 ? 0 : *at;
-    *length = (end > limit ? limit : end) - *at;
-}
-
 /* Clip the region to the image; the mask stays that of the region asked for, in the clipped one's coordinates. */
 static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, const drogue_image *image,
                                   const drogue_region *region)
@@ -33,8 +26,8 @@ static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, con
         r.x_px > far_px || r.x_px < -far_px || r.y_px > far_px || r.y_px < -far_px) {
         return DROGUE_E_REGION;
     }
-    clip(&r.x_px, &r.width_px, image->width_px);
-    clip(&r.y_px, &r.height_px, image->height_px);
+    drogue_clip(&r.x_px, &r.width_px, image->width_px);
+    drogue_clip(&r.y_px, &r.height_px, image->height_px);
     if (r.width_px < 1 || r.height_px < 1 || r.width_px > DROGUE_MAX_SIDE || r.height_px > DROGUE_MAX_SIDE ||
         r.x_px + r.width_px > INT16_MAX || r.y_px + r.height_px > INT16_MAX) { /* coordinates are Q16 */
         return DROGUE_E_REGION;

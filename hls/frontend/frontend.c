@@ -135,6 +135,9 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
                          int32_t centre2_y, int32_t longest_px, uint32_t *edge_count, uint32_t *arc_count,
                          uint32_t *status)
 {
+#pragma HLS interface port = pixels mode = fifo
+#pragma HLS interface port = edges mode = m_axi
+#pragma HLS interface port = arcs mode = m_axi
     const drogue_mask ring = {centre2_x, centre2_y, longest_px};
     const drogue_status refused = check(width_px, height_px, canny_low, canny_high, use_ring, &ring);
     drogue_hls_row row;
@@ -165,6 +168,9 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
         drogue_hls_labels_row(&labels);
         for (x = 0; x < width_px + LAG_PX; x++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH + LAG_PX
+#ifndef __BAMBU__
+#pragma HLS pipeline II = 1
+#endif
             const uint32_t arc = drogue_hls_label_stage(&labels, &row, x - 8, w.code);
             uint8_t pixel = 0;
             if (arc != 0) {

@@ -119,6 +119,13 @@ static uint32_t label_arc(drogue_hls_labels *l, uint32_t key, uint32_t component
 
 uint32_t drogue_hls_label_stage(drogue_hls_labels *l, const drogue_hls_row *row, int32_t x, uint32_t code)
 {
+#pragma HLS array_partition variable = arc_parent complete dim = 1
+#pragma HLS array_partition variable = arc_merges complete dim = 1
+#pragma HLS bind_storage variable = component_parent type = ram_1wnr
+#pragma HLS bind_storage variable = arc_parent type = ram_1wnr
+/* Read: labels of the rows above. Written: new ones. */
+#pragma HLS dependence variable = component_parent type = inter false
+#pragma HLS dependence variable = arc_parent type = inter false
     drogue_hls_labelled pixel = none;
     move_window(l, row, x);
     if ((code & CANDIDATE) != 0) {

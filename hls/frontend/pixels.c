@@ -16,6 +16,7 @@ static uint8_t pick(uint32_t tap, const uint8_t r[5])
 
 void drogue_hls_smooth_vertically(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x, uint8_t pixel)
 {
+#pragma HLS array_partition variable = raw_rows complete dim = 1
     const int inside = x >= 0 && x < row->width_px;
     uint8_t r[5];
     int k;
@@ -58,6 +59,7 @@ void drogue_hls_smooth_horizontally(drogue_hls_windows *w, const drogue_hls_row 
 
 void drogue_hls_gradient_stage(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x)
 {
+#pragma HLS array_partition variable = smooth_rows complete dim = 1
     const int32_t at = row->y - 3; /* row of the gradient */
     const int inside = x >= 0 && x < row->width_px;
     uint8_t column[3];

@@ -167,13 +167,6 @@ static void check_canny(bench *b, const conf_case *c)
     bench_words(b, "map", map, bench_expected(c, "map"));
 }
 
-static int32_t overlap(int32_t *at, int32_t length, int32_t limit)
-{
-    const int32_t end = *at + length < limit ? *at + length : limit;
-    *at = *at < 0 ? 0 : *at;
-    return end - *at;
-}
-
 /* Stage 'frame': the region's part of the image with the thresholds of the default configuration. */
 static void check_frame(bench *b, const conf_case *c)
 {
@@ -182,14 +175,14 @@ static void check_frame(bench *b, const conf_case *c)
     drogue_frontend_config config = {30, 80, 1, 1, {0, 0, 1}, 10};
     int32_t x = region.x_px;
     int32_t y = region.y_px;
-    int32_t width_px;
-    int32_t height_px;
+    int32_t width_px = region.width_px;
+    int32_t height_px = region.height_px;
     if (region.width_px < 1 || region.height_px < 1 || region.width_px > 8192 || region.height_px > 8192) {
         bench_skip(b, "no region");
         return;
     }
-    width_px = overlap(&x, region.width_px, image.width_px);
-    height_px = overlap(&y, region.height_px, image.height_px);
+    drogue_clip(&x, &width_px, image.width_px);
+    drogue_clip(&y, &height_px, image.height_px);
     config.ring = drogue_mask_of_size(region.width_px, region.height_px);
     config.ring.centre2_x += 2 * (region.x_px - x);
     config.ring.centre2_y += 2 * (region.y_px - y);
