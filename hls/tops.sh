@@ -4,12 +4,13 @@
 
 tops_list() { sed -E '/^#|^ *$/d; s/ *\| */|/g; s/ +$//' "${DROGUE_HLS_TOPS:-hls/tops.txt}"; }
 
-# tops [NAME...]: names of all tops, or those given, which must be there
+all_tops() { tops_list | cut -d'|' -f1; }
+
+# tops [NAME...]: names of all tops, or those given, which must be in the list
 tops() {
     local name
     if [ $# -eq 0 ]; then
-        tops_list | cut -d'|' -f1
-        return
+        all_tops
     fi
     for name in "$@"; do
         if ! tops_list | grep -q "^$name|"; then
@@ -20,18 +21,26 @@ tops() {
     done
 }
 
-# top NAME: sets function, source, bench, stages, core (its files of src/), folder (of its scripts)
+# top NAME: sets function; sources, bench, core (files, from the project's folder); stages, cosimulated; folder of its
+# scripts
 # shellcheck disable=SC2034 # for those who source this
 top() {
-    local line stems stem
+    local line
     line=$(tops_list | grep "^$1|")
-    IFS='|' read -r _ function source bench stages stems <<<"$line"
-    core=""
-    for stem in $stems; do
-        core+="${core:+ }src/$stem.c"
-    done
-    folder=$(dirname "$source")
+    IFS='|' read -r _ function sources bench stages cosimulated core <<<"$line"
+    sources=$(sed -E 's|[^ ]+|hls/&|g' <<<"$sources")
+    bench=$(sed -E 's|[^ ]+|hls/&|g' <<<"$bench")
+    core=$(sed -E 's|[^ ]+|src/&.c|g' <<<"$core")
+    folder=$(dirname "${sources%% *}")
     if [ "$(basename "$folder")" != "$1" ]; then
         folder+=/$1
     fi
+}
+
+# top_is_there: are all files of the top set?
+top_is_there() {
+    local file
+    for file in $sources $bench; do
+        [ -e "$file" ] || return 1
+    done
 }

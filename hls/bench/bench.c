@@ -20,6 +20,7 @@ static void end_case(bench *b)
     }
     if (b->skipped && !b->off) {
         b->cases--;
+        b->skips++;
     } else {
         printf("%-7s %s\n", b->off ? "FAILED" : "ok", b->open->id);
         b->failed += b->off ? 1u : 0u;
@@ -54,7 +55,7 @@ void bench_skip(bench *b, const char *why)
 int bench_end(bench *b)
 {
     end_case(b);
-    printf("%s: cases=%u failed=%u\n", b->name, b->cases, b->failed);
+    printf("%s: cases=%u failed=%u skipped=%u\n", b->name, b->cases, b->failed, b->skips);
     if (b->cases == 0) {
         return 1;
     }

@@ -24,6 +24,7 @@ typedef struct bench {
     size_t index;
     unsigned cases;
     unsigned failed;
+    unsigned skips;
     int off;     /* the case at work has failed */
     int skipped; /* the case at work does not fit the top's sizes */
 } bench;
@@ -36,7 +37,7 @@ const conf_case *bench_next(bench *b, const char *stage);
 /* Say that the case at work is larger than the top was built for: its line says so, it does not count. */
 void bench_skip(bench *b, const char *why);
 
-/* Prints 'NAME: cases=N failed=N' and returns the number of failures, at most 100: 1 where no case was run at all. */
+/* Prints 'NAME: cases=N failed=N skipped=N' and returns the number of failures, at most 100: 1 where no case was run at all. */
 int bench_end(bench *b);
 
 /* --- comparison: each counts the case at work as failed, with a line, and returns 0, when anything is off --- */

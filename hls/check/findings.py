@@ -3,6 +3,7 @@
 """What in the LLVM IR of a top cannot be synthesised: a line 'FILE:LINE: RULE: what' each; check.sh makes the IR.
 
 usage: findings.py LINKED.ll LOOPS.ll TRIPS NAME [SOURCE...]
+       findings.py --needed LINKED.ll       prints the files of src/ that it is made of, without .c
   LINKED.ll  the top and all it calls, not optimised
   LOOPS.ll   the same with variables in registers and loops in normal form
   TRIPS      what scalar evolution prints about LOOPS.ll
@@ -137,14 +138,21 @@ def loops(module, path, findings):
     return len(found), comments
 
 
+def needed(module):
+    """Files of src/ whose functions the top is made of."""
+    files = {module.location(node)[0] for node in module.functions.values() if node}
+    return {file for file in files if re.match(r"src/\w+\.c$", file)}
+
+
 def sources(module, listed, name, findings):
-    needed = {module.location(node)[0] for node in module.functions.values() if node}
-    needed = {file for file in needed if re.match(r"src/\w+\.c$", file)}
-    for file in sorted(set(listed) - needed):
+    for file in sorted(set(listed) - needed(module)):
         findings.add(("hls/tops.txt", 0), "sources", f"{name}: {file} is listed but not needed")
 
 
 def main():
+    if sys.argv[1] == "--needed":
+        print(*sorted(file[4:-2] for file in needed(Module(sys.argv[2]))))
+        return 0
     linked, normal, trips, name, *listed = sys.argv[1:]
     module, findings = Module(linked), Findings()
     recursion(module, calls(module, findings), findings)
