@@ -5,7 +5,7 @@
 #ifndef DROGUE_HLS_BACKEND_H
 #define DROGUE_HLS_BACKEND_H
 
-#include "../drogue_hls.h"
+#include "../centroid/centroid.h"
 #include "drogue/drogue.h"
 
 /* What both tops are told. */
@@ -18,61 +18,67 @@ typedef struct drogue_hls_parameters {
     int32_t y_px;
 } drogue_hls_parameters;
 
-/* The parameters' registers from address 0 up: name, type, member. Up to MIN_CHI2_GAP they belong to the camera, the drogue and
- * the method; those after it to the frame. */
-#define DROGUE_HLS_PARAMETER_LIST(R)                                                                                  \
-    R(FX, drogue_q16, camera.fx_px_q16)                                                                               \
-    R(FY, drogue_q16, camera.fy_px_q16)                                                                               \
-    R(CX, drogue_q16, camera.cx_px_q16) R(CY, drogue_q16, camera.cy_px_q16) R(K1, drogue_q16, camera.k1_q16) R(       \
-        K2, drogue_q16, camera.k2_q16) R(P1, drogue_q16, camera.p1_q16) R(P2, drogue_q16, camera.p2_q16)              \
-        R(K3, drogue_q16, camera.k3_q16) R(RIM_RADIUS, drogue_q16, model.rim_radius_m_q16) R(                         \
-            INNER_RADIUS, drogue_q16, model.inner_radius_m_q16) R(INNER_DEPTH, drogue_q16, model.inner_depth_m_q16)   \
-            R(CANNY_LOW, int32_t, config.canny_low) R(CANNY_HIGH, int32_t, config.canny_high) R(                      \
-                SMOOTH, int32_t, config.smooth) R(MIN_ARC, uint32_t, config.min_arc_px) R(MIN_ARC_SHARE, drogue_q16,  \
-                                                                                          config.min_arc_share_q16)   \
-                R(MIN_SHORT, drogue_q16, config.min_short_px_q16) R(POLARITY, drogue_polarity, config.polarity) R(    \
-                    FIT_ERROR, drogue_q16,                                                                            \
-                    config.quality.fit_error_px_q16) R(QUALITY_K1, drogue_q16, config.quality.k1_q16)                 \
-                    R(QUALITY_K2, drogue_q16, config.quality.k2_q16) R(                                               \
-                        MIN_FIT_RATIO, drogue_q16,                                                                    \
-                        config.min_fit_ratio_q16) R(MIN_AXIS_RATIO, drogue_q16, config.min_axis_ratio_q16)            \
-                        R(MIN_SIZE, drogue_q16, config.min_size_q16) R(MAX_SIZE, drogue_q16, config.max_size_q16) R(  \
-                            CLUSTER_CENTRE,                                                                           \
-                            drogue_q16,                                                                               \
-                            config.cluster.centre_px_q16) R(CLUSTER_A, drogue_q16, config.cluster.a_px_q16)           \
-                            R(CLUSTER_B, drogue_q16,                                                                  \
-                              config.cluster.b_px_q16) R(CLUSTER_ANGLE, drogue_q16, config.cluster.angle_rad_q16)     \
-                                R(CLUSTER_ROUND, drogue_q16, config.cluster.round_q16) R(                             \
-                                    SEARCH_BAND, drogue_q16, config.search_band_q16) R(REFIT_BAND, drogue_q16,        \
-                                                                                       config.refit_band_px_q16)      \
-                                    R(REFIT_COS, drogue_q16, config.refit_cos_q16) R(                                 \
-                                        REFIT_ROUNDS,                                                                 \
-                                        uint32_t,                                                                     \
-                                        config.refit_rounds) R(MIN_COVER, drogue_q16,                                 \
-                                                               config.min_cover_q16) R(RECENTRE_COVER, drogue_q16,    \
-                                                                                       config.recentre_cover_q16)     \
-                                        R(OPTICS_BLUR, drogue_q16, config.optics_blur_px_q16) R(                      \
-                                            MIN_DARK_AREA, uint32_t, config.min_dark_area_px)                         \
-                                            R(MIN_INNER_CONTRAST, int32_t, config.min_inner_contrast) R(              \
-                                                INNER_GATE_PX, drogue_q16, config.inner_gate_px_q16)                  \
-                                                R(INNER_GATE, drogue_q16, config.inner_gate_q16) R(                   \
-                                                    MIN_FILL,                                                         \
-                                                    drogue_q16,                                                       \
-                                                    config.min_fill_q16) R(MAX_FILL, drogue_q16, config.max_fill_q16) \
-                                                    R(OUTLINE_SHADING, drogue_q16, config.outline_shading_q16) R(     \
-                                                        OPTICS_BLUR_STD, drogue_q16, config.optics_blur_std_px2_q16)  \
-                                                        R(INNER_STD, drogue_q16,                                      \
-                                                          config.inner_std_px_q16) R(INNER_STD_SHARE, drogue_q16,     \
-                                                                                     config.inner_std_share_q16)      \
-                                                            R(INNER_STD_SPREAD, drogue_q16,                           \
-                                                              config.inner_std_spread_q16) R(MAX_CHI2, drogue_q16,    \
-                                                                                             config.max_chi2_q16)     \
-                                                                R(MIN_CHI2_GAP, drogue_q16, config.min_chi2_gap_q16)  \
-                                                                    R(MASK_CENTRE2_X, int32_t, mask.centre2_x)        \
-                                                                        R(MASK_CENTRE2_Y, int32_t, mask.centre2_y)    \
-                                                                            R(MASK_LONGEST, int32_t, mask.longest_px) \
-                                                                                R(REGION_X, int32_t, x_px)            \
-                                                                                    R(REGION_Y, int32_t, y_px)
+/* The parameters' registers from address 0 up: name, type, member. Up to MIN_CHI2_GAP they belong to the camera, the
+ * drogue and the method; those after it to the frame. */
+/* clang-format off */
+#define DROGUE_HLS_PARAMETER_LIST(R)                               \
+    R(FX, drogue_q16, camera.fx_px_q16)                            \
+    R(FY, drogue_q16, camera.fy_px_q16)                            \
+    R(CX, drogue_q16, camera.cx_px_q16)                            \
+    R(CY, drogue_q16, camera.cy_px_q16)                            \
+    R(K1, drogue_q16, camera.k1_q16)                               \
+    R(K2, drogue_q16, camera.k2_q16)                               \
+    R(P1, drogue_q16, camera.p1_q16)                               \
+    R(P2, drogue_q16, camera.p2_q16)                               \
+    R(K3, drogue_q16, camera.k3_q16)                               \
+    R(RIM_RADIUS, drogue_q16, model.rim_radius_m_q16)              \
+    R(INNER_RADIUS, drogue_q16, model.inner_radius_m_q16)          \
+    R(INNER_DEPTH, drogue_q16, model.inner_depth_m_q16)            \
+    R(CANNY_LOW, int32_t, config.canny_low)                        \
+    R(CANNY_HIGH, int32_t, config.canny_high)                      \
+    R(SMOOTH, int32_t, config.smooth)                              \
+    R(MIN_ARC, uint32_t, config.min_arc_px)                        \
+    R(MIN_ARC_SHARE, drogue_q16, config.min_arc_share_q16)         \
+    R(MIN_SHORT, drogue_q16, config.min_short_px_q16)              \
+    R(POLARITY, drogue_polarity, config.polarity)                  \
+    R(FIT_ERROR, drogue_q16, config.quality.fit_error_px_q16)      \
+    R(QUALITY_K1, drogue_q16, config.quality.k1_q16)               \
+    R(QUALITY_K2, drogue_q16, config.quality.k2_q16)               \
+    R(MIN_FIT_RATIO, drogue_q16, config.min_fit_ratio_q16)         \
+    R(MIN_AXIS_RATIO, drogue_q16, config.min_axis_ratio_q16)       \
+    R(MIN_SIZE, drogue_q16, config.min_size_q16)                   \
+    R(MAX_SIZE, drogue_q16, config.max_size_q16)                   \
+    R(CLUSTER_CENTRE, drogue_q16, config.cluster.centre_px_q16)    \
+    R(CLUSTER_A, drogue_q16, config.cluster.a_px_q16)              \
+    R(CLUSTER_B, drogue_q16, config.cluster.b_px_q16)              \
+    R(CLUSTER_ANGLE, drogue_q16, config.cluster.angle_rad_q16)     \
+    R(CLUSTER_ROUND, drogue_q16, config.cluster.round_q16)         \
+    R(SEARCH_BAND, drogue_q16, config.search_band_q16)             \
+    R(REFIT_BAND, drogue_q16, config.refit_band_px_q16)            \
+    R(REFIT_COS, drogue_q16, config.refit_cos_q16)                 \
+    R(REFIT_ROUNDS, uint32_t, config.refit_rounds)                 \
+    R(MIN_COVER, drogue_q16, config.min_cover_q16)                 \
+    R(RECENTRE_COVER, drogue_q16, config.recentre_cover_q16)       \
+    R(OPTICS_BLUR, drogue_q16, config.optics_blur_px_q16)          \
+    R(MIN_DARK_AREA, uint32_t, config.min_dark_area_px)            \
+    R(MIN_INNER_CONTRAST, int32_t, config.min_inner_contrast)      \
+    R(INNER_GATE_PX, drogue_q16, config.inner_gate_px_q16)         \
+    R(INNER_GATE, drogue_q16, config.inner_gate_q16)               \
+    R(MIN_FILL, drogue_q16, config.min_fill_q16)                   \
+    R(MAX_FILL, drogue_q16, config.max_fill_q16)                   \
+    R(OUTLINE_SHADING, drogue_q16, config.outline_shading_q16)     \
+    R(OPTICS_BLUR_STD, drogue_q16, config.optics_blur_std_px2_q16) \
+    R(INNER_STD, drogue_q16, config.inner_std_px_q16)              \
+    R(INNER_STD_SHARE, drogue_q16, config.inner_std_share_q16)     \
+    R(INNER_STD_SPREAD, drogue_q16, config.inner_std_spread_q16)   \
+    R(MAX_CHI2, drogue_q16, config.max_chi2_q16)                   \
+    R(MIN_CHI2_GAP, drogue_q16, config.min_chi2_gap_q16)           \
+    R(MASK_CENTRE2_X, int32_t, mask.centre2_x)                     \
+    R(MASK_CENTRE2_Y, int32_t, mask.centre2_y)                     \
+    R(MASK_LONGEST, int32_t, mask.longest_px)                      \
+    R(REGION_X, int32_t, x_px)                                     \
+    R(REGION_Y, int32_t, y_px)
+/* clang-format on */
 
 #define DROGUE_HLS_INDEX(name, type, member) DROGUE_HLS_P_##name,
 enum drogue_hls_parameter { DROGUE_HLS_PARAMETER_LIST(DROGUE_HLS_INDEX) DROGUE_HLS_PARAMETERS };
@@ -117,19 +123,6 @@ enum drogue_hls_outline_word {
     DROGUE_HLS_O_BRIGHT_BINS,
     DROGUE_HLS_O_COVERED,
     DROGUE_HLS_OUTLINE_WORDS
-};
-
-/* What the centroid's top leaves for drogue_hls_pose(). */
-enum drogue_hls_dark_word {
-    DROGUE_HLS_D_STATUS, /* status register */
-    DROGUE_HLS_D_X,      /* coordinates of the region */
-    DROGUE_HLS_D_Y,
-    DROGUE_HLS_D_AREA,
-    DROGUE_HLS_D_SPREAD,
-    DROGUE_HLS_D_THRESHOLD,
-    DROGUE_HLS_D_CONTRAST,
-    DROGUE_HLS_D_WHICH, /* of the expected discs, 0 or 1 */
-    DROGUE_HLS_DARK_WORDS
 };
 
 /* What drogue_hls_pose() leaves. */
