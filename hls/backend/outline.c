@@ -29,25 +29,27 @@ static int read_lists(drogue_edge edges[DROGUE_HLS_EDGES], drogue_arc arcs[DROGU
                       const uint64_t edge_words[DROGUE_HLS_EDGES], const uint64_t arc_words[DROGUE_HLS_ARCS],
                       const drogue_edge_list *list)
 {
+    const uint32_t edge_count = list->edge_count;
+    const uint32_t arc_count = list->arc_count;
     uint32_t wrong = 0;
     uint32_t i;
-    if (list->edge_count > (uint32_t)DROGUE_HLS_EDGES || list->arc_count > (uint32_t)DROGUE_HLS_ARCS) {
+    if (edge_count > (uint32_t)DROGUE_HLS_EDGES || arc_count > (uint32_t)DROGUE_HLS_ARCS) {
         return 0;
     }
-    for (i = 0; i < list->edge_count; i++) {
+    for (i = 0; i < edge_count; i++) {
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 #pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
 #endif
         edges[i] = drogue_hls_unpack_edge(edge_words[i]);
     }
-    for (i = 0; i < list->arc_count; i++) {
+    for (i = 0; i < arc_count; i++) {
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 #pragma HLS loop_tripcount max = DROGUE_HLS_ARCS
 #endif
         arcs[i] = drogue_hls_unpack_arc(arc_words[i]);
-        wrong |= (uint32_t)(arcs[i].count < 1 || arcs[i].first + arcs[i].count > list->edge_count);
+        wrong |= (uint32_t)(arcs[i].count < 1 || arcs[i].first + arcs[i].count > edge_count);
     }
     return !wrong;
 }
