@@ -2,11 +2,14 @@
 /* Top: both poses from the ellipse alone. */
 #include "backend.h"
 
-#pragma HLS interface port = ellipse mode = ap_memory
-#pragma HLS interface port = camera mode = ap_memory
-#pragma HLS interface port = poses mode = ap_memory
 int32_t drogue_hls_cone(const int32_t ellipse[5], const int32_t camera[4], int32_t radius_m_q16, int32_t poses[16])
 {
+#ifndef __BAMBU__ /* registers; the other arrays are memory ports, which is the default */
+#pragma HLS interface mode = s_axilite port = ellipse
+#pragma HLS interface mode = s_axilite port = camera
+#pragma HLS interface mode = s_axilite port = poses
+#pragma HLS interface mode = s_axilite port = return
+#endif
     const drogue_ellipse e = drogue_hls_unpack_ellipse(ellipse);
     drogue_camera c = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     drogue_pose both[2];

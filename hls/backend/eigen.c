@@ -3,10 +3,13 @@
 #include "drogue/eigen.h"
 #include "backend.h"
 
-#pragma HLS interface port = matrix mode = ap_memory
-#pragma HLS interface port = eigen mode = ap_memory
 int32_t drogue_hls_eigen(const int64_t matrix[6], int64_t eigen[12])
 {
+#ifndef __BAMBU__ /* registers; the other arrays are memory ports, which is the default */
+#pragma HLS interface mode = s_axilite port = matrix
+#pragma HLS interface mode = s_axilite port = eigen
+#pragma HLS interface mode = s_axilite port = return
+#endif
     drogue_sym3 m;
     drogue_eigen3 e;
     int32_t sweeps;

@@ -3,10 +3,12 @@
 #include "backend.h"
 #include "drogue/ellipse.h"
 
-#pragma HLS interface port = points mode = ap_memory
-#pragma HLS interface port = ellipse mode = ap_memory
 int32_t drogue_hls_fit(const uint32_t points[DROGUE_HLS_EDGES], uint32_t count, int32_t frac_bits, int32_t ellipse[5])
 {
+#ifndef __BAMBU__ /* registers; the other arrays are memory ports, which is the default */
+#pragma HLS interface mode = s_axilite port = ellipse
+#pragma HLS interface mode = s_axilite port = return
+#endif
     drogue_moments moments;
     drogue_ellipse e;
     drogue_status status;

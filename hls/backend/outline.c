@@ -124,14 +124,15 @@ static void put(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const frame *f)
     put_support(words, &o->support);
 }
 
-#pragma HLS interface port = edges mode = ap_memory
-#pragma HLS interface port = arcs mode = ap_memory
-#pragma HLS interface port = parameters mode = ap_memory
-#pragma HLS interface port = outline mode = ap_memory
 void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_count,
                         const uint64_t arcs[DROGUE_HLS_ARCS], uint32_t arc_count, uint32_t frontend_status,
                         const int32_t parameters[DROGUE_HLS_PARAMETERS], int32_t outline[DROGUE_HLS_OUTLINE_WORDS])
 {
+#ifndef __BAMBU__ /* registers; the other arrays are memory ports, which is the default */
+#pragma HLS interface mode = s_axilite port = parameters
+#pragma HLS interface mode = s_axilite port = outline
+#pragma HLS interface mode = s_axilite port = return
+#endif
     static drogue_edge edge_memory[DROGUE_HLS_EDGES];
     static drogue_arc arc_memory[DROGUE_HLS_ARCS];
     static drogue_point hull[DROGUE_HULL_MAX];

@@ -88,16 +88,19 @@ static drogue_status solve(drogue_result *out, const first_step *f, const drogue
     return drogue_decide(out, f->poses, nearer, &f->support, &inner, &p->config, &p->camera, &p->model);
 }
 
-#pragma HLS interface port = parameters mode = ap_memory
-#pragma HLS interface port = outline mode = ap_memory
-#pragma HLS interface port = dark mode = ap_memory
-#pragma HLS interface port = result mode = ap_memory
-#pragma HLS interface port = covariance mode = ap_memory
-#pragma HLS interface port = std mode = ap_memory
 void drogue_hls_pose(const int32_t parameters[DROGUE_HLS_PARAMETERS], const int32_t outline[DROGUE_HLS_OUTLINE_WORDS],
                      const int32_t dark[DROGUE_HLS_DARK_WORDS], int32_t result[DROGUE_HLS_RESULT_WORDS],
                      int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS], int64_t std[DROGUE_HLS_STD_WORDS])
 {
+#ifndef __BAMBU__ /* registers; the other arrays are memory ports, which is the default */
+#pragma HLS interface mode = s_axilite port = parameters
+#pragma HLS interface mode = s_axilite port = outline
+#pragma HLS interface mode = s_axilite port = dark
+#pragma HLS interface mode = s_axilite port = result
+#pragma HLS interface mode = s_axilite port = covariance
+#pragma HLS interface mode = s_axilite port = std
+#pragma HLS interface mode = s_axilite port = return
+#endif
     drogue_hls_parameters p;
     first_step f;
     drogue_result out;

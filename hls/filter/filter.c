@@ -77,17 +77,22 @@ static void start(drogue_kalman *filter, uint32_t which, const drogue_q16 value[
     }
 }
 
-#pragma HLS interface port = value mode = ap_memory
-#pragma HLS interface port = std mode = ap_memory
-#pragma HLS interface port = process mode = ap_memory
-#pragma HLS interface port = memory mode = ap_memory
-#pragma HLS interface port = states mode = ap_memory
-#pragma HLS interface port = value_std mode = ap_memory
 int32_t drogue_hls_filter(uint32_t command, uint32_t which, uint32_t dt_us, const int32_t value[DROGUE_PARAMETERS],
                           const int32_t std[DROGUE_PARAMETERS], const int32_t process[4 * DROGUE_PARAMETERS],
                           int64_t memory[DROGUE_HLS_FILTER_WORDS], int32_t states[3 * DROGUE_PARAMETERS],
                           int64_t value_std[DROGUE_PARAMETERS])
 {
+#ifndef __BAMBU__ /* registers; the other arrays are memory ports, which is the default */
+#pragma HLS interface mode = s_axilite port = command
+#pragma HLS interface mode = s_axilite port = which
+#pragma HLS interface mode = s_axilite port = dt_us
+#pragma HLS interface mode = s_axilite port = value
+#pragma HLS interface mode = s_axilite port = std
+#pragma HLS interface mode = s_axilite port = process
+#pragma HLS interface mode = s_axilite port = states
+#pragma HLS interface mode = s_axilite port = value_std
+#pragma HLS interface mode = s_axilite port = return
+#endif
     drogue_kalman filter;
     drogue_q16 v[DROGUE_PARAMETERS];
     drogue_q16 s[DROGUE_PARAMETERS];
