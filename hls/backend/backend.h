@@ -220,7 +220,7 @@ void drogue_hls_pose(const int32_t parameters[DROGUE_HLS_PARAMETERS], const int3
 int32_t drogue_hls_eigen(const int64_t matrix[6], int64_t eigen[12]);
 
 /* drogue_ellipse_fit(): points x in the low and y in the high 16 bits, unit 2^-frac_bits px -> xc yc a b angle, 0 on
- * failure; returns the drogue_status. */
+ * failure; returns the drogue_status, DROGUE_E_ARGUMENT for more points than the memory. */
 int32_t drogue_hls_fit(const uint32_t points[DROGUE_HLS_EDGES], uint32_t count, int32_t frac_bits, int32_t ellipse[5]);
 
 /* drogue_pose_from_ellipse(): ellipse, fx fy cx cy -> two poses, 0 on failure; returns the drogue_status. */

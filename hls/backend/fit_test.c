@@ -42,10 +42,15 @@ static void run(bench *b, const conf_case *c)
 int main(void)
 {
     const conf_case *c;
+    int32_t ellipse[5];
     bench b;
     bench_begin(&b, "fit");
     while ((c = bench_next(&b, "ellipse")) != NULL) {
         run(&b, c);
     }
+    SIM_ARRAY(0, points);
+    SIM_ARRAY(3, ellipse);
+    (void)bench_word(&b, "more points than the memory",
+                     drogue_hls_fit(points, (uint32_t)DROGUE_HLS_EDGES + 1, 0, ellipse), DROGUE_E_ARGUMENT);
     return bench_end(&b);
 }
