@@ -176,7 +176,6 @@ static drogue_status find_inner(drogue_result *out, drogue_joint_inner *weighed,
 {
     const drogue_mask disc = drogue_inner_disc(&f->outline.ellipse);
     drogue_ellipse expected[2];
-    drogue_choice choice;
     uint32_t which;
     const uint32_t count = drogue_inner_expect(expected, poses, camera, model, out->region.x_px, out->region.y_px);
     drogue_status status = drogue_mask_valid(&disc)
@@ -184,21 +183,8 @@ static drogue_status find_inner(drogue_result *out, drogue_joint_inner *weighed,
                                                        config->min_dark_area_px, expected, count)
                                : DROGUE_E_NO_DARK_PART;
     if (status == DROGUE_OK) {
-        weighed->std_px_q16 = drogue_inner_std(&out->inner, &expected[which], &f->outline.ellipse, config);
-        weighed->x_px_q16 = out->inner.x_px_q16 = shifted(out->inner.x_px_q16, out->region.x_px);
-        weighed->y_px_q16 = out->inner.y_px_q16 = shifted(out->inner.y_px_q16, out->region.y_px);
-        if (drogue_undistort_point(&weighed->x_px_q16, &weighed->y_px_q16, camera) != DROGUE_OK ||
-            drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, model->inner_depth_m_q16,
-                               camera) != DROGUE_OK) {
-            weighed->std_px_q16 = 0; /* beyond the lens model, or behind the camera for one of the poses */
-            choice.index = 0;
-        }
-        *nearer = choice.index;
-    }
-    if (weighed->std_px_q16 > 0) {
-        out->has_inner = 1;
-        out->ambiguity_q16 = choice.ambiguity_q16;
-    } else { /* what is dark orders the poses, but is not to be believed */
+        *nearer = drogue_inner_weigh(weighed, out, &expected[which], &f->outline.ellipse, poses, config, camera, model);
+    } else {
         memset(&out->inner, 0, sizeof out->inner);
     }
     return status == DROGUE_E_NO_DARK_PART ? DROGUE_OK : status;
