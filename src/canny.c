@@ -5,15 +5,24 @@
 int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after)
 {
     int32_t curvature = 2 * m - before - after;
-    int32_t num = 32 * (after - before) + curvature; /* floor(num / den) rounds 16 (after - before) / curvature */
-    int32_t den = 2 * curvature;
-    int32_t offset;
+    int32_t slope = after - before;
+    int32_t rest = 32 * slope + 33 * curvature; /* floor(rest / (2 curvature)) - 16 rounds 16 slope / curvature */
+    int32_t offset = -16;
+    int32_t bit;
     if (curvature <= 0) {
         return 0;
     }
-    DROGUE_NOTE("canny: offset numerator", num, 17);
-    offset = num >= 0 ? num / den : -((den - 1 - num) / den);
-    return offset > 15 ? 15 : offset < -15 ? -15 : offset;
+    if (slope >= curvature || slope <= -curvature) { /* 16 and more */
+        return slope > 0 ? 15 : -15;
+    }
+    DROGUE_NOTE("canny: offset numerator", rest, 18);
+    for (bit = 4; bit >= 0; bit--) { /* a division whose quotient is in [0, 32) */
+        if (rest >= curvature << (bit + 1)) {
+            rest -= curvature << (bit + 1);
+            offset += 1 << bit;
+        }
+    }
+    return offset < -15 ? -15 : offset;
 }
 
 void drogue_canny_row(uint8_t *out, const uint16_t *const magnitude[3], const int16_t *gx, const int16_t *gy,

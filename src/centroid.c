@@ -191,9 +191,9 @@ static void open_and_label(drogue_dark_pass *p)
 void drogue_dark_join(uint32_t *parent, uint32_t *area, uint32_t *x_sum, uint32_t *y_sum, uint32_t count)
 {
     uint32_t i;
+    drogue_labels_flatten(parent, count);
     for (i = 1; i < count; i++) {
-        const uint32_t root = parent[parent[i]]; /* parents are smaller and point at their roots already */
-        parent[i] = root;
+        const uint32_t root = parent[i];
         if (root != i) {
             area[root] += area[i];
             x_sum[root] += x_sum[i];

@@ -119,6 +119,17 @@ static drogue_slope *slope_row(const drogue_frontend *f, int32_t y)
     return f->workspace->slope_rows + (size_t)(y & 1) * DROGUE_FOURS(f->width_px) * 4;
 }
 
+/* A point that was refused a component belongs to no arc, so that the points of an arc share one component. */
+static void forget_refused(uint8_t *code, const drogue_slope *points, uint32_t count, const uint32_t *component)
+{
+    uint32_t i;
+    for (i = 0; i < count; i++) {
+        if (component[points[i].x] == 0) {
+            code[points[i].x] &= (uint8_t)~CODE_CLASS_MASK;
+        }
+    }
+}
+
 /* Suppress, threshold, label and list row y, whose magnitude is complete above and below. */
 static void canny_step(drogue_frontend *f, int32_t y)
 {
@@ -138,6 +149,9 @@ static void canny_step(drogue_frontend *f, int32_t y)
     count = suppress(f, code, points, magnitude, y);
     drogue_label_points(component, &f->components, w->merges, w->component_rows + (size_t)(~y & 1) * width, code,
                         code_above, CODE_CANDIDATE, f->width_px, points, count);
+    if (f->components.full) {
+        forget_refused(code, points, count, component);
+    }
     drogue_label_points(arc, &f->arc_labels, w->merges, w->arc_rows + (size_t)(~y & 1) * width, code, code_above,
                         CODE_CLASS_MASK, f->width_px, points, count);
     for (i = 0; i < count; i++) {
@@ -242,11 +256,11 @@ static uint32_t *resolve_hysteresis(drogue_frontend *f)
     drogue_workspace *w = f->workspace;
     uint32_t *alive = w->arc_component;
     uint32_t i;
-    drogue_labels_flatten(&f->components);
+    drogue_labels_flatten(w->component_parent, f->components.count);
     for (i = 1; i < f->components.count; i++) {
         w->component_strong[w->component_parent[i]] |= w->component_strong[i];
     }
-    drogue_labels_flatten(&f->arc_labels);
+    drogue_labels_flatten(w->arc_parent, f->arc_labels.count);
     for (i = 1; i < f->arc_labels.count; i++) {
         if (w->arc_parent[i] == i) { /* a label that lost its root in its first row has no component noted */
             alive[i] = w->component_strong[w->component_parent[w->arc_component[i]]];

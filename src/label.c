@@ -11,24 +11,41 @@ void drogue_labels_reset(drogue_labels *labels, uint32_t *parent, uint32_t capac
     parent[0] = 0;
 }
 
-uint32_t drogue_labels_find(drogue_labels *labels, uint32_t label)
+/* What the last two steps wrote. */
+typedef struct recent_parents {
+    uint32_t label[2];
+    uint32_t parent[2];
+} recent_parents;
+
+static uint32_t parent_of(const uint32_t *parent, const recent_parents *recent, uint32_t label)
 {
-    uint32_t *parent = labels->parent;
-    while (parent[label] != label) { /* parents are smaller: at most 'count' steps */
-        parent[label] = parent[parent[label]];
-        label = parent[label];
-    }
-    return label;
+    return label == recent->label[0]   ? recent->parent[0]
+           : label == recent->label[1] ? recent->parent[1]
+                                       : parent[label];
 }
 
-static void labels_join(drogue_labels *labels, const drogue_merge *merge)
+static void set_parent(uint32_t *parent, recent_parents *recent, uint32_t label, uint32_t to)
 {
-    uint32_t a = drogue_labels_find(labels, merge->a);
-    uint32_t b = drogue_labels_find(labels, merge->b);
-    if (a < b) {
-        labels->parent[b] = a;
-    } else {
-        labels->parent[a] = b;
+    recent->label[1] = recent->label[0];
+    recent->parent[1] = recent->parent[0];
+    recent->label[0] = label;
+    recent->parent[0] = to;
+    parent[label] = to;
+}
+
+void drogue_labels_resolve(uint32_t *parent, drogue_merge *merges, uint32_t count)
+{
+    recent_parents recent = {{0, 0}, {0, 0}};
+    uint32_t i;
+    for (i = 0; i < count; i++) {
+        uint32_t a = parent_of(parent, &recent, merges[i].a);
+        uint32_t b = parent_of(parent, &recent, merges[i].b);
+        merges[i].a = a < b ? a : b;
+        merges[i].b = a < b ? b : a;
+        set_parent(parent, &recent, merges[i].b, merges[i].a);
+    }
+    for (i = count; i > 0; i--) { /* a root that lost its place later has its own root by now */
+        set_parent(parent, &recent, merges[i - 1].b, parent_of(parent, &recent, merges[i - 1].a));
     }
 }
 
@@ -60,59 +77,25 @@ typedef struct label_pass {
 /* Label of column x, whose key is not 0. */
 static uint32_t label_pixel(label_pass *p, int32_t x, uint8_t key)
 {
-    uint32_t label = 0;
-    uint32_t right = 0;
-    if ((p->code_above[x] & p->mask) == key) {
-        label = p->above[x]; /* left, above left and above right all touch it: they are joined already or will be */
-        if (label != 0) {
-            return label;
-        }
+    uint32_t above = (p->code_above[x] & p->mask) == key ? p->above[x] : 0;
+    uint32_t left;
+    uint32_t above_left;
+    uint32_t above_right;
+    uint32_t merge_with;
+    uint32_t label;
+    if (above != 0) { /* whatever the others are */
+        return above;
     }
-    if (x > 0 && (p->code[x - 1] & p->mask) == key) {
-        label = p->current[x - 1];
-    }
-    if (label == 0 && x > 0 && (p->code_above[x - 1] & p->mask) == key) {
-        label = p->above[x - 1];
-    }
-    if (x + 1 < p->width_px && (p->code_above[x + 1] & p->mask) == key) {
-        right = p->above[x + 1];
-    }
-    if (label == 0) {
-        return right != 0 ? right : labels_new(p->labels);
-    }
-    if (right != 0 && right != label) {
+    left = x > 0 && (p->code[x - 1] & p->mask) == key ? p->current[x - 1] : 0;
+    above_left = x > 0 && (p->code_above[x - 1] & p->mask) == key ? p->above[x - 1] : 0;
+    above_right = x + 1 < p->width_px && (p->code_above[x + 1] & p->mask) == key ? p->above[x + 1] : 0;
+    label = drogue_label_choose(&merge_with, 0, left, above_left, above_right);
+    if (merge_with != 0) {
         p->merges[p->merge_count].a = label;
-        p->merges[p->merge_count].b = right;
+        p->merges[p->merge_count].b = merge_with;
         p->merge_count++;
     }
-    return label;
-}
-
-static void join_merges(label_pass *p)
-{
-    uint32_t i;
-    for (i = 0; i < p->merge_count; i++) {
-        labels_join(p->labels, &p->merges[i]);
-    }
-}
-
-void drogue_label_row(uint32_t *current, drogue_labels *labels, drogue_merge *merges, const uint32_t *above,
-                      const uint8_t *code, const uint8_t *code_above, uint8_t mask, int32_t width_px)
-{
-    label_pass p = {current, labels, merges, above, code, code_above, 0, width_px, mask};
-    int32_t x;
-    for (x = 0; x < width_px; x++) {
-        uint8_t key = code[x] & mask;
-        current[x] = key != 0 ? label_pixel(&p, x, key) : 0;
-    }
-    if (p.merge_count > 0) {
-        join_merges(&p);
-        for (x = 0; x < width_px; x++) {
-            if (current[x] != 0) {
-                current[x] = drogue_labels_find(labels, current[x]);
-            }
-        }
-    }
+    return label != 0 ? label : labels_new(p->labels);
 }
 
 void drogue_label_points(uint32_t *current, drogue_labels *labels, drogue_merge *merges, const uint32_t *above,
@@ -127,20 +110,18 @@ void drogue_label_points(uint32_t *current, drogue_labels *labels, drogue_merge 
         current[x] = key != 0 ? label_pixel(&p, x, key) : 0;
     }
     if (p.merge_count > 0) {
-        join_merges(&p);
+        drogue_labels_resolve(labels->parent, merges, p.merge_count);
         for (i = 0; i < count; i++) {
             uint32_t *label = &current[points[i].x];
-            if (*label != 0) {
-                *label = drogue_labels_find(labels, *label);
-            }
+            *label = labels->parent[*label];
         }
     }
 }
 
-void drogue_labels_flatten(drogue_labels *labels)
+void drogue_labels_flatten(uint32_t *parent, uint32_t count)
 {
     uint32_t i;
-    for (i = 1; i < labels->count; i++) {
-        labels->parent[i] = labels->parent[labels->parent[i]];
+    for (i = 1; i < count; i++) {
+        parent[i] = parent[parent[i]];
     }
 }

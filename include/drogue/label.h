@@ -3,7 +3,7 @@
  * arcs within a direction class and for the dark parts.
  *
  * The pixel loop does bounded work a pixel: it looks only at labels of the row above, which are roots, and
- * notes at most one merge. Merges are resolved at the end of the row. */
+ * notes at most one merge. Merges are resolved at the end of the row, in two steps each: no chain is ever followed. */
 #ifndef DROGUE_LABEL_H
 #define DROGUE_LABEL_H
 
@@ -31,29 +31,55 @@ typedef struct drogue_merge {
 /* Start with no label given; capacity >= 1. */
 void drogue_labels_reset(drogue_labels *labels, uint32_t *parent, uint32_t capacity);
 
-/* Root of a label. */
-uint32_t drogue_labels_find(drogue_labels *labels, uint32_t label);
+/* Label of a pixel by those of its neighbours: of the same key, 0 for none.
+ *
+ *  merge_with  out: label of the same component as the one returned, or 0
+ *  return      the label; 0 when the pixel needs a new one
+ */
+static inline uint32_t drogue_label_choose(uint32_t *merge_with, uint32_t above, uint32_t left, uint32_t above_left,
+                                           uint32_t above_right)
+{
+    uint32_t label = left != 0 ? left : above_left;
+    *merge_with = 0;
+    if (above != 0) { /* left, above left and above right all touch it: they are joined already or will be */
+        return above;
+    }
+    if (label == 0) {
+        return above_right;
+    }
+    if (above_right != label) {
+        *merge_with = above_right;
+    }
+    return label;
+}
+
+/* Resolve the merges of a row: after it every label that occurs in them points straight at its root.
+ *
+ *  parent  in/out; labels of the row above are roots, and so are new ones
+ *  merges  in the order of the row; overwritten
+ *
+ * One look at the table a label is enough, because components do not cross: those merged so far to the left of a pixel
+ * are never met again through a label two steps from its root (Bailey and Johnston 2007). What the last two steps wrote
+ * is taken from registers, so that a table of one cycle's latency serves a step a cycle in hardware.
+ */
+void drogue_labels_resolve(uint32_t *parent, drogue_merge *merges, uint32_t count);
 
 /* Label one row: 8-connected pixels of equal key share a component. A pixel's key is code & mask; key 0 is background.
  *
- *  current   out, width_px labels, each a root when the call returns; 0 for background
+ *  current   out, labels of the points, each a root when the call returns; the others are left alone
  *  labels    in/out
  *  merges    work area, width_px entries: at most one merge a pixel
- *  above     labels of the row above as this function left them; zeros for the first row
+ *  above     labels of the row above as this function left them
  *  code      width_px codes; code_above those of the row above, zeros for the first row
+ *  points    names the 'count' columns, ascending, where 'code' is not 0
  */
-void drogue_label_row(uint32_t *current, drogue_labels *labels, drogue_merge *merges, const uint32_t *above,
-                      const uint8_t *code, const uint8_t *code_above, uint8_t mask, int32_t width_px);
-
-/* The same for a row of few pixels: 'points' names the 'count' columns, ascending, where 'code' is not 0.
- * Only theirs are read and written of the rows of labels. */
 void drogue_label_points(uint32_t *current, drogue_labels *labels, drogue_merge *merges, const uint32_t *above,
                          const uint8_t *code, const uint8_t *code_above, uint8_t mask, int32_t width_px,
                          const drogue_slope *points, uint32_t count);
 
 /* Point every label straight at its root: after it parent[i] is the root of i. What a caller has summed
  * by label over the rows it then joins in one ascending pass, into parent[i] from i. */
-void drogue_labels_flatten(drogue_labels *labels);
+void drogue_labels_flatten(uint32_t *parent, uint32_t count);
 
 #ifdef __cplusplus
 }
