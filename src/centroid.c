@@ -188,21 +188,6 @@ static void open_and_label(drogue_dark_pass *p)
     label_opened_row(p, p->last_row);
 }
 
-void drogue_dark_join(uint32_t *parent, uint32_t *area, uint32_t *x_sum, uint32_t *y_sum, uint32_t count)
-{
-    uint32_t i;
-    drogue_labels_flatten(parent, count);
-    for (i = 1; i < count; i++) {
-        const uint32_t root = parent[i];
-        if (root != i) {
-            area[root] += area[i];
-            x_sum[root] += x_sum[i];
-            y_sum[root] += y_sum[i];
-            area[i] = 0;
-        }
-    }
-}
-
 drogue_status drogue_dark_components(drogue_dark_pass *pass, drogue_dark_part *out, drogue_workspace *workspace,
                                      const drogue_image *image, const drogue_mask *disc)
 {
