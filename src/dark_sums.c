@@ -80,13 +80,13 @@ static drogue_q16 misfit(const drogue_dark_part *part, const drogue_ellipse *exp
     return drogue_sat_s32(away + (fill < 0 ? -fill : fill));
 }
 
-/* Mean grey of levels first .. last, rounded down; 0 when there are none. 32 bits hold 2^22 pixels' levels. */
-static int32_t mean_level(const uint32_t *histogram, uint32_t first, uint32_t last)
+/* Mean grey of levels first .. end - 1, rounded down; 0 when there are none. 32 bits hold 2^22 pixels' levels. */
+static int32_t mean_level(const uint32_t *histogram, uint32_t first, uint32_t end)
 {
     uint32_t count = 0;
     uint32_t sum = 0;
     uint32_t level;
-    for (level = first; level <= last; level++) {
+    for (level = first; level < end; level++) {
         count += histogram[level];
         sum += histogram[level] * level;
     }
@@ -124,8 +124,8 @@ void drogue_dark_window(drogue_mask *window, const drogue_dark_part *part, const
 
 void drogue_dark_ramp_of(drogue_dark_ramp *ramp, drogue_dark_part *part, const uint32_t *histogram)
 {
-    const int32_t dark = mean_level(histogram, 0, part->threshold);
-    const int32_t bright = mean_level(histogram, part->threshold + 1u, 255);
+    const int32_t dark = mean_level(histogram, 0, part->threshold + 1u);
+    const int32_t bright = mean_level(histogram, part->threshold + 1u, 256);
     const int32_t half = (part->threshold - dark) / 3;
     part->contrast = (uint8_t)(bright > dark ? bright - dark : 0);
     ramp->range = 2 * half + 1;

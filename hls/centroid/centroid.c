@@ -33,6 +33,8 @@ static void count_level(recent_bins *recent, uint32_t level)
 static uint8_t take_threshold(const uint8_t *pixels, uint32_t at, const drogue_hls_region *region,
                               const drogue_mask *disc)
 {
+    const int32_t width = region->width_px;
+    const int32_t height = region->height_px;
     recent_bins recent = {{LEVELS, LEVELS}, {0, 0}};
     int32_t level;
     int32_t x;
@@ -40,10 +42,10 @@ static uint8_t take_threshold(const uint8_t *pixels, uint32_t at, const drogue_h
     for (level = 0; level < LEVELS; level++) {
         histogram[level] = 0;
     }
-    for (y = 0; y < region->height_px; y++) {
+    for (y = 0; y < height; y++) {
 #pragma HLS loop_tripcount max = 256
         const int64_t most_x9 = drogue_mask_disc_row(disc, y);
-        for (x = 0; x < region->width_px; x++) {
+        for (x = 0; x < width; x++) {
 #pragma HLS loop_tripcount max = 256
             const uint8_t pixel = pixels[at++];
             if (drogue_hls_in_disc(x, disc->centre2_x, most_x9) != 0) {
@@ -58,6 +60,8 @@ static uint8_t take_threshold(const uint8_t *pixels, uint32_t at, const drogue_h
 static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, uint32_t at,
                           const drogue_hls_region *region, const drogue_mask *window, const drogue_dark_ramp *ramp)
 {
+    const int32_t width = region->width_px;
+    const int32_t height = region->height_px;
     const int32_t step = drogue_dark_ramp_step(ramp);
     int32_t x;
     int32_t y;
@@ -67,12 +71,12 @@ static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, u
         sums[k].x = 0;
         sums[k].y = 0;
     }
-    for (y = 0; y < region->height_px; y++) {
+    for (y = 0; y < height; y++) {
 #pragma HLS loop_tripcount max = 256
         const int64_t most_x9 = drogue_mask_disc_row(window, y);
         int32_t row_sum[RAMPS] = {0, 0, 0};
         int32_t row_x[RAMPS] = {0, 0, 0};
-        for (x = 0; x < region->width_px; x++) {
+        for (x = 0; x < width; x++) {
 #pragma HLS loop_tripcount max = 256
             const uint8_t pixel = pixels[at++];
             const uint32_t within = drogue_hls_in_disc(x, window->centre2_x, most_x9);
