@@ -43,10 +43,15 @@ static uint8_t take_threshold(const uint8_t *pixels, uint32_t at, const drogue_h
         histogram[level] = 0;
     }
     for (y = 0; y < height; y++) {
-#pragma HLS loop_tripcount max = 256
+#pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT
         const int64_t most_x9 = drogue_mask_disc_row(disc, y);
         for (x = 0; x < width; x++) {
-#pragma HLS loop_tripcount max = 256
+#pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH
+#ifndef __BAMBU__
+#pragma HLS pipeline II = 1
+/* What the last two ticks wrote comes from registers. */
+#pragma HLS dependence variable = histogram type = inter direction = RAW distance = 3 true
+#endif
             const uint8_t pixel = pixels[at++];
             if (drogue_hls_in_disc(x, disc->centre2_x, most_x9) != 0) {
                 count_level(&recent, pixel);
@@ -72,16 +77,18 @@ static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, u
         sums[k].y = 0;
     }
     for (y = 0; y < height; y++) {
-#pragma HLS loop_tripcount max = 256
+#pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT
         const int64_t most_x9 = drogue_mask_disc_row(window, y);
         int32_t row_sum[RAMPS] = {0, 0, 0};
         int32_t row_x[RAMPS] = {0, 0, 0};
         for (x = 0; x < width; x++) {
-#pragma HLS loop_tripcount max = 256
+#pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH
+#ifndef __BAMBU__
+#pragma HLS pipeline II = 1
+#endif
             const uint8_t pixel = pixels[at++];
             const uint32_t within = drogue_hls_in_disc(x, window->centre2_x, most_x9);
-            for (k = 0; k < RAMPS; k++) {
-#pragma HLS unroll
+            for (k = 0; k < RAMPS; k++) { /* the pipeline unrolls it */
                 const int32_t full = ramp->full + (k - MIDDLE) * step;
                 const int32_t darkness = (int32_t)drogue_hls_darkness(pixel, full, ramp->range, within);
                 row_sum[k] += darkness;
@@ -159,7 +166,23 @@ void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_DARK_PASSES * DROGUE_HL
                          int32_t dark[DROGUE_HLS_DARK_WORDS], int32_t width_px, int32_t height_px, int32_t centre2_x,
                          int32_t centre2_y, int32_t longest_px, uint32_t min_area, uint32_t count)
 {
+#ifdef __BAMBU__
+#pragma HLS interface port = pixels mode = fifo
+#pragma HLS interface port = expected mode = m_axi
+#pragma HLS interface port = dark mode = m_axi
+#else
 #pragma HLS interface port = pixels mode = axis
+#pragma HLS interface port = expected mode = s_axilite
+#pragma HLS interface port = dark mode = s_axilite
+#pragma HLS interface port = width_px mode = s_axilite
+#pragma HLS interface port = height_px mode = s_axilite
+#pragma HLS interface port = centre2_x mode = s_axilite
+#pragma HLS interface port = centre2_y mode = s_axilite
+#pragma HLS interface port = longest_px mode = s_axilite
+#pragma HLS interface port = min_area mode = s_axilite
+#pragma HLS interface port = count mode = s_axilite
+#pragma HLS interface port = return mode = s_axilite
+#endif
     drogue_dark_part part = {0, 0, 0, 0, 0, 0};
     drogue_ellipse discs[DROGUE_HLS_DISCS];
     drogue_hls_region region;

@@ -134,7 +134,7 @@ static void begin_row(registers *r)
 static void begin_frame(registers *r, held_sums *h)
 {
     uint32_t i;
-    for (i = 0; i < DROGUE_HLS_LABELS; i++) {
+    for (i = 0; i < DROGUE_HLS_LABELS; i++) { /* nothing is summed by a label that was not given */
         area[i] = 0;
         x_sum[i] = 0;
         y_sum[i] = 0;
@@ -159,11 +159,24 @@ void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, const drogue
     int32_t y;
     begin_frame(&r, &held);
     for (y = 0; y < height + LAG; y++) {
-#pragma HLS loop_tripcount max = 258
+#pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT + LAG
         const int64_t most_x9 = drogue_mask_disc_row(disc, y);
         begin_row(&r);
         for (x = 0; x < width + LAG; x++) {
-#pragma HLS loop_tripcount max = 258
+#pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH + LAG
+#ifndef __BAMBU__
+#pragma HLS pipeline II = 1
+/* A line buffer's word is touched in one tick of a row; of labels, column x + 1 is read before it is written. */
+#pragma HLS dependence variable = dark_rows type = inter false
+#pragma HLS dependence variable = eroded_rows type = inter false
+#pragma HLS dependence variable = label_row type = inter direction = RAW false
+/* Read: labels of the row above. Written: new ones. */
+#pragma HLS dependence variable = parent type = inter false
+/* A label's sums are stored when another label comes: not again within three ticks. */
+#pragma HLS dependence variable = area type = inter direction = RAW distance = 3 true
+#pragma HLS dependence variable = x_sum type = inter direction = RAW distance = 3 true
+#pragma HLS dependence variable = y_sum type = inter direction = RAW distance = 3 true
+#endif
             uint32_t bit = 1;
             if (x < width && y < height) {
                 bit = drogue_hls_is_dark(pixels[at++], threshold, drogue_hls_in_disc(x, disc->centre2_x, most_x9));
