@@ -188,23 +188,6 @@ static void open_and_label(drogue_dark_pass *p)
     label_opened_row(p, p->last_row);
 }
 
-/* Join the sums of merged labels: afterwards roots alone have an area. */
-static void join_components(drogue_dark_pass *p)
-{
-    drogue_workspace *w = p->workspace;
-    uint32_t i;
-    drogue_labels_flatten(p->labels.parent, p->labels.count);
-    for (i = 1; i < p->labels.count; i++) {
-        uint32_t root = w->component_parent[i];
-        if (root != i) {
-            w->component_strong[root] += w->component_strong[i];
-            w->arc_parent[root] += w->arc_parent[i];
-            w->arc_component[root] += w->arc_component[i];
-            w->component_strong[i] = 0;
-        }
-    }
-}
-
 drogue_status drogue_dark_components(drogue_dark_pass *pass, drogue_dark_part *out, drogue_workspace *workspace,
                                      const drogue_image *image, const drogue_mask *disc)
 {
@@ -221,7 +204,8 @@ drogue_status drogue_dark_components(drogue_dark_pass *pass, drogue_dark_part *o
     pass->threshold = drogue_disc_threshold(workspace->histogram, image, disc);
     out->threshold = pass->threshold;
     open_and_label(pass);
-    join_components(pass);
+    drogue_dark_join(workspace->component_parent, workspace->component_strong, workspace->arc_parent,
+                     workspace->arc_component, pass->labels.count);
     return pass->labels.full ? DROGUE_E_LABELS_FULL : DROGUE_OK;
 }
 

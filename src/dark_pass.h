@@ -24,9 +24,38 @@ typedef struct drogue_dark_pass {
     uint8_t threshold;
 } drogue_dark_pass;
 
+/* Darkness falls from 1 to 0 between two grey levels: a pixel at the edge counts by its grey, one of the surround not at
+ * all. */
+typedef struct drogue_dark_ramp {
+    int32_t full;  /* level of darkness 'range' and more */
+    int32_t range; /* levels to darkness 0, [1, 171]: 2 / 3 of 255, and 1 */
+} drogue_dark_ramp;
+
+/* Sums of darkness over a window of at most 2^22 pixels. */
+typedef struct drogue_dark_sums {
+    int64_t sum;
+    int64_t x; /* weighted by the column */
+    int64_t y; /* weighted by the row */
+} drogue_dark_sums;
+
 static inline drogue_q16 drogue_dark_mean_q16(int64_t sum, int64_t count)
 {
     return (drogue_q16)drogue_div_round_s64(sum * DROGUE_Q16_ONE, count);
+}
+
+/* Darkness of a grey level, [0, range]. */
+static inline int32_t drogue_dark_darkness(int32_t level, const drogue_dark_ramp *ramp)
+{
+    const int32_t above = level - ramp->full;
+    return above < 0 ? ramp->range : above > ramp->range ? 0 : ramp->range - above;
+}
+
+/* Add row y: its darkness and that weighted by the column, which 32 bits hold for 2048 columns. */
+static inline void drogue_dark_add_row(drogue_dark_sums *sums, int32_t darkness, int32_t x_darkness, int32_t y)
+{
+    sums->sum += darkness;
+    sums->x += x_darkness;
+    sums->y += (int64_t)darkness * y;
 }
 
 /* Columns [*first, *last] of the disc in row y, within the image; 0 when there are none. */
@@ -46,5 +75,37 @@ uint8_t drogue_disc_threshold(uint32_t *histogram, const drogue_image *image, co
  */
 drogue_status drogue_dark_components(drogue_dark_pass *pass, drogue_dark_part *out, drogue_workspace *workspace,
                                      const drogue_image *image, const drogue_mask *disc);
+
+/* Join what is summed by label, 1 .. count - 1: afterwards parent[i] is the root of i and roots alone have an area. */
+void drogue_dark_join(uint32_t *parent, uint32_t *area, uint32_t *x_sum, uint32_t *y_sum, uint32_t count);
+
+/* Choose among the expected discs the one that the components within it fit best; these together are the part.
+ *
+ *  out     area and place; as it was when the call fails
+ *  which   out: index of the disc, 0 when the call fails
+ *  area, x_sum, y_sum, labels  as drogue_dark_join() left them
+ *  return  DROGUE_OK, DROGUE_E_NO_DARK_PART
+ */
+drogue_status drogue_dark_choose(drogue_dark_part *out, uint32_t *which, const uint32_t *area, const uint32_t *x_sum,
+                                 const uint32_t *y_sum, uint32_t labels, uint32_t min_area,
+                                 const drogue_ellipse *expected, uint32_t count);
+
+/* Disc about the part of a multiple of the expected semi-axis, and a pixel: WIDE to find its threshold, then NARROW to
+ * weigh it. */
+#define DROGUE_DARK_WIDE DROGUE_Q16(16, 10)
+#define DROGUE_DARK_NARROW DROGUE_Q16(12, 10)
+void drogue_dark_window(drogue_mask *window, const drogue_dark_part *part, const drogue_ellipse *expected,
+                        drogue_q16 factor_q16);
+
+/* Contrast of a part and its ramp from its threshold and the histogram that gave that. The lower and the upper ramp
+ * begin a third of the way to the dark level below and above. */
+void drogue_dark_ramp_of(drogue_dark_ramp *ramp, drogue_dark_part *part, const uint32_t *histogram);
+static inline int32_t drogue_dark_ramp_step(const drogue_dark_ramp *ramp) { return ramp->range / 2; }
+
+/* Place and area of the darkness summed; without any the part stays as it is. */
+void drogue_dark_place(drogue_dark_part *part, const drogue_dark_sums *sums, const drogue_dark_ramp *ramp);
+
+/* Distance of a part from a point, px Q16. */
+drogue_q16 drogue_dark_distance(const drogue_dark_part *part, drogue_q16 x_px_q16, drogue_q16 y_px_q16);
 
 #endif

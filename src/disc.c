@@ -6,9 +6,8 @@
 
 int drogue_disc_span(int32_t *first, int32_t *last, const drogue_mask *disc, int32_t y, int32_t width_px)
 {
-    int64_t dy = 2 * (int64_t)y - disc->centre2_y;
-    int64_t rest = 4 * (int64_t)disc->longest_px * disc->longest_px - 9 * dy * dy;
-    int64_t half; /* largest |2x - centre2_x| with 9 (2x - centre2_x)^2 <= rest */
+    const int64_t rest = drogue_mask_disc_row(disc, y);
+    int64_t half; /* largest |2x - centre2_x| that drogue_disc_row_holds() */
     int64_t low;
     int64_t high;
     if (rest < 0) {

@@ -42,6 +42,7 @@ const conf_case *bench_next(bench *b, const char *stage)
             }
         }
     }
+    b->list = b->index = 0; /* for another stage */
     return NULL;
 }
 

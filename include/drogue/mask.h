@@ -23,13 +23,6 @@ static inline int drogue_mask_valid(const drogue_mask *mask)
            mask->centre2_x <= most && mask->centre2_y >= -most && mask->centre2_y <= most;
 }
 
-static inline int64_t drogue_mask_distance2_x4(const drogue_mask *mask, int32_t x, int32_t y)
-{
-    int64_t dx = 2 * (int64_t)x - mask->centre2_x;
-    int64_t dy = 2 * (int64_t)y - mask->centre2_y;
-    return dx * dx + dy * dy;
-}
-
 /* What the ring leaves to the columns of one row: bounds of (2x - centre2_x)^2. */
 typedef struct drogue_ring_row {
     int64_t least_x9;
@@ -62,10 +55,22 @@ static inline int drogue_mask_in_ring(const drogue_mask *mask, int32_t x, int32_
     return drogue_ring_row_holds(&row, x);
 }
 
-/* Disc: distance <= longest / 3 (paper, section III-A-2). */
+/* Disc: distance <= longest / 3 (paper, section III-A-2). What it leaves to a row: 9 (2x - centre2_x)^2 is at most this. */
+static inline int64_t drogue_mask_disc_row(const drogue_mask *mask, int32_t y)
+{
+    int64_t dy = 2 * (int64_t)y - mask->centre2_y;
+    return 4 * (int64_t)mask->longest_px * mask->longest_px - 9 * dy * dy;
+}
+
+static inline int drogue_disc_row_holds(int64_t most_x9, int32_t centre2_x, int32_t x)
+{
+    int64_t dx = 2 * x - centre2_x;
+    return 9 * dx * dx <= most_x9;
+}
+
 static inline int drogue_mask_in_disc(const drogue_mask *mask, int32_t x, int32_t y)
 {
-    return 9 * drogue_mask_distance2_x4(mask, x, y) <= 4 * (int64_t)mask->longest_px * mask->longest_px;
+    return drogue_disc_row_holds(drogue_mask_disc_row(mask, y), mask->centre2_x, x);
 }
 
 /* Mask of a region of its own coordinates, (0, 0) its top-left pixel. */

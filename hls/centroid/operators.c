@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The pure operators of the pixel loops; the formulas are the core's. */
+#include "operators.h"
+
+#include "../../src/dark_pass.h"
+
+enum { COLUMN_BITS = 3, WINDOW = 0x1FF };
+
+uint32_t drogue_hls_in_disc(int32_t x, int32_t centre2_x, int64_t most_x9)
+{
+    return (uint32_t)drogue_disc_row_holds(most_x9, centre2_x, x);
+}
+
+uint32_t drogue_hls_is_dark(uint8_t level, uint8_t threshold, uint32_t in_disc)
+{
+    return in_disc != 0 && level <= threshold;
+}
+
+uint32_t drogue_hls_shift_window(uint32_t window, uint32_t column)
+{
+    return ((window << COLUMN_BITS) | column) & WINDOW;
+}
+
+uint32_t drogue_hls_erode(uint32_t window) { return window == WINDOW; }
+
+uint32_t drogue_hls_dilate(uint32_t window) { return window != 0; }
+
+uint64_t drogue_hls_choose_dark_label(uint32_t above, uint32_t left, uint32_t above_left, uint32_t above_right)
+{
+    uint32_t merge_with;
+    const uint32_t label = drogue_label_choose(&merge_with, above, left, above_left, above_right);
+    return label | (uint64_t)merge_with << 32;
+}
+
+uint32_t drogue_hls_darkness(uint8_t level, int32_t full, int32_t range, uint32_t in_disc)
+{
+    drogue_dark_ramp ramp;
+    ramp.full = full;
+    ramp.range = range;
+    return in_disc != 0 ? (uint32_t)drogue_dark_darkness(level, &ramp) : 0;
+}

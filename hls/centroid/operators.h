@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The pure operators of the pixel loops: no state, scalars alone, so that a compiler can make a pipelined block of each. */
+#ifndef DROGUE_HLS_DARK_OPERATORS_H
+#define DROGUE_HLS_DARK_OPERATORS_H
+
+#include <stdint.h>
+
+/* Is column x of a row in the disc? 'most_x9' is the row's drogue_mask_disc_row(). */
+uint32_t drogue_hls_in_disc(int32_t x, int32_t centre2_x, int64_t most_x9);
+
+/* Is a pixel dark? */
+uint32_t drogue_hls_is_dark(uint8_t level, uint8_t threshold, uint32_t in_disc);
+
+/* 3x3 windows of bits, a column in three adjacent bits: the same with a column more, the oldest one dropped. */
+uint32_t drogue_hls_shift_window(uint32_t window, uint32_t column);
+uint32_t drogue_hls_erode(uint32_t window);  /* all set? */
+uint32_t drogue_hls_dilate(uint32_t window); /* any set? */
+
+/* Label of a pixel in the lower half of the word, the label it merges with in the upper half; 0 for none. */
+uint64_t drogue_hls_choose_dark_label(uint32_t above, uint32_t left, uint32_t above_left, uint32_t above_right);
+
+/* Darkness of a grey level in [0, range], 0 outside the disc. */
+uint32_t drogue_hls_darkness(uint8_t level, int32_t full, int32_t range, uint32_t in_disc);
+
+#endif
