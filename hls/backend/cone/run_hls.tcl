@@ -37,6 +37,7 @@ foreach file {
     ../../../src/conic.c
     ../../../src/constraints.c
     ../../../src/dark_disc.c
+    ../../../src/dark_sums.c
     ../../../src/decide.c
     ../../../src/disc.c
     ../../../src/drogue.c

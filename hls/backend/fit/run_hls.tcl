@@ -38,6 +38,7 @@ foreach file {
     ../../../src/config.c
     ../../../src/constraints.c
     ../../../src/dark_disc.c
+    ../../../src/dark_sums.c
     ../../../src/decide.c
     ../../../src/disc.c
     ../../../src/drogue.c

@@ -45,6 +45,7 @@ foreach file {
     ../../../src/centroid.c
     ../../../src/cholesky.c
     ../../../src/dark_disc.c
+    ../../../src/dark_sums.c
     ../../../src/decide.c
     ../../../src/disc.c
     ../../../src/drogue.c

@@ -17,11 +17,16 @@ if {[llength [info commands open_component]] > 0} {
 foreach file {
     ../../../hls/backend/pose.c
     ../../../src/cholesky.c
+    ../../../src/dark_sums.c
     ../../../src/decide.c
     ../../../src/fixed.c
+    ../../../src/inner.c
     ../../../src/joint.c
     ../../../src/joint_model.c
     ../../../src/joint_weights.c
+    ../../../src/pose.c
+    ../../../src/quality.c
+    ../../../src/undistort.c
     ../../../src/wide.c
 } {
     add_files $file -cflags $flags
@@ -45,14 +50,11 @@ foreach file {
     ../../../src/ellipse.c
     ../../../src/frontend.c
     ../../../src/gradient.c
-    ../../../src/inner.c
     ../../../src/kalman.c
     ../../../src/label.c
     ../../../src/moments.c
     ../../../src/otsu.c
     ../../../src/outline.c
-    ../../../src/pose.c
-    ../../../src/quality.c
     ../../../src/rim.c
     ../../../src/search.c
     ../../../src/smooth.c
@@ -60,7 +62,6 @@ foreach file {
     ../../../src/support.c
     ../../../src/track.c
     ../../../src/track_end.c
-    ../../../src/undistort.c
     ../../../src/workspace.c
 } {
     add_files -tb $file -cflags $flags
