@@ -157,15 +157,17 @@ void drogue_hls_labels_settle(const drogue_hls_labels *l)
 
 void drogue_hls_labels_flatten(const drogue_hls_labels *l)
 {
+    const uint32_t components = l->component_count;
+    const uint32_t arcs = l->arc_count;
     uint32_t i;
-    for (i = 1; i < l->component_count; i++) {
+    for (i = 1; i < components; i++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_LABELS
         component_parent[i] = component_parent[component_parent[i]];
         if (component_strong[i]) { /* of a smaller label, met before */
             component_strong[component_parent[i]] = 1;
         }
     }
-    for (i = 1; i < l->arc_count; i++) {
+    for (i = 1; i < arcs; i++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_LABELS
         uint32_t *parent = arc_parent[arc_key[i] - 1u];
         parent[i] = parent[parent[i]];
