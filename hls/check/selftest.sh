@@ -40,6 +40,20 @@ done
 for rule in $rules; do
     [[ " $seen " == *" $rule "* ]] || verdict "no bad top for $rule" 0
 done
+# The list of a top's files: one too many, one too few.
+expect_files() {
+    echo "eigen | drogue_hls_eigen | backend/eigen.c | - | - | - | $1" >"$work/tops.txt"
+    DROGUE_HLS_TOPS=$work/tops.txt ../check.sh eigen >"$work/out" && verdict "files of src/: $1" 0
+    if grep -vE ': functions=|^hls check: FAILED$' "$work/out" | grep -qvE "$2" || ! grep -qE "$2" "$work/out"; then
+        verdict "files of src/: $1" 0
+        cat "$work/out"
+    else
+        verdict "files of src/: $1" 1
+    fi
+}
+expect_files 'eigen fixed otsu wide' '^hls/tops.txt:0: sources: eigen: src/otsu.c is listed'
+expect_files 'eigen wide' '^[a-z/]+\.c:[0-9]+: external: .* has no source here$'
+
 if [ $failures -eq 0 ]; then
     echo 'hls check: self-test passed'
 fi
