@@ -4,13 +4,6 @@
 
 #include <string.h>
 
-static void clip(int32_t *at, int32_t *length, int32_t limit)
-{
-    const int64_t end = (int64_t)*at + *length;
-    *at = *at < 0 ? 0 : *at;
-    *length = (int32_t)((end > limit ? limit : end) - *at);
-}
-
 /* How much a result is worth: 0 without a pose; more with an inner part; most when that decides, and then by cover. */
 static int32_t worth(const drogue_result *r)
 {
@@ -66,8 +59,8 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     whole.height_px = image->height_px;
     part = region != NULL ? *region : whole;
     whole = part;
-    clip(&part.x_px, &part.width_px, image->width_px);
-    clip(&part.y_px, &part.height_px, image->height_px);
+    drogue_clip(&part.x_px, &part.width_px, image->width_px);
+    drogue_clip(&part.y_px, &part.height_px, image->height_px);
     if (image->data == NULL || image->stride < image->width_px) {
         out->status = DROGUE_E_ARGUMENT;
         return out->status;

@@ -23,6 +23,7 @@ static uint32_t chain_push(drogue_point *hull, uint32_t size, uint32_t base, dro
     if (size > 0 && hull[size - 1].x == p.x && hull[size - 1].y == p.y) {
         return size;
     }
+    /* bound: size; over a hull no more rounds than points, each was pushed once */
     while (size >= base + 2 && cross(hull[size - 2], hull[size - 1], p) <= 0) {
         size--;
     }

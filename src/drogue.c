@@ -16,13 +16,6 @@ const char *drogue_version(void)
     return VERSION_TEXT(DROGUE_VERSION_MAJOR, DROGUE_VERSION_MINOR, DROGUE_VERSION_PATCH);
 }
 
-static void clip(int32_t *at, int32_t *length, int32_t limit)
-{
-    int32_t end = *at + *length;
-    *at = *at < 0 ? 0 : *at;
-    *length = (end > limit ? limit : end) - *at;
-}
-
 /* Clip the region to the image; the mask stays that of the region asked for, in the clipped one's coordinates. */
 static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, const drogue_image *image,
                                   const drogue_region *region)
@@ -33,8 +26,8 @@ static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, con
         r.x_px > far_px || r.x_px < -far_px || r.y_px > far_px || r.y_px < -far_px) {
         return DROGUE_E_REGION;
     }
-    clip(&r.x_px, &r.width_px, image->width_px);
-    clip(&r.y_px, &r.height_px, image->height_px);
+    drogue_clip(&r.x_px, &r.width_px, image->width_px);
+    drogue_clip(&r.y_px, &r.height_px, image->height_px);
     if (r.width_px < 1 || r.height_px < 1 || r.width_px > DROGUE_MAX_SIDE || r.height_px > DROGUE_MAX_SIDE ||
         r.x_px + r.width_px > INT16_MAX || r.y_px + r.height_px > INT16_MAX) { /* coordinates are Q16 */
         return DROGUE_E_REGION;
@@ -183,7 +176,6 @@ static drogue_status find_inner(drogue_result *out, drogue_joint_inner *weighed,
 {
     const drogue_mask disc = drogue_inner_disc(&f->outline.ellipse);
     drogue_ellipse expected[2];
-    drogue_choice choice;
     uint32_t which;
     const uint32_t count = drogue_inner_expect(expected, poses, camera, model, out->region.x_px, out->region.y_px);
     drogue_status status = drogue_mask_valid(&disc)
@@ -191,21 +183,8 @@ static drogue_status find_inner(drogue_result *out, drogue_joint_inner *weighed,
                                                        config->min_dark_area_px, expected, count)
                                : DROGUE_E_NO_DARK_PART;
     if (status == DROGUE_OK) {
-        weighed->std_px_q16 = drogue_inner_std(&out->inner, &expected[which], &f->outline.ellipse, config);
-        weighed->x_px_q16 = out->inner.x_px_q16 = shifted(out->inner.x_px_q16, out->region.x_px);
-        weighed->y_px_q16 = out->inner.y_px_q16 = shifted(out->inner.y_px_q16, out->region.y_px);
-        if (drogue_undistort_point(&weighed->x_px_q16, &weighed->y_px_q16, camera) != DROGUE_OK ||
-            drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, model->inner_depth_m_q16,
-                               camera) != DROGUE_OK) {
-            weighed->std_px_q16 = 0; /* beyond the lens model, or behind the camera for one of the poses */
-            choice.index = 0;
-        }
-        *nearer = choice.index;
-    }
-    if (weighed->std_px_q16 > 0) {
-        out->has_inner = 1;
-        out->ambiguity_q16 = choice.ambiguity_q16;
-    } else { /* what is dark orders the poses, but is not to be believed */
+        *nearer = drogue_inner_weigh(weighed, out, &expected[which], &f->outline.ellipse, poses, config, camera, model);
+    } else {
         memset(&out->inner, 0, sizeof out->inner);
     }
     return status == DROGUE_E_NO_DARK_PART ? DROGUE_OK : status;

@@ -2,6 +2,8 @@
 /* Expectation of the inner part and its credibility. */
 #include "drogue/inner.h"
 
+#include <string.h>
+
 #include "drogue/quality.h"
 #include "drogue/undistort.h"
 
@@ -73,4 +75,29 @@ drogue_q16 drogue_inner_std(const drogue_dark_part *part, const drogue_ellipse *
         return 0;
     }
     return drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)(share * share + least * least + spread * spread)));
+}
+
+uint32_t drogue_inner_weigh(drogue_joint_inner *weighed, drogue_result *out, const drogue_ellipse *expected,
+                            const drogue_ellipse *outline, const drogue_pose poses[2], const drogue_config *config,
+                            const drogue_camera *camera, const drogue_model *model)
+{
+    drogue_choice choice;
+    weighed->std_px_q16 = drogue_inner_std(&out->inner, expected, outline, config);
+    weighed->x_px_q16 = out->inner.x_px_q16 =
+        drogue_q16_add(out->inner.x_px_q16, drogue_q16_from_int(out->region.x_px));
+    weighed->y_px_q16 = out->inner.y_px_q16 =
+        drogue_q16_add(out->inner.y_px_q16, drogue_q16_from_int(out->region.y_px));
+    if (drogue_undistort_point(&weighed->x_px_q16, &weighed->y_px_q16, camera) != DROGUE_OK ||
+        drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, model->inner_depth_m_q16, camera) !=
+            DROGUE_OK) {
+        weighed->std_px_q16 = 0; /* beyond the lens model, or behind the camera for one of the poses */
+        choice.index = 0;
+    }
+    if (weighed->std_px_q16 > 0) {
+        out->has_inner = 1;
+        out->ambiguity_q16 = choice.ambiguity_q16;
+    } else { /* what is dark orders the poses, but is not to be believed */
+        memset(&out->inner, 0, sizeof out->inner);
+    }
+    return choice.index;
 }

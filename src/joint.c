@@ -138,7 +138,7 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
     if (status == DROGUE_OK) {
         status = drogue_joint_begin(&s, &frame, start, &outline->ellipse, camera, model);
     }
-    for (step = 0; !last && status == DROGUE_OK; step++) {
+    for (step = 0; !last && status == DROGUE_OK; step++) { /* bound: steps + 1 */
         status = drogue_joint_outline_rows(&rows, &s, &frame);
         if (status == DROGUE_OK && inner->std_px_q16 > 0) {
             status = drogue_joint_inner_rows(&rows, &s, inner, camera, model);

@@ -19,7 +19,7 @@ static void add_arc(drogue_moments *sum, const drogue_edge *edges, const drogue_
 {
     const int32_t origin_q5 = (DROGUE_MAX_SIDE / 2) << EDGE_FRAC; /* makes the coordinates 16-bit for every region */
     uint32_t i;
-    for (i = arc->first; i < arc->first + arc->count; i++) {
+    for (i = arc->first; i < arc->first + arc->count; i++) { /* bound: points of the arc */
         drogue_moments_add_point(sum, edges[i].x_q5 - origin_q5, edges[i].y_q5 - origin_q5);
     }
 }
@@ -30,7 +30,7 @@ static uint32_t count_near(const drogue_ellipse_frame *frame, drogue_q16 thresho
 {
     uint32_t near_count = 0;
     uint32_t i;
-    for (i = arc->first; i < arc->first + arc->count; i++) {
+    for (i = arc->first; i < arc->first + arc->count; i++) { /* bound: points of the arc */
         near_count +=
             drogue_ellipse_deviation(frame, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i])) < threshold;
     }
@@ -207,6 +207,7 @@ static void collection_begin(collection *c, const drogue_ellipse *e, int64_t rea
     c->x_px_q16 = drogue_q16_from_int((int32_t)drogue_shr_round_s64(e->xc_px_q16, 16));
     c->y_px_q16 = drogue_q16_from_int((int32_t)drogue_shr_round_s64(e->yc_px_q16, 16));
     c->frac_bits = 10;
+    /* bound: 10 */
     while (c->frac_bits > 0 && reach_px_q16 >> (16 - c->frac_bits) > INT16_MAX) {
         c->frac_bits--;
     }
@@ -262,7 +263,7 @@ static drogue_status collect_outline(collection *c, drogue_support *support, con
     memset(support, 0, sizeof *support);
     support->bright_bins = bright_bins;
     collection_begin(c, ellipse, (int64_t)ellipse->a_px_q16 + 16 * DROGUE_Q16_ONE);
-    for (i = 0; i < x->list->edge_count; i++) {
+    for (i = 0; i < x->list->edge_count; i++) { /* bound: edge points */
         const drogue_edge *e = &x->workspace->edges[i];
         drogue_band_point p;
         if (drogue_ellipse_band_holds(&p, &frame, band, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy) &&
@@ -309,6 +310,7 @@ static void refit(drogue_outline *outline, const context *x)
     collection c;
     uint32_t round;
     int done = 0;
+    /* bound: refit_rounds + 1, at most 17 */
     for (round = 0; round <= config->refit_rounds && !done; round++) {
         drogue_ellipse ellipse;
         const drogue_q16 width = band.half_width_px_q16;
@@ -437,7 +439,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         return DROGUE_E_DEGENERATE;
     }
     collection_begin(&c, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
-    for (i = 0, members = 0; i < list->edge_count; i++) {
+    for (i = 0, members = 0; i < list->edge_count; i++) {        /* bound: edge points */
         const drogue_edge *e = &workspace->edges[i];
         drogue_q16 x = drogue_edge_x_q16(e);
         drogue_q16 y = drogue_edge_y_q16(e);

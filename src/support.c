@@ -28,7 +28,7 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
 {
     uint32_t i;
     memset(out, 0, sizeof *out);
-    for (i = 0; i < edge_count; i += stride) {
+    for (i = 0; i < edge_count; i += stride) { /* bound: edge_count / stride, stride >= 1 */
         drogue_band_point p;
         if (drogue_ellipse_band_holds(&p, frame, band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
                                       edges[i].gx, edges[i].gy)) {

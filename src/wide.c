@@ -172,7 +172,7 @@ drogue_wide drogue_wide_div(drogue_wide a, drogue_wide b)
             trial = 0x7FFFFFFFu;
         }
         next = drogue_shl_s64((int64_t)(rest - trial * high), 31) - (int64_t)trial * low;
-        while (next < 0) { /* at most twice */
+        while (next < 0) { /* bound: 2, the trial digit is at most two too large */
             next += (int64_t)divisor;
             trial--;
         }

@@ -3,8 +3,7 @@
 #ifndef DROGUE_INNER_H
 #define DROGUE_INNER_H
 
-#include "drogue/centroid.h"
-#include "drogue/config.h"
+#include "drogue/drogue.h"
 #include "drogue/joint.h"
 
 #ifdef __cplusplus
@@ -30,6 +29,18 @@ drogue_mask drogue_inner_disc(const drogue_ellipse *outline);
  */
 drogue_q16 drogue_inner_std(const drogue_dark_part *part, const drogue_ellipse *expected, const drogue_ellipse *outline,
                             const drogue_config *config);
+
+/* Weigh a dark part, and see which pose it is nearer to.
+ *
+ *  weighed            out: what drogue_decide() takes, std 0 when the part is not to be believed
+ *  out                in: region, inner in its coordinates; out: inner in those of the image or zero, has_inner and
+ *                     ambiguity when it is believed
+ *  expected, outline  region coordinates: the disc that drogue_dark_disc_find() chose, the ellipse as seen
+ *  return             index of the pose whose projected inner centre is nearer
+ */
+uint32_t drogue_inner_weigh(drogue_joint_inner *weighed, drogue_result *out, const drogue_ellipse *expected,
+                            const drogue_ellipse *outline, const drogue_pose poses[2], const drogue_config *config,
+                            const drogue_camera *camera, const drogue_model *model);
 
 #ifdef __cplusplus
 }

@@ -44,6 +44,14 @@ typedef struct drogue_region {
     int32_t height_px;
 } drogue_region;
 
+/* Clip one side [*at, *at + *length) of a region to [0, limit); *length is 0 or less when nothing is left. */
+static inline void drogue_clip(int32_t *at, int32_t *length, int32_t limit)
+{
+    const int64_t end = (int64_t)*at + *length;
+    *at = *at < 0 ? 0 : *at;
+    *length = (int32_t)((end > limit ? limit : end) - *at);
+}
+
 /* Pinhole camera with Brown-Conrady distortion, in OpenCV's order and sense. */
 typedef struct drogue_camera {
     drogue_q16 fx_px_q16; /* > 0 */

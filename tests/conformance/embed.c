@@ -202,6 +202,35 @@ static void write_index(const vectors *v, const char *folder, const size_t *coun
     close_file(out);
 }
 
+/* Is 'chosen' the case's stage or its id? */
+static int is_chosen(const conf_case *c, const char *chosen)
+{
+    return strcmp(c->stage, chosen) == 0 || strcmp(c->id, chosen) == 0;
+}
+
+/* Leave the cases of the given stages and ids only; 0 and a line where one names nothing. */
+static int choose(vectors *v, char **chosen, int count)
+{
+    size_t kept = 0;
+    size_t i;
+    int k;
+    for (k = 0; k < count; k++) {
+        for (i = 0; i < v->count && !is_chosen(&v->cases[i].run, chosen[k]); i++) {}
+        if (i == v->count) {
+            fprintf(stderr, "conformance_embed: no stage and no case '%s'\n", chosen[k]);
+            return 0;
+        }
+    }
+    for (i = 0; i < v->count; i++) {
+        for (k = 0; k < count && !is_chosen(&v->cases[i].run, chosen[k]); k++) {}
+        if (k < count) {
+            v->cases[kept++] = v->cases[i];
+        }
+    }
+    v->count = kept;
+    return 1;
+}
+
 int main(int argc, char **argv)
 {
     enum { MAX_FILES = 64 };
@@ -213,14 +242,15 @@ int main(int argc, char **argv)
     unsigned files;
     unsigned file;
     vectors v;
-    if (argc != 4 || (files = (unsigned)strtoul(argv[3], NULL, 10)) < 1 || files > MAX_FILES) {
+    if (argc < 4 || (files = (unsigned)strtoul(argv[3], NULL, 10)) < 1 || files > MAX_FILES) {
         fprintf(stderr,
-                "usage: conformance_embed VECTORS FOLDER N\n"
-                "Writes N files (1 to %d) of the cases, cases_0.c and so on, and cases_index.c.\n",
+                "usage: conformance_embed VECTORS FOLDER N [STAGE | STAGE/CASE]...\n"
+                "Writes N files (1 to %d) of the cases, cases_0.c and so on, and cases_index.c.\n"
+                "Of the stages and cases named only, when any is named.\n",
                 MAX_FILES);
         return 2;
     }
-    if (!vectors_read(&v, argv[1])) {
+    if (!vectors_read(&v, argv[1]) || (argc > 4 && !choose(&v, argv + 4, argc - 4))) {
         return 2;
     }
     for (i = 0; i < v.count; i++) {

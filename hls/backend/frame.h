@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Test benches only: a frame of the vectors through the library's own functions, step by step as drogue_measure() takes
+ * them, and the words that the tops of the back end should give. */
+#ifndef DROGUE_HLS_FRAME_H
+#define DROGUE_HLS_FRAME_H
+
+#include <string.h>
+
+#include "../bench/bench.h"
+#include "backend.h"
+#include "drogue/decide.h"
+#include "drogue/inner.h"
+#include "drogue/undistort.h"
+
+#define FRAME_BYTES DROGUE_WORKSPACE_BYTES(DROGUE_HLS_WIDTH, DROGUE_HLS_EDGES, DROGUE_HLS_LABELS, DROGUE_HLS_ARCS)
+
+typedef struct frame {
+    uint32_t memory[(FRAME_BYTES + 3) / 4];
+    drogue_workspace workspace;
+    drogue_hls_parameters p;
+    drogue_image image;
+    drogue_image view; /* the region's pixels */
+    drogue_region asked;
+    drogue_region region;
+    drogue_edge_list list;
+    drogue_status front; /* what the front end answered */
+    drogue_outline outline;
+    drogue_result result;
+    int32_t words[DROGUE_HLS_OUTLINE_WORDS]; /* of the outline's top */
+} frame;
+
+static inline void frame_clip(int32_t *at, int32_t *length, int32_t limit)
+{
+    const int32_t end = *at + *length;
+    *at = *at < 0 ? 0 : *at;
+    *length = (end > limit ? limit : end) - *at;
+}
+
+/* The part of the region within the image, and the mask of the whole region in its coordinates; 0 when there is none or
+ * the blocks are too small. */
+static inline int frame_place(frame *f)
+{
+    const int32_t most = DROGUE_MAX_REGION;
+    f->region = f->asked;
+    if (f->asked.width_px < 1 || f->asked.height_px < 1 || f->asked.width_px > most || f->asked.height_px > most ||
+        f->asked.x_px > most || f->asked.x_px < -most || f->asked.y_px > most || f->asked.y_px < -most) {
+        return 0;
+    }
+    frame_clip(&f->region.x_px, &f->region.width_px, f->image.width_px);
+    frame_clip(&f->region.y_px, &f->region.height_px, f->image.height_px);
+    f->p.mask = drogue_mask_of_size(f->asked.width_px, f->asked.height_px);
+    f->p.mask.centre2_x += 2 * (f->asked.x_px - f->region.x_px);
+    f->p.mask.centre2_y += 2 * (f->asked.y_px - f->region.y_px);
+    f->p.x_px = f->region.x_px;
+    f->p.y_px = f->region.y_px;
+    f->view = f->image;
+    f->view.data += f->region.y_px * f->image.stride + f->region.x_px;
+    f->view.width_px = f->region.width_px;
+    f->view.height_px = f->region.height_px;
+    return f->region.width_px >= 1 && f->region.height_px >= 1 && f->asked.width_px <= DROGUE_HLS_WIDTH &&
+           f->region.height_px <= DROGUE_HLS_HEIGHT;
+}
+
+/* Read a case; 0 when the blocks cannot do it. */
+static inline int frame_read(frame *f, const conf_case *c)
+{
+    drogue_capacity capacity;
+    memset(f, 0, sizeof *f);
+    f->image = bench_image(c);
+    f->p.camera = bench_camera(c);
+    f->p.model = bench_model(c);
+    f->asked = bench_region(c);
+    drogue_config_default(&f->p.config);
+    if (!frame_place(f)) {
+        return 0;
+    }
+    capacity.width_px = (uint32_t)f->asked.width_px;
+    capacity.edges = (uint32_t)DROGUE_HLS_EDGES;
+    capacity.labels = (uint32_t)DROGUE_HLS_LABELS;
+    capacity.arcs = (uint32_t)DROGUE_HLS_ARCS;
+    return drogue_workspace_init(&f->workspace, f->memory, sizeof f->memory, &capacity) == DROGUE_OK;
+}
+
+static inline void frame_run_frontend(frame *f)
+{
+    drogue_frontend_config config;
+    drogue_frontend frontend;
+    int32_t y;
+    config.canny_low = f->p.config.canny_low;
+    config.canny_high = f->p.config.canny_high;
+    config.smooth = f->p.config.smooth;
+    config.use_ring = 1;
+    config.ring = f->p.mask;
+    config.min_arc_px =
+        (uint32_t)drogue_shr_round_s64((int64_t)f->p.config.min_arc_share_q16 * f->p.mask.longest_px, 16);
+    if (config.min_arc_px < f->p.config.min_arc_px) {
+        config.min_arc_px = f->p.config.min_arc_px;
+    }
+    f->front = drogue_frontend_begin(&frontend, &f->workspace, &config, f->view.width_px, f->view.height_px);
+    if (f->front == DROGUE_OK) {
+        for (y = 0; y < f->view.height_px; y++) {
+            drogue_frontend_row(&frontend, drogue_image_row(&f->view, y));
+        }
+        f->front = drogue_frontend_end(&f->list, &frontend);
+    }
+}
+
+/* Does drogue_measure() refuse the parameters before it looks at the image? */
+static inline int frame_refused(const frame *f)
+{
+    drogue_workspace none = f->workspace;
+    drogue_result r;
+    none.capacity.width_px = 0; /* the next thing that it would answer */
+    return drogue_measure(&r, &none, &f->p.config, &f->p.camera, &f->p.model, &f->image, &f->asked) ==
+           DROGUE_E_ARGUMENT;
+}
+
+/* Ideal outline and poses. */
+static inline drogue_status frame_find_poses(frame *f, drogue_pose poses[2])
+{
+    const drogue_hls_parameters *p = &f->p;
+    drogue_result *r = &f->result;
+    r->ellipse = f->outline.ellipse;
+    r->ellipse.xc_px_q16 = drogue_q16_add(r->ellipse.xc_px_q16, drogue_q16_from_int(p->x_px));
+    r->ellipse.yc_px_q16 = drogue_q16_add(r->ellipse.yc_px_q16, drogue_q16_from_int(p->y_px));
+    r->ideal = r->ellipse;
+    if (drogue_camera_distorts(&p->camera) &&
+        drogue_outline_undistorted(&r->ideal, &f->outline, &f->workspace, &f->list, &p->config, &p->camera, p->x_px,
+                                   p->y_px) != DROGUE_OK) {
+        memset(&r->ideal, 0, sizeof r->ideal);
+        return DROGUE_E_NO_ELLIPSE;
+    }
+    return drogue_pose_from_ellipse(poses, &r->ideal, &p->camera, p->model.rim_radius_m_q16);
+}
+
+static inline void frame_put_outline(frame *f, const drogue_pose poses[2], const drogue_ellipse discs[2],
+                                     const drogue_mask *disc)
+{
+    const drogue_outline *o = &f->outline;
+    int32_t *w = f->words;
+    int k;
+    drogue_hls_pack_ellipse(w + DROGUE_HLS_O_ELLIPSE, &o->ellipse);
+    drogue_hls_pack_ellipse(w + DROGUE_HLS_O_FITTED, &o->fitted);
+    drogue_hls_pack_ellipse(w + DROGUE_HLS_O_IDEAL, &f->result.ideal);
+    memcpy(w + DROGUE_HLS_O_QUALITY, &o->quality, sizeof o->quality);
+    w[DROGUE_HLS_O_POLARITY] = (int32_t)o->polarity;
+    memcpy(w + DROGUE_HLS_O_ARCS, o->arcs, sizeof o->arcs);
+    w[DROGUE_HLS_O_CLUSTER_MEMBERS] = (int32_t)o->cluster_members;
+    w[DROGUE_HLS_O_REFIT_POINTS] = (int32_t)o->refit_points;
+    w[DROGUE_HLS_O_COVER] = o->cover_q16;
+    w[DROGUE_HLS_O_BAND] = o->band_px_q16;
+    for (k = 0; k < 2; k++) {
+        drogue_hls_pack_pose(w + DROGUE_HLS_O_POSES + 8 * k, &poses[k]);
+        drogue_hls_pack_ellipse(w + DROGUE_HLS_O_EXPECTED + 5 * k, &discs[k]);
+    }
+    w[DROGUE_HLS_O_DISC] = disc->centre2_x;
+    w[DROGUE_HLS_O_DISC + 1] = disc->centre2_y;
+    w[DROGUE_HLS_O_DISC + 2] = disc->longest_px;
+    memcpy(w + DROGUE_HLS_O_BINS, o->support.bin, sizeof o->support.bin);
+    drogue_hls_pack_u64(w + DROGUE_HLS_O_SQUARES, (uint64_t)o->support.squares_q32);
+    drogue_hls_pack_u64(w + DROGUE_HLS_O_GRADIENT, o->support.gradient);
+    w[DROGUE_HLS_O_POINTS] = (int32_t)o->support.points;
+    w[DROGUE_HLS_O_BRIGHT_BINS] = (int32_t)o->support.bright_bins;
+    w[DROGUE_HLS_O_COVERED] = (int32_t)o->support.covered;
+}
+
+/* The first half of the back end, after the front end; also puts its words. */
+static inline void frame_find_outline(frame *f)
+{
+    drogue_pose poses[2];
+    drogue_ellipse discs[2];
+    drogue_mask disc = {0, 0, 0};
+    drogue_status status = f->front == DROGUE_OK && frame_refused(f) ? DROGUE_E_ARGUMENT : f->front;
+    memset(poses, 0, sizeof poses);
+    memset(discs, 0, sizeof discs);
+    memset(f->outline.arcs, 0xFF, sizeof f->outline.arcs);
+    if (status == DROGUE_OK) {
+        status = drogue_outline_find(&f->outline, &f->workspace, &f->list, &f->p.mask, &f->p.config);
+    }
+    f->words[DROGUE_HLS_O_FOUND] = (int32_t)status;
+    if (status == DROGUE_OK) {
+        status = frame_find_poses(f, poses);
+    }
+    if (status == DROGUE_OK && f->p.model.inner_radius_m_q16 > 0) {
+        disc = drogue_inner_disc(&f->outline.ellipse);
+        if (!drogue_mask_valid(&disc)) {
+            memset(&disc, 0, sizeof disc);
+        }
+        f->words[DROGUE_HLS_O_EXPECTED_COUNT] =
+            (int32_t)drogue_inner_expect(discs, poses, &f->p.camera, &f->p.model, f->p.x_px, f->p.y_px);
+    }
+    f->words[DROGUE_HLS_O_STATUS] = (int32_t)status;
+    f->result.status = status;
+    frame_put_outline(f, poses, discs, &disc);
+}
+
+/* The dark disc, where the outline says. */
+static inline void frame_find_dark(int32_t dark[DROGUE_HLS_DARK_WORDS], const frame *f)
+{
+    const drogue_ellipse expected[2] = {drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED),
+                                        drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5)};
+    drogue_workspace workspace = f->workspace;
+    drogue_mask disc;
+    drogue_dark_part part;
+    uint32_t which = 0;
+    memset(dark, 0, DROGUE_HLS_DARK_WORDS * sizeof *dark);
+    memset(&part, 0, sizeof part);
+    disc.centre2_x = f->words[DROGUE_HLS_O_DISC];
+    disc.centre2_y = f->words[DROGUE_HLS_O_DISC + 1];
+    disc.longest_px = f->words[DROGUE_HLS_O_DISC + 2];
+    if (disc.longest_px == 0) {
+        dark[DROGUE_HLS_D_STATUS] = DROGUE_E_ARGUMENT; /* which nobody is to look at */
+        return;
+    }
+    dark[DROGUE_HLS_D_STATUS] =
+        (int32_t)drogue_dark_disc_find(&part, &which, &workspace, &f->view, &disc, f->p.config.min_dark_area_px,
+                                       expected, (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT]);
+    dark[DROGUE_HLS_D_X] = part.x_px_q16;
+    dark[DROGUE_HLS_D_Y] = part.y_px_q16;
+    dark[DROGUE_HLS_D_AREA] = (int32_t)part.area_px;
+    dark[DROGUE_HLS_D_SPREAD] = part.spread_px_q16;
+    dark[DROGUE_HLS_D_THRESHOLD] = part.threshold;
+    dark[DROGUE_HLS_D_CONTRAST] = part.contrast;
+    dark[DROGUE_HLS_D_WHICH] = (int32_t)which;
+}
+
+#endif

@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Test bench of drogue_hls_pose(): front end, outline and dark disc of every frame vector by the library; each word that
+ * the top gives is compared with the library's functions, and the whole with the vector's where that is what the library
+ * found at its first look. */
+#include "frame.h"
+#include "sim.h"
+
+#include <stdio.h>
+
+static int32_t parameters[DROGUE_HLS_PARAMETERS];
+static int32_t dark[DROGUE_HLS_DARK_WORDS];
+static int32_t result[DROGUE_HLS_RESULT_WORDS];
+static int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS];
+static int64_t std_q32[DROGUE_HLS_STD_WORDS];
+
+/* The library's second half. */
+static void find_pose(frame *f)
+{
+    drogue_joint_inner inner = {0, 0, 0};
+    drogue_result *r = &f->result;
+    drogue_pose poses[2];
+    drogue_status status = DROGUE_E_NO_DARK_PART;
+    uint32_t nearer = 0;
+    if (r->status != DROGUE_OK) {
+        return;
+    }
+    drogue_hls_unpack_pose(&poses[0], f->words + DROGUE_HLS_O_POSES);
+    drogue_hls_unpack_pose(&poses[1], f->words + DROGUE_HLS_O_POSES + 8);
+    if (f->words[DROGUE_HLS_O_DISC + 2] > 0) {
+        status = (drogue_status)dark[DROGUE_HLS_D_STATUS];
+    }
+    if (status == DROGUE_OK) {
+        const drogue_ellipse e =
+            drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5 * dark[DROGUE_HLS_D_WHICH]);
+        r->inner.x_px_q16 = dark[DROGUE_HLS_D_X];
+        r->inner.y_px_q16 = dark[DROGUE_HLS_D_Y];
+        r->inner.area_px = (uint32_t)dark[DROGUE_HLS_D_AREA];
+        r->inner.spread_px_q16 = dark[DROGUE_HLS_D_SPREAD];
+        r->inner.threshold = (uint8_t)dark[DROGUE_HLS_D_THRESHOLD];
+        r->inner.contrast = (uint8_t)dark[DROGUE_HLS_D_CONTRAST];
+        nearer = drogue_inner_weigh(&inner, r, &e, &f->outline.ellipse, poses, &f->p.config, &f->p.camera, &f->p.model);
+    }
+    r->status = status == DROGUE_E_NO_DARK_PART ? DROGUE_OK : status;
+    if (r->status == DROGUE_OK) {
+        r->status =
+            drogue_decide(r, poses, nearer, &f->outline.support, &inner, &f->p.config, &f->p.camera, &f->p.model);
+    }
+}
+
+static void compare(bench *b, const drogue_result *r)
+{
+    int32_t expected[DROGUE_HLS_RESULT_WORDS];
+    int i;
+    int j;
+    memset(expected, 0, sizeof expected);
+    expected[DROGUE_HLS_R_STATUS] = (int32_t)r->status;
+    expected[DROGUE_HLS_R_HAS_INNER] = r->has_inner;
+    expected[DROGUE_HLS_R_INNER] = r->inner.x_px_q16;
+    expected[DROGUE_HLS_R_INNER + 1] = r->inner.y_px_q16;
+    expected[DROGUE_HLS_R_INNER + 2] = (int32_t)r->inner.area_px;
+    expected[DROGUE_HLS_R_INNER + 3] = r->inner.spread_px_q16;
+    expected[DROGUE_HLS_R_INNER + 4] = r->inner.threshold;
+    expected[DROGUE_HLS_R_INNER + 5] = r->inner.contrast;
+    drogue_hls_pack_pose(expected + DROGUE_HLS_R_POSE, &r->pose);
+    drogue_hls_pack_pose(expected + DROGUE_HLS_R_ALTERNATIVE, &r->alternative);
+    expected[DROGUE_HLS_R_RESOLVED] = r->orientation_resolved;
+    expected[DROGUE_HLS_R_AMBIGUITY] = r->ambiguity_q16;
+    for (i = 0; i < DROGUE_HLS_RESULT_WORDS; i++) {
+        (void)bench_word(b, "result", result[i], expected[i]);
+    }
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j <= i; j++) {
+            (void)bench_word(b, "covariance", covariance[i * (i + 1) / 2 + j], r->covariance_q48[i][j]);
+        }
+    }
+    for (i = 0; i < 3; i++) {
+        (void)bench_word(b, "std", std_q32[i], r->position_std_m_q32[i]);
+    }
+    (void)bench_word(b, "std", std_q32[3], r->axis_std_rad_q32);
+}
+
+/* The words of a frame vector from those of the tops. */
+static void frame_words(int32_t words[38], const frame *f)
+{
+    const int32_t *o = f->words;
+    drogue_ellipse e = drogue_hls_unpack_ellipse(o + DROGUE_HLS_O_ELLIPSE);
+    int k;
+    memset(words, 0, 38 * sizeof *words);
+    words[0] = result[DROGUE_HLS_R_STATUS];
+    if (o[DROGUE_HLS_O_FOUND] == DROGUE_OK) {
+        e.xc_px_q16 += f->p.x_px * DROGUE_Q16_ONE;
+        e.yc_px_q16 += f->p.y_px * DROGUE_Q16_ONE;
+        drogue_hls_pack_ellipse(words + 1, &e);
+        memcpy(words + 6, o + DROGUE_HLS_O_IDEAL, 5 * sizeof *words);
+        words[11] = o[DROGUE_HLS_O_POLARITY];
+        for (k = 0; k < 4; k++) {
+            words[12] |= o[DROGUE_HLS_O_ARCS + k] >= 0 ? 1 << k : 0;
+        }
+        words[13] = o[DROGUE_HLS_O_REFIT_POINTS];
+    }
+    words[14] = result[DROGUE_HLS_R_HAS_INNER];
+    memcpy(words + 15, result + DROGUE_HLS_R_INNER, 3 * sizeof *words);
+    words[18] = result[DROGUE_HLS_R_INNER + 4];
+    words[19] = result[DROGUE_HLS_R_INNER + 3];
+    memcpy(words + 20, result + DROGUE_HLS_R_POSE, 18 * sizeof *words);
+}
+
+static void detail_words(int32_t words[17], const frame *f)
+{
+    const int32_t *o = f->words;
+    const int found = o[DROGUE_HLS_O_FOUND] == DROGUE_OK;
+    memset(words, 0, 17 * sizeof *words);
+    memset(words + 6, 0xFF, 4 * sizeof *words);
+    words[0] = f->region.x_px;
+    words[1] = f->region.y_px;
+    words[2] = f->region.width_px;
+    words[3] = f->region.height_px;
+    words[4] = (int32_t)f->list.edge_count;
+    words[5] = (int32_t)f->list.arc_count;
+    if (found) {
+        memcpy(words + 6, o + DROGUE_HLS_O_ARCS, 4 * sizeof *words);
+        memcpy(words + 10, o + DROGUE_HLS_O_QUALITY, 5 * sizeof *words);
+        words[15] = o[DROGUE_HLS_O_CLUSTER_MEMBERS];
+        words[16] = o[DROGUE_HLS_O_COVER];
+    }
+}
+
+/* Is what the vector expects that of the region asked for, not of another one that the library looked at after it? */
+static int first_look(const frame *f, const conf_case *c)
+{
+    const int32_t *region = bench_words32(bench_expected(c, "detail"));
+    return region[0] == f->region.x_px && region[1] == f->region.y_px && region[2] == f->region.width_px &&
+           region[3] == f->region.height_px;
+}
+
+static int table_full(drogue_status front)
+{
+    return front == DROGUE_E_EDGES_FULL || front == DROGUE_E_LABELS_FULL || front == DROGUE_E_ARCS_FULL;
+}
+
+/* Against the vector; 0 where it says nothing about the first look. */
+static int judge(bench *b, const frame *f, const conf_case *c)
+{
+    int32_t words[38];
+    int32_t detail[17];
+    const int refused = f->result.status == DROGUE_E_ARGUMENT;
+    if (table_full(f->front) || (!refused && !first_look(f, c))) {
+        return 0;
+    }
+    frame_words(words, f);
+    detail_words(detail, f);
+    (void)bench_words(b, "frame", words, bench_expected(c, "frame"));
+    if (!refused) { /* drogue_measure() refuses before the front end has counted anything */
+        (void)bench_words(b, "detail", detail, bench_expected(c, "detail"));
+    }
+    (void)bench_words(b, "covariance", covariance, bench_expected(c, "covariance"));
+    (void)bench_words(b, "std", std_q32, bench_expected(c, "std"));
+    return 1;
+}
+
+static void call(frame *f)
+{
+    int32_t *outline = f->words;
+    memset(result, 0x55, sizeof result);
+    memset(covariance, 0x55, sizeof covariance);
+    memset(std_q32, 0x55, sizeof std_q32);
+    drogue_hls_pack_parameters(parameters, &f->p);
+    SIM_ARRAY(0, parameters);
+    SIM_ARRAY(1, f->words);
+    SIM_ARRAY(2, dark);
+    SIM_ARRAY(3, result);
+    SIM_ARRAY(4, covariance);
+    SIM_ARRAY(5, std_q32);
+    drogue_hls_pose(parameters, outline, dark, result, covariance, std_q32);
+}
+
+int main(void)
+{
+    static frame f;
+    const conf_case *c;
+    int judged = 0;
+    bench b;
+    bench_begin(&b, "pose");
+    while ((c = bench_next(&b, "frame")) != NULL) {
+        if (!frame_read(&f, c)) {
+            bench_skip(&b, "no region within the image and the blocks");
+            continue;
+        }
+        frame_run_frontend(&f);
+        frame_find_outline(&f);
+        f.result.ambiguity_q16 = DROGUE_Q16_ONE;
+        f.result.region = f.region;
+        frame_find_dark(dark, &f);
+        call(&f);
+        find_pose(&f);
+        compare(&b, &f.result);
+        judged += judge(&b, &f, c);
+    }
+    printf("pose: %d frames compared with the vectors' words too\n", judged);
+    (void)bench_check(&b, "frames compared with the vectors", judged > 0);
+    return bench_end(&b);
+}

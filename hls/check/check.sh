@@ -1,0 +1,78 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Can the tops be synthesised? Without a synthesis tool: clang makes LLVM IR of a top and all that it calls, and
+# findings.py says what in it no HLS compiler can turn into hardware.
+# usage: check.sh [NAME...]                      tops of hls/tops.txt, all unless named
+#        check.sh --needed NAME                  files of src/ that a top needs, without .c
+#        check.sh --function TOP SOURCE...       a function of these files
+set -euo pipefail
+invoked_in=$PWD
+cd "$(dirname "$0")/../.."
+. hls/tops.sh
+work=${DROGUE_HLS_CHECK_DIR:-build/hls/check}
+
+# Variables in registers, loops in normal form, nothing inlined or unrolled: each loop of the source is there once.
+# fix-irreducible makes loops of what gotos with two entries make.
+passes='function(sroa,early-cse,simplifycfg,instcombine,fix-irreducible,loop-simplify,lcssa,
+loop-mssa(loop-rotate,licm),instcombine,loop-simplify)'
+
+# make_ir DIR FUNCTION SOURCE...: linked.ll with the function and all that it calls
+make_ir() {
+    local dir=$1 function=$2 source bitcode=()
+    shift 2
+    mkdir -p "$dir"
+    for source in "$@"; do
+        bitcode+=("$dir/$(tr / - <<<"${source#/}").bc")
+        # Not optimised: what recursion, a pointer to a function or floating point would be folded into is no excuse.
+        clang -std=c99 -O1 -Xclang -disable-llvm-passes -fno-discard-value-names -g -emit-llvm -w -Iinclude -Ihls \
+            -c "$source" -o "${bitcode[-1]}" || return 2
+    done
+    llvm-link "${bitcode[@]}" -o "$dir/all.bc" &&
+        opt -passes='internalize,globaldce' -internalize-public-api-list="$function" -S "$dir/all.bc" -o "$dir/linked.ll"
+}
+
+# examine NAME FUNCTION "CORE SOURCES" SOURCE...
+examine() {
+    local name=$1 function=$2 core=$3 dir=$work/$1
+    shift 3
+    # shellcheck disable=SC2086 # a list of files
+    make_ir "$dir" "$function" "$@" $core &&
+        opt -passes="${passes//$'\n'/}" -S "$dir/linked.ll" -o "$dir/loops.ll" &&
+        opt -passes='print<scalar-evolution>' -disable-output "$dir/loops.ll" 2>"$dir/trips" || return 2
+    # shellcheck disable=SC2086
+    python3 hls/check/findings.py "$dir/linked.ll" "$dir/loops.ll" "$dir/trips" "$name" $core
+}
+
+case ${1:-} in
+--function)
+    function=$2
+    shift 2
+    files=()
+    for file in "$@"; do
+        files+=("$(cd "$invoked_in" && realpath --relative-to="$OLDPWD" "$file")")
+    done
+    examine "$(basename "${files[0]}" .c)" "$function" "" "${files[@]}"
+    exit
+    ;;
+--needed)
+    top "$(tops "$2")"
+    # shellcheck disable=SC2086
+    make_ir "$work/needed" "$function" $sources src/*.c
+    python3 hls/check/findings.py --needed "$work/needed/linked.ll"
+    exit
+    ;;
+esac
+status=0
+for name in $(tops "$@"); do
+    top "$name"
+    if ! top_is_there; then
+        echo "$name: not there yet" # to go once all are
+        continue
+    fi
+    # shellcheck disable=SC2086
+    examine "$name" "$function" "$core" $sources || status=1
+done
+if [ $status -ne 0 ]; then
+    echo 'hls check: FAILED'
+fi
+exit $status

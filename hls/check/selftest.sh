@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The check must bite: each file of hls/check/bad has a top that breaks one rule, in the lines that say so by a comment
+# 'expect: RULE'; just these must be found, and nothing in the files named none_*.
+set -euo pipefail
+cd "$(dirname "$0")/bad"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export DROGUE_HLS_CHECK_DIR=$work
+failures=0
+rules='recursion indirect-call dynamic-memory unbounded-loop floating-point external'
+
+# verdict NAME OK
+verdict() {
+    if [ "$2" = 1 ]; then
+        echo "ok      $1"
+    else
+        echo "FAILED  $1"
+        failures=$((failures + 1))
+    fi
+}
+
+seen=""
+for file in *.c; do
+    grep -nEo 'expect: [a-z-]+' "$file" | sed -E "s|^([0-9]+):expect: (.*)|$file:\1: \2|" >"$work/expected" || true
+    status=0
+    ../check.sh --function top "$file" >"$work/out" || status=$?
+    grep -E '^[^ ]+:[0-9]+: ' "$work/out" | sed -E 's|^[^ ]*/([^ ]+:[0-9]+: [a-z-]+):.*|\1|' >"$work/found" || true
+    ok=0
+    if cmp -s "$work/expected" "$work/found"; then
+        case $file in
+        none_*) [ $status -eq 0 ] && [ ! -s "$work/expected" ] && ok=1 ;;
+        *) [ $status -eq 1 ] && [ "$(cut -d' ' -f2 "$work/expected" | sort -u | wc -l)" -eq 1 ] && ok=1 ;;
+        esac
+    fi
+    verdict "$file: $(cut -d' ' -f2 "$work/expected" | sort -u | xargs)" $ok
+    [ $ok = 1 ] || cat "$work/out"
+    seen+=" $(cut -d' ' -f2 "$work/expected" | sort -u | xargs)"
+done
+for rule in $rules; do
+    [[ " $seen " == *" $rule "* ]] || verdict "no bad top for $rule" 0
+done
+if [ $failures -eq 0 ]; then
+    echo 'hls check: self-test passed'
+fi
+[ $failures -eq 0 ]

@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The front end in one pass over a stream of pixels, and the lists at its end. */
+#include "frontend.h"
+
+#include "stages.h"
+
+enum { LAG_PX = 8, LAG_ROWS = 4 }; /* ticks a pixel needs through the stages; rows */
+
+static uint64_t points[DROGUE_HLS_EDGES];    /* candidates in the ring, packed, */
+static uint32_t point_arc[DROGUE_HLS_EDGES]; /* and their arcs' labels */
+static uint32_t arc_points[DROGUE_HLS_LABELS];
+static uint32_t arc_place[DROGUE_HLS_LABELS];
+
+/* Points listed so far. */
+typedef struct point_list {
+    uint32_t count;
+    uint32_t full;
+} point_list;
+
+static void append(point_list *list, const drogue_hls_windows *w, int32_t x, int32_t y, uint32_t arc)
+{
+    drogue_edge e;
+    if (list->count >= DROGUE_HLS_EDGES) {
+        list->full = 1;
+        return;
+    }
+    e.x_q5 = (uint16_t)(32 * x + (int8_t)(uint8_t)(w->code >> 8 & 0xFFu));
+    e.y_q5 = (uint16_t)(32 * y + (int8_t)(uint8_t)(w->code >> 16 & 0xFFu));
+    e.gx = (int16_t)(uint16_t)(w->code_gradient & 0xFFFFu);
+    e.gy = (int16_t)(uint16_t)(w->code_gradient >> 16);
+    e.arc = arc;
+    points[list->count] = drogue_hls_pack_edge(&e);
+    point_arc[list->count] = arc;
+    list->count++;
+}
+
+/* Keep the points whose component is strong; count those of each arc. Returns their number. */
+static uint32_t drop_weak(uint32_t count, uint32_t arc_count)
+{
+    uint32_t left = 0;
+    uint32_t i;
+    for (i = 0; i < arc_count; i++) {
+#pragma HLS loop_tripcount max = DROGUE_HLS_LABELS
+        arc_points[i] = 0;
+    }
+    for (i = 0; i < count; i++) {
+#pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
+        const uint32_t root = drogue_hls_arc_root(point_arc[i]);
+        if (drogue_hls_arc_alive(root)) {
+            points[left] = points[i];
+            point_arc[left] = root;
+            arc_points[root]++;
+            left++;
+        }
+    }
+    return left;
+}
+
+/* Fill the arc table; every arc's place in the list, or DROGUE_NO_ARC. Returns the number of points in arcs. */
+static uint32_t place_arcs(uint64_t arcs[DROGUE_HLS_ARCS], uint32_t *arc_count, uint32_t *full, uint32_t labels,
+                           uint32_t min_arc_px)
+{
+    drogue_arc arc = {0, 0, 0};
+    uint32_t n = 0;
+    uint32_t i;
+    *full = 0;
+    for (i = 1; i < labels; i++) {
+#pragma HLS loop_tripcount max = DROGUE_HLS_LABELS
+        arc.count = arc_points[i];
+        arc.direction = drogue_hls_arc_key(i) - 1u;
+        arc_place[i] = DROGUE_NO_ARC;
+        if (arc.count == 0 || arc.count < min_arc_px) {
+            continue;
+        }
+        if (n >= DROGUE_HLS_ARCS) {
+            *full = 1;
+            continue;
+        }
+        arcs[n++] = drogue_hls_pack_arc(&arc);
+        arc_place[i] = arc.first;
+        arc.first += arc.count;
+    }
+    *arc_count = n;
+    return arc.first;
+}
+
+/* Write the points sorted by arc, those of no arc in the table last. */
+static void sort_points(uint64_t edges[DROGUE_HLS_EDGES], uint32_t count, uint32_t in_arcs)
+{
+    uint32_t last = in_arcs;
+    uint32_t i;
+    for (i = 0; i < count; i++) {
+#pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
+        const uint32_t arc = point_arc[i];
+        const uint32_t place = arc_place[arc];
+        if (place == DROGUE_NO_ARC) {
+            edges[last++] = points[i];
+        } else {
+            edges[place] = points[i];
+            arc_place[arc] = place + 1u;
+        }
+    }
+}
+
+/* What the library's drogue_frontend_begin() says of the arguments. */
+static drogue_status check(int32_t width_px, int32_t height_px, int32_t canny_low, int32_t canny_high, int32_t use_ring,
+                           const drogue_mask *ring)
+{
+    if (canny_low < 0 || canny_high < canny_low || (use_ring && !drogue_mask_valid(ring))) {
+        return DROGUE_E_ARGUMENT;
+    }
+    if (width_px < 1 || width_px > DROGUE_MAX_SIDE || height_px < 1 || height_px > DROGUE_MAX_SIDE) {
+        return DROGUE_E_REGION;
+    }
+    return width_px > DROGUE_HLS_WIDTH || height_px > DROGUE_HLS_HEIGHT ? DROGUE_E_WORKSPACE : DROGUE_OK;
+}
+
+static uint16_t threshold(int32_t magnitude) { return (uint16_t)(magnitude < 2040 ? magnitude : 2040); }
+
+static void prepare_row(drogue_hls_row *row, const drogue_mask *ring, int32_t y)
+{
+    int k;
+    row->y = y;
+    row->ring = drogue_mask_ring_row(ring, y - 4);
+    for (k = 0; k < 5; k++) {
+        const int32_t to = y - 2; /* row smoothed */
+        row->tap[k] =
+            (uint8_t)(to >= 0 && to < row->height_px ? drogue_reflect_101(to + k - 2, row->height_px) - to + 2 : 2);
+    }
+}
+
+void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], uint64_t edges[DROGUE_HLS_EDGES],
+                         uint64_t arcs[DROGUE_HLS_ARCS], int32_t width_px, int32_t height_px, int32_t canny_low,
+                         int32_t canny_high, int32_t smooth, uint32_t min_arc_px, int32_t use_ring, int32_t centre2_x,
+                         int32_t centre2_y, int32_t longest_px, uint32_t *edge_count, uint32_t *arc_count,
+                         uint32_t *status)
+{
+#pragma HLS interface port = pixels mode = fifo
+#pragma HLS interface port = edges mode = m_axi
+#pragma HLS interface port = arcs mode = m_axi
+    const drogue_mask ring = {centre2_x, centre2_y, longest_px};
+    const drogue_status refused = check(width_px, height_px, canny_low, canny_high, use_ring, &ring);
+    drogue_hls_row row;
+    drogue_hls_labels labels;
+    point_list list = {0, 0};
+    uint32_t taken = 0;
+    uint32_t arcs_full;
+    int32_t x;
+    int32_t y;
+    *edge_count = 0;
+    *arc_count = 0;
+    *status = (uint32_t)refused;
+    if (refused != DROGUE_OK) {
+        return;
+    }
+    row.width_px = width_px;
+    row.height_px = height_px;
+    row.smooth = smooth;
+    row.low = threshold(canny_low);
+    row.high = threshold(canny_high);
+    row.use_ring = use_ring;
+    drogue_hls_labels_begin(&labels);
+    for (y = 0; y < height_px + LAG_ROWS; y++) {
+#pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT + LAG_ROWS
+        static const drogue_hls_windows empty = {0};
+        drogue_hls_windows w = empty;
+        prepare_row(&row, &ring, y);
+        drogue_hls_labels_row(&labels);
+        for (x = 0; x < width_px + LAG_PX; x++) {
+#pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH + LAG_PX
+#ifndef __BAMBU__
+#pragma HLS pipeline II = 1
+#endif
+            const uint32_t arc = drogue_hls_label_stage(&labels, &row, x - 8, w.code);
+            uint8_t pixel = 0;
+            if (arc != 0) {
+                append(&list, &w, x - 8, y - 4, arc);
+            }
+            if (x < width_px && y < height_px) {
+                pixel = pixels[taken++];
+            }
+            drogue_hls_suppress_stage(&w, &row, x - 6);
+            drogue_hls_gradient_stage(&w, &row, x - 4);
+            drogue_hls_smooth_horizontally(&w, &row, x - 1);
+            drogue_hls_smooth_vertically(&w, &row, x, pixel);
+        }
+        drogue_hls_labels_settle(&labels);
+    }
+    drogue_hls_labels_flatten(&labels);
+    *edge_count = drop_weak(list.count, labels.arc_count);
+    sort_points(edges, *edge_count, place_arcs(arcs, arc_count, &arcs_full, labels.arc_count, min_arc_px));
+    *status |= (labels.components_full ? DROGUE_HLS_COMPONENTS_FULL : 0u) |
+               (labels.arcs_full ? DROGUE_HLS_ARC_LABELS_FULL : 0u) | (list.full ? DROGUE_HLS_EDGES_FULL : 0u) |
+               (arcs_full ? DROGUE_HLS_ARCS_FULL : 0u);
+    *status |= (uint32_t)(labels.components_full || labels.arcs_full ? DROGUE_E_LABELS_FULL
+                          : list.full                                ? DROGUE_E_EDGES_FULL
+                          : arcs_full                                ? DROGUE_E_ARCS_FULL
+                                                                     : DROGUE_OK);
+}

@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The scripts for Vitis, without Vitis: are they those that hls/tops.txt gives, do all files they name exist, does
+# run_hls.tcl go through all its steps? And would it be noticed if not?
+set -uo pipefail
+cd "$(dirname "$0")/../.." || exit
+. hls/tops.sh
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+status=0
+scripts=0
+
+# run_stub FOLDER FUNCTION SCRIPT
+run_stub() { (cd "$1" && tclsh "$OLDPWD/hls/vitis/stub.tcl" "$2" "$3"); }
+
+hls/vitis/generate.sh --to "$work"
+while IFS= read -r made; do
+    file=${made#"$work"/}
+    scripts=$((scripts + 1))
+    if ! cmp -s "$made" "$file"; then
+        echo "vitis: $file is not what hls/vitis/generate.sh writes"
+        status=1
+    fi
+done < <(find "$work" -name hls_config.cfg -o -name run_hls.tcl)
+last=""
+for name in $(all_tops); do
+    top "$name"
+    if ! top_is_there; then
+        continue # to go once all are
+    fi
+    last=$name
+    run_stub "$folder" "$function" run_hls.tcl || status=1
+    while IFS= read -r file; do
+        if [ ! -e "$folder/$file" ] && [[ $file != */build/hls/* ]]; then
+            echo "vitis: $folder/hls_config.cfg: no file $file"
+            status=1
+        fi
+    done < <(sed -nE 's/^(syn|tb)\.file=//p' "$folder/hls_config.cfg")
+done
+
+# bites SED FAULT: a script spoiled like this is refused with this fault
+bites() {
+    sed -E "$1" "$folder/run_hls.tcl" >"$work/spoiled.tcl"
+    if run_stub "$folder" "$function" "$work/spoiled.tcl" >"$work/out" 2>&1 || ! grep -q "$2" "$work/out"; then
+        echo "vitis: the check does not notice: $2"
+        status=1
+    fi
+}
+if [ -n "$last" ]; then
+    top "$last"
+    bites 's|/src/wide\.c|/src/wade.c|' 'no file .*wade\.c'
+    bites 's/^set_top .*/set_top another/' 'top another'
+    bites '/^ *cosim_design/d' 'steps .* csynth export'
+    bites 's/^set_part/set_prat/' 'invalid command name "set_prat"'
+fi
+[ $status -eq 0 ] && echo "vitis: $scripts scripts as they should be"
+exit $status
