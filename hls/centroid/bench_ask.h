@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Test bench: a question, put to the block and to the library. */
+#ifndef DROGUE_HLS_CENTROID_BENCH_ASK_H
+#define DROGUE_HLS_CENTROID_BENCH_ASK_H
+
+#include <string.h>
+
+#include "bench/bench.h"
+#include "centroid.h"
+#include "drogue/centroid.h"
+#ifdef __BAMBU_SIM__
+#include <mdpi/mdpi_user.h>
+#endif
+
+enum { MOST_PIXELS = DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT, GUARD = 0x5A5A5A5A };
+
+static uint8_t stream[DROGUE_HLS_DARK_PASSES * MOST_PIXELS];
+
+static const char *const words[DROGUE_HLS_DARK_WORDS] = {"status", "x",         "y",        "area",
+                                                         "spread", "threshold", "contrast", "which"};
+
+/* What is asked, of both. */
+typedef struct question {
+    drogue_image image;
+    drogue_mask disc;
+    uint32_t min_area;
+    drogue_ellipse expected[DROGUE_HLS_DISCS];
+    uint32_t count;
+} question;
+
+static unsigned answers[DROGUE_STATUS_COUNT]; /* how many of each status */
+
+/* Returns the number of pixels. */
+static size_t send(const question *q)
+{
+    const size_t width = (size_t)q->image.width_px;
+    uint8_t *to = stream;
+    int32_t pass;
+    int32_t y;
+    for (pass = 0; pass < DROGUE_HLS_DARK_PASSES; pass++) {
+        for (y = 0; y < q->image.height_px; y++, to += width) {
+            memcpy(to, drogue_image_row(&q->image, y), width);
+        }
+    }
+    return (size_t)(to - stream);
+}
+
+static int fits(const question *q)
+{
+    return q->image.width_px >= 1 && q->image.width_px <= DROGUE_HLS_WIDTH && q->image.height_px >= 1 &&
+           q->image.height_px <= DROGUE_HLS_HEIGHT;
+}
+
+static void ask_block(int32_t dark[DROGUE_HLS_DARK_WORDS], const question *q)
+{
+    static int32_t out[DROGUE_HLS_DARK_WORDS];
+    int32_t expected[DROGUE_HLS_DISCS * DROGUE_HLS_ELLIPSE_WORDS];
+    const size_t sent = fits(q) ? send(q) : 0;
+    int k;
+    for (k = 0; k < DROGUE_HLS_DISCS; k++) {
+        int32_t *to = expected + k * DROGUE_HLS_ELLIPSE_WORDS;
+        to[0] = q->expected[k].xc_px_q16;
+        to[1] = q->expected[k].yc_px_q16;
+        to[2] = q->expected[k].a_px_q16;
+        to[3] = q->expected[k].b_px_q16;
+        to[4] = q->expected[k].angle_rad_q16;
+    }
+    for (k = 0; k < DROGUE_HLS_DARK_WORDS; k++) {
+        out[k] = GUARD; /* all are written */
+    }
+#ifdef __BAMBU_SIM__
+    m_param_alloc(0, sent);
+    m_param_alloc(1, sizeof expected);
+    m_param_alloc(2, sizeof out);
+#else
+    (void)sent;
+#endif
+    drogue_hls_centroid(stream, expected, out, q->image.width_px, q->image.height_px, q->disc.centre2_x,
+                        q->disc.centre2_y, q->disc.longest_px, q->min_area, q->count);
+    memcpy(dark, out, sizeof out);
+}
+
+static void ask_library(int32_t dark[DROGUE_HLS_DARK_WORDS], const question *q)
+{
+    static uint32_t memory[DROGUE_WORKSPACE_BYTES(DROGUE_HLS_WIDTH, 1, DROGUE_HLS_LABELS, 1) / 4 + 1];
+    const drogue_capacity capacity = {DROGUE_HLS_WIDTH, 1, DROGUE_HLS_LABELS, 1};
+    drogue_workspace workspace;
+    drogue_dark_part part;
+    uint32_t which = 0;
+    drogue_status status = drogue_workspace_init(&workspace, memory, sizeof memory, &capacity);
+    if (status == DROGUE_OK) {
+        status =
+            drogue_dark_disc_find(&part, &which, &workspace, &q->image, &q->disc, q->min_area, q->expected, q->count);
+    } else {
+        memset(&part, 0, sizeof part);
+    }
+    dark[DROGUE_HLS_D_STATUS] = (int32_t)(status | (status == DROGUE_E_LABELS_FULL ? DROGUE_HLS_DARK_FULL : 0));
+    dark[DROGUE_HLS_D_X] = part.x_px_q16;
+    dark[DROGUE_HLS_D_Y] = part.y_px_q16;
+    dark[DROGUE_HLS_D_AREA] = (int32_t)part.area_px;
+    dark[DROGUE_HLS_D_SPREAD] = part.spread_px_q16;
+    dark[DROGUE_HLS_D_THRESHOLD] = part.threshold;
+    dark[DROGUE_HLS_D_CONTRAST] = part.contrast;
+    dark[DROGUE_HLS_D_WHICH] = (int32_t)which;
+    answers[status]++;
+}
+
+static void compare(bench *b, int32_t dark[DROGUE_HLS_DARK_WORDS], const question *q)
+{
+    int32_t expected[DROGUE_HLS_DARK_WORDS];
+    int k;
+    ask_block(dark, q);
+    ask_library(expected, q);
+    for (k = 0; k < DROGUE_HLS_DARK_WORDS; k++) {
+        bench_word(b, words[k], dark[k], expected[k]);
+    }
+}
+
+static drogue_ellipse circle(drogue_q16 x, drogue_q16 y, drogue_q16 radius)
+{
+    drogue_ellipse e;
+    e.xc_px_q16 = x;
+    e.yc_px_q16 = y;
+    e.a_px_q16 = radius;
+    e.b_px_q16 = radius;
+    e.angle_rad_q16 = 0;
+    return e;
+}
+
+/* Discs about the middle of what is searched, for want of better. */
+static void expect_middle(question *q)
+{
+    const drogue_q16 x = q->disc.centre2_x * (DROGUE_Q16_ONE / 2);
+    const drogue_q16 y = q->disc.centre2_y * (DROGUE_Q16_ONE / 2);
+    q->expected[0] = circle(x, y, drogue_q16_div(q->disc.longest_px, 5));
+    q->expected[1] = circle(x + DROGUE_Q16_ONE, y, drogue_q16_div(q->disc.longest_px, 8));
+    q->count = 2;
+}
+
+#endif
