@@ -45,11 +45,6 @@ hls/vitis/check.sh || status=1
 hls/bambu/selftest.sh || status=1
 rows=('top|cases|failed|skipped|functions|loops|annotated|findings|s|verdict')
 for name in $(all_tops); do
-    top "$name"
-    if ! top_is_there; then
-        rows+=("$name|||||||||not there yet") # to go once all are
-        continue
-    fi
     examine "$name"
 done
 printf '%s\n' "${rows[@]}" | awk -F'|' '{ printf "%-9s %6s %7s %8s %10s %6s %10s %9s %4s  %s\n", $1, $2, $3, $4, $5, $6, $7, $8, $9, $10 }'

@@ -36,11 +36,3 @@ top() {
         folder+=/$1
     fi
 }
-
-# top_is_there: are all files of the top set?
-top_is_there() {
-    local file
-    for file in $sources $bench; do
-        [ -e "$file" ] || [ "$file" = hls/- ] || return 1
-    done
-}

@@ -67,10 +67,6 @@ chosen=$(tops "$@")
 status=0
 for name in $chosen; do
     top "$name"
-    if ! top_is_there; then
-        echo "$name: not there yet" # to go once all are
-        continue
-    fi
     # shellcheck disable=SC2086
     examine "$name" "$function" "$core" $sources || status=1
 done

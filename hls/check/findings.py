@@ -139,8 +139,11 @@ def loops(module, path, findings):
 
 
 def needed(module):
-    """Files of src/ whose functions the top is made of."""
+    """Files of src/ whose functions and tables the top is made of."""
     files = {module.location(node)[0] for node in module.functions.values() if node}
+    for line in module.globals:
+        for node in re.findall(r"!dbg (!\d+)", line):
+            files.add(module.location(module.field(node, "var"))[0])
     return {file for file in files if re.match(r"src/\w+\.c$", file)}
 
 

@@ -25,9 +25,6 @@ done < <(find "$work" -name hls_config.cfg -o -name run_hls.tcl)
 last=""
 for name in $(all_tops); do
     top "$name"
-    if ! top_is_there; then
-        continue # to go once all are
-    fi
     last=$name
     run_stub "$folder" "$function" run_hls.tcl || status=1
     while IFS= read -r file; do

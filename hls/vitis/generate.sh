@@ -119,9 +119,6 @@ case ${1:-} in
 esac
 for name in $(all_tops); do
     top "$name"
-    if ! top_is_there; then
-        continue # to go once all are
-    fi
     mkdir -p "$to/$folder"
     root=$(sed -E 's|[^/]+|..|g' <<<"$folder")
     config "$name" "$root" "$default_part" "$default_clock_ns" >"$to/$folder/hls_config.cfg"
