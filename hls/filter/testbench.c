@@ -3,9 +3,9 @@
  * restart of two parameters and refused commands after each. */
 #include <string.h>
 
-#include "../backend/sim.h"
 #include "../bench/bench.h"
 #include "filter.h"
+#include "sim.h"
 
 static int32_t value[DROGUE_PARAMETERS];
 static int32_t std_q16[DROGUE_PARAMETERS];

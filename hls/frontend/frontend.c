@@ -6,8 +6,9 @@
 
 enum { LAG_PX = 8, LAG_ROWS = 4 }; /* ticks a pixel needs through the stages; rows */
 
-static uint64_t points[DROGUE_HLS_EDGES];    /* candidates in the ring, packed, */
-static uint32_t point_arc[DROGUE_HLS_EDGES]; /* and their arcs' labels */
+static uint64_t
+    points[DROGUE_HLS_EDGES + 1]; /* candidates in the ring, packed; the last word takes what does not fit */
+static uint32_t point_arc[DROGUE_HLS_EDGES + 1]; /* and their arcs' labels */
 static uint32_t arc_points[DROGUE_HLS_LABELS];
 static uint32_t arc_place[DROGUE_HLS_LABELS];
 
@@ -17,13 +18,11 @@ typedef struct point_list {
     uint32_t full;
 } point_list;
 
+/* Append the pixel in the windows when it has an arc. */
 static void append(point_list *list, const drogue_hls_windows *w, int32_t x, int32_t y, uint32_t arc)
 {
+    const uint32_t room = list->count < DROGUE_HLS_EDGES;
     drogue_edge e;
-    if (list->count >= DROGUE_HLS_EDGES) {
-        list->full = 1;
-        return;
-    }
     e.x_q5 = (uint16_t)(32 * x + (int8_t)(uint8_t)(w->code >> 8 & 0xFFu));
     e.y_q5 = (uint16_t)(32 * y + (int8_t)(uint8_t)(w->code >> 16 & 0xFFu));
     e.gx = (int16_t)(uint16_t)(w->code_gradient & 0xFFFFu);
@@ -31,7 +30,8 @@ static void append(point_list *list, const drogue_hls_windows *w, int32_t x, int
     e.arc = arc;
     points[list->count] = drogue_hls_pack_edge(&e);
     point_arc[list->count] = arc;
-    list->count++;
+    list->count += arc != 0 && room;
+    list->full |= arc != 0 && !room;
 }
 
 /* Keep the points whose component is strong; count those of each arc. Returns their number. */
@@ -135,9 +135,29 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
                          int32_t centre2_y, int32_t longest_px, uint32_t *edge_count, uint32_t *arc_count,
                          uint32_t *status)
 {
+#ifdef __BAMBU__
 #pragma HLS interface port = pixels mode = fifo
-#pragma HLS interface port = edges mode = m_axi
-#pragma HLS interface port = arcs mode = m_axi
+#pragma HLS interface port = edges mode = m_axi offset = direct
+#pragma HLS interface port = arcs mode = m_axi offset = direct
+#else
+#pragma HLS interface mode = axis port = pixels
+#pragma HLS interface mode = m_axi port = edges bundle = lists
+#pragma HLS interface mode = m_axi port = arcs bundle = lists
+#pragma HLS interface mode = s_axilite port = width_px
+#pragma HLS interface mode = s_axilite port = height_px
+#pragma HLS interface mode = s_axilite port = canny_low
+#pragma HLS interface mode = s_axilite port = canny_high
+#pragma HLS interface mode = s_axilite port = smooth
+#pragma HLS interface mode = s_axilite port = min_arc_px
+#pragma HLS interface mode = s_axilite port = use_ring
+#pragma HLS interface mode = s_axilite port = centre2_x
+#pragma HLS interface mode = s_axilite port = centre2_y
+#pragma HLS interface mode = s_axilite port = longest_px
+#pragma HLS interface mode = s_axilite port = edge_count
+#pragma HLS interface mode = s_axilite port = arc_count
+#pragma HLS interface mode = s_axilite port = status
+#pragma HLS interface mode = s_axilite port = return
+#endif
     const drogue_mask ring = {centre2_x, centre2_y, longest_px};
     const drogue_status refused = check(width_px, height_px, canny_low, canny_high, use_ring, &ring);
     drogue_hls_row row;
@@ -162,8 +182,7 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
     drogue_hls_labels_begin(&labels);
     for (y = 0; y < height_px + LAG_ROWS; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT + LAG_ROWS
-        static const drogue_hls_windows empty = {0};
-        drogue_hls_windows w = empty;
+        drogue_hls_windows w = {{0}, {0}, 0, {{0}}, 0, {{0}}, 0, 0, 0};
         prepare_row(&row, &ring, y);
         drogue_hls_labels_row(&labels);
         for (x = 0; x < width_px + LAG_PX; x++) {
@@ -171,11 +190,9 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 #endif
-            const uint32_t arc = drogue_hls_label_stage(&labels, &row, x - 8, w.code);
+            const uint32_t arc = drogue_hls_label_stage(&labels, &row, x - LAG_PX, w.code);
             uint8_t pixel = 0;
-            if (arc != 0) {
-                append(&list, &w, x - 8, y - 4, arc);
-            }
+            append(&list, &w, x - LAG_PX, y - LAG_ROWS, arc);
             if (x < width_px && y < height_px) {
                 pixel = pixels[taken++];
             }
@@ -184,7 +201,7 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
             drogue_hls_smooth_horizontally(&w, &row, x - 1);
             drogue_hls_smooth_vertically(&w, &row, x, pixel);
         }
-        drogue_hls_labels_settle(&labels);
+        drogue_hls_labels_settle();
     }
     drogue_hls_labels_flatten(&labels);
     *edge_count = drop_weak(list.count, labels.arc_count);

@@ -7,9 +7,12 @@
 
 enum { CANDIDATE = 1, STRONG = 2, KEY_SHIFT = 2, KEYS = 4, MERGES = DROGUE_HLS_WIDTH / 2 + 1 };
 
-static uint32_t component_row[DROGUE_HLS_WIDTH]; /* labels of the row above, and arcs' with their key */
-static uint32_t arc_row[DROGUE_HLS_WIDTH];
-static uint8_t key_row[DROGUE_HLS_WIDTH];
+/* A word more in each row and list, and entry 0 of each table, take what is not to be kept: writes need no condition. */
+enum { OUTSIDE = DROGUE_HLS_WIDTH, WORDS = DROGUE_HLS_WIDTH + 1 };
+
+static uint32_t component_row[WORDS]; /* labels of the row above, and arcs' with their key */
+static uint32_t arc_row[WORDS];
+static uint8_t key_row[WORDS];
 static uint32_t component_parent[DROGUE_HLS_LABELS];
 static uint8_t component_strong[DROGUE_HLS_LABELS];
 static drogue_merge component_merges[MERGES];
@@ -18,14 +21,23 @@ static uint32_t arc_component[DROGUE_HLS_LABELS];
 static uint8_t arc_key[DROGUE_HLS_LABELS];
 static drogue_merge arc_merges[KEYS][MERGES];
 
+/* Merges of the row in each. */
+static uint32_t component_merge_count;
+static uint32_t arc_merge_count[KEYS];
+
 static const drogue_hls_labelled none = {0, 0, 0};
 
 void drogue_hls_labels_begin(drogue_hls_labels *l)
 {
+    int k;
     l->component_count = 1;
     l->arc_count = 1;
     l->components_full = 0;
     l->arcs_full = 0;
+    component_parent[0] = 0;
+    for (k = 0; k < KEYS; k++) {
+        arc_parent[k][0] = 0;
+    }
 }
 
 void drogue_hls_labels_row(drogue_hls_labels *l)
@@ -33,87 +45,79 @@ void drogue_hls_labels_row(drogue_hls_labels *l)
     int k;
     l->next = none;
     l->left = none;
-    for (k = 0; k < 3; k++) {
-        l->above[k] = none;
-    }
-    l->component_merges = 0;
+    l->above[0] = none;
+    l->above[1] = none;
+    l->above[2] = none;
+    component_merge_count = 0;
     for (k = 0; k < KEYS; k++) {
-        l->arc_merges[k] = 0;
+        arc_merge_count[k] = 0;
     }
 }
+
+/* Table of a key; that of key 0 is any, its label is 0. */
+static uint32_t table(uint32_t key) { return (key + KEYS - 1u) % KEYS; }
 
 /* Let the window move one column to the right; x is the one it comes to. */
 static void move_window(drogue_hls_labels *l, const drogue_hls_row *row, int32_t x)
 {
+    const int inside = row->y > 4 && x + 2 >= 0 && x + 2 < row->width_px;
+    const int32_t word = inside ? x + 2 : OUTSIDE;
     l->above[0] = l->above[1];
     l->above[1] = l->above[2];
-    l->above[2] = none;
-    if (l->next.component != 0) {
-        l->above[2].component = component_parent[l->next.component];
-    }
-    if (l->next.key != 0) {
-        l->above[2].key = l->next.key;
-        l->above[2].arc = arc_parent[l->next.key - 1u][l->next.arc];
-    }
-    l->next = none;
-    if (row->y > 4 && x + 2 >= 0 && x + 2 < row->width_px) {
-        l->next.component = component_row[x + 2];
-        l->next.arc = arc_row[x + 2];
-        l->next.key = key_row[x + 2];
-    }
+    l->above[2].component = component_parent[l->next.component];
+    l->above[2].arc = arc_parent[table(l->next.key)][l->next.arc];
+    l->above[2].key = l->next.key;
+    l->next.component = inside ? component_row[word] : 0;
+    l->next.arc = inside ? arc_row[word] : 0;
+    l->next.key = inside ? key_row[word] : 0;
 }
 
-/* Label of a candidate's component; 0 when the table is full. */
+/* Label of a pixel's component; 0 when it is no candidate, or the table is full. */
 static uint32_t label_component(drogue_hls_labels *l, uint32_t code)
 {
     const uint64_t chosen =
         drogue_hls_choose_label(l->above[1].component, l->left.component, l->above[0].component, l->above[2].component);
     const uint32_t merge_with = (uint32_t)(chosen >> 32);
-    uint32_t label = (uint32_t)(chosen & 0xFFFFFFFFu);
-    if (merge_with != 0) {
-        component_merges[l->component_merges].a = label;
-        component_merges[l->component_merges].b = merge_with;
-        l->component_merges++;
-    }
-    if (label == 0) {
-        if (l->component_count >= DROGUE_HLS_LABELS) {
-            l->components_full = 1;
-            return 0;
-        }
-        label = l->component_count++;
-        component_parent[label] = label;
-        component_strong[label] = (code & STRONG) != 0;
-    } else if ((code & STRONG) != 0) {
-        component_strong[label] = 1;
-    }
+    const uint32_t near = (uint32_t)(chosen & 0xFFFFFFFFu);
+    const uint32_t candidate = code & CANDIDATE;
+    const uint32_t strong = code / STRONG & 1u;
+    const uint32_t new = candidate &&near == 0;
+    const uint32_t room = l->component_count < DROGUE_HLS_LABELS;
+    const uint32_t label = !candidate ? 0 : !new ? near : room ? l->component_count : 0;
+    drogue_merge *merge = &component_merges[component_merge_count];
+    merge->a = near;
+    merge->b = merge_with;
+    component_merge_count += candidate && merge_with != 0;
+    component_parent[new ? label : 0] = new ? label : 0;
+    component_strong[new || strong ? label : 0] = (uint8_t)strong;
+    l->component_count += new &&room;
+    l->components_full |= new && !room;
     return label;
 }
 
 static uint32_t arc_of(const drogue_hls_labelled *pixel, uint32_t key) { return pixel->key == key ? pixel->arc : 0; }
 
-/* Label of the arc of a point of the given key, in the component given; 0 when the table is full. */
+/* Label of the arc of a point of the given key, in the component given; 0 when the key is, or the table is full. */
 static uint32_t label_arc(drogue_hls_labels *l, uint32_t key, uint32_t component)
 {
     const uint64_t chosen = drogue_hls_choose_label(arc_of(&l->above[1], key), arc_of(&l->left, key),
                                                     arc_of(&l->above[0], key), arc_of(&l->above[2], key));
     const uint32_t merge_with = (uint32_t)(chosen >> 32);
-    uint32_t label = (uint32_t)(chosen & 0xFFFFFFFFu);
-    if (merge_with != 0) {
-        drogue_merge *merge = &arc_merges[key - 1u][l->arc_merges[key - 1u]];
-        merge->a = label;
-        merge->b = merge_with;
-        l->arc_merges[key - 1u]++;
-    }
-    if (label == 0) {
-        if (l->arc_count >= DROGUE_HLS_LABELS) {
-            l->arcs_full = 1;
-            return 0;
-        }
-        label = l->arc_count++;
-        arc_parent[key - 1u][label] = label;
-        arc_key[label] = (uint8_t)key;
-    }
+    const uint32_t near = (uint32_t)(chosen & 0xFFFFFFFFu);
+    const uint32_t in = table(key);
+    const uint32_t new = key != 0 && near == 0;
+    const uint32_t room = l->arc_count < DROGUE_HLS_LABELS;
+    const uint32_t label = key == 0 ? 0 : !new ? near : room ? l->arc_count : 0;
+    const uint32_t merges = arc_merge_count[in];
+    drogue_merge *merge = &arc_merges[in][merges];
+    merge->a = near;
+    merge->b = merge_with;
+    arc_merge_count[in] = merges + (key != 0 && merge_with != 0);
+    arc_parent[in][new ? label : 0] = new ? label : 0;
+    arc_key[new ? label : 0] = (uint8_t)key;
     arc_component[label] = component; /* all points of an arc are in one component */
+    l->arc_count += new &&room;
+    l->arcs_full |= new && !room;
     return label;
 }
 
@@ -121,37 +125,36 @@ uint32_t drogue_hls_label_stage(drogue_hls_labels *l, const drogue_hls_row *row,
 {
 #pragma HLS array_partition variable = arc_parent complete dim = 1
 #pragma HLS array_partition variable = arc_merges complete dim = 1
+#pragma HLS array_partition variable = arc_merge_count complete
 #pragma HLS bind_storage variable = component_parent type = ram_1wnr
 #pragma HLS bind_storage variable = arc_parent type = ram_1wnr
 /* Read: labels of the rows above. Written: new ones. */
 #pragma HLS dependence variable = component_parent type = inter false
 #pragma HLS dependence variable = arc_parent type = inter false
-    drogue_hls_labelled pixel = none;
+    const int32_t word = x >= 0 && x < row->width_px ? x : OUTSIDE;
+    drogue_hls_labelled pixel;
+    uint32_t key;
     move_window(l, row, x);
-    if ((code & CANDIDATE) != 0) {
-        const uint32_t key = code >> KEY_SHIFT & 7u;
-        pixel.component = label_component(l, code);
-        if (key != 0 && pixel.component != 0) {
-            pixel.arc = label_arc(l, key, pixel.component);
-            pixel.key = pixel.arc != 0 ? key : 0;
-        }
-    }
-    if (x >= 0 && x < row->width_px) {
-        component_row[x] = pixel.component;
-        arc_row[x] = pixel.arc;
-        key_row[x] = (uint8_t)pixel.key;
-    }
+    pixel.component = label_component(l, code);
+    key = pixel.component != 0 ? code >> KEY_SHIFT & 7u : 0;
+    pixel.arc = label_arc(l, key, pixel.component);
+    pixel.key = pixel.arc != 0 ? key : 0;
+    component_row[word] = pixel.component;
+    arc_row[word] = pixel.arc;
+    key_row[word] = (uint8_t)pixel.key;
     l->left = pixel;
     return pixel.arc;
 }
 
-void drogue_hls_labels_settle(const drogue_hls_labels *l)
+void drogue_hls_labels_settle(void)
 {
     int k;
-    drogue_labels_resolve(component_parent, component_merges, l->component_merges);
+    drogue_labels_resolve(component_parent, component_merges, component_merge_count);
     for (k = 0; k < KEYS; k++) {
+#ifndef __BAMBU__
 #pragma HLS unroll
-        drogue_labels_resolve(arc_parent[k], arc_merges[k], l->arc_merges[k]);
+#endif
+        drogue_labels_resolve(arc_parent[k], arc_merges[k], arc_merge_count[k]);
     }
 }
 

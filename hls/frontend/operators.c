@@ -49,10 +49,8 @@ uint32_t drogue_hls_suppress(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0,
     const uint32_t dx = (uint8_t)(drogue_canny_step_x(sector) * offset_q5);
     const uint32_t dy = (uint8_t)(drogue_canny_step_y(sector) * offset_q5);
     const uint32_t direction = drogue_direction_class(gx, gy) + 1u;
-    if (c1 <= low || !drogue_canny_is_maximum(sector, before, c1, after)) {
-        return 0;
-    }
-    return 1u | (c1 > high ? 2u : 0u) | direction << 2 | dx << 8 | dy << 16;
+    const uint32_t code = 1u | (c1 > high ? 2u : 0u) | direction << 2 | dx << 8 | dy << 16;
+    return c1 > low && drogue_canny_is_maximum(sector, before, c1, after) ? code : 0;
 }
 
 uint32_t drogue_hls_in_ring(int32_t x, int32_t centre2_x, int64_t least_x9, int64_t most)

@@ -48,7 +48,7 @@ typedef struct drogue_hls_labelled {
     uint32_t key; /* direction class + 1; 0: in no arc */
 } drogue_hls_labelled;
 
-/* Registers of labels.c; the windows and merge counts are 0 at the start of a row. */
+/* Registers of labels.c; the windows are empty at the start of a row. */
 typedef struct drogue_hls_labels {
     uint32_t component_count; /* labels given + 1 */
     uint32_t arc_count;
@@ -57,8 +57,6 @@ typedef struct drogue_hls_labels {
     drogue_hls_labelled next;     /* as stored: its labels are not roots yet */
     drogue_hls_labelled above[3]; /* left, middle, right: roots */
     drogue_hls_labelled left;
-    uint32_t component_merges;
-    uint32_t arc_merges[4];
 } drogue_hls_labels;
 
 void drogue_hls_labels_begin(drogue_hls_labels *l);
@@ -68,7 +66,7 @@ void drogue_hls_labels_row(drogue_hls_labels *l);
 uint32_t drogue_hls_label_stage(drogue_hls_labels *l, const drogue_hls_row *row, int32_t x, uint32_t code);
 
 /* The row is complete: resolve its merges. */
-void drogue_hls_labels_settle(const drogue_hls_labels *l);
+void drogue_hls_labels_settle(void);
 
 /* The frame is complete: every label's parent is its root; does a root's component hold a strong point? */
 void drogue_hls_labels_flatten(const drogue_hls_labels *l);

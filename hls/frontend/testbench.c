@@ -5,6 +5,7 @@
 
 #include "bench.h"
 #include "frontend.h"
+#include "sim.h"
 
 static uint32_t
     memory[DROGUE_WORKSPACE_BYTES(DROGUE_HLS_WIDTH, DROGUE_HLS_EDGES, DROGUE_HLS_LABELS, DROGUE_HLS_ARCS) / 4 + 1];
@@ -23,11 +24,12 @@ typedef struct answer {
 static answer run_block(const drogue_frontend_config *c, int32_t width_px, int32_t height_px)
 {
     answer a = {77, 77, 77};
-#ifdef __BAMBU_SIM__
-    m_param_alloc(0, sizeof pixels);
-    m_param_alloc(1, sizeof edges);
-    m_param_alloc(2, sizeof arcs);
-#endif
+    SIM_ARRAY(0, pixels);
+    SIM_ARRAY(1, edges);
+    SIM_ARRAY(2, arcs);
+    SIM_ARRAY(13, a.edge_count);
+    SIM_ARRAY(14, a.arc_count);
+    SIM_ARRAY(15, a.status);
     drogue_hls_frontend(pixels, edges, arcs, width_px, height_px, c->canny_low, c->canny_high, c->smooth, c->min_arc_px,
                         c->use_ring, c->ring.centre2_x, c->ring.centre2_y, c->ring.longest_px, &a.edge_count,
                         &a.arc_count, &a.status);
