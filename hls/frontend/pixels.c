@@ -73,9 +73,9 @@ void drogue_hls_gradient_stage(drogue_hls_windows *w, const drogue_hls_row *row,
     }
     for (k = 0; k < 3; k++) {
 #pragma HLS unroll
-        w->levels[k][0] = x == 0 ? column[k] : w->levels[k][1];
-        w->levels[k][1] = x == 0 ? column[k] : w->levels[k][2];
-        w->levels[k][2] = inside ? column[k] : w->levels[k][2]; /* beyond the last column it stays */
+        w->levels[k][0] = w->levels[k][1];
+        w->levels[k][1] = x == 0 ? column[k] : w->levels[k][2]; /* the first its own left one */
+        w->levels[k][2] = inside ? column[k] : w->levels[k][2]; /* the last column is its own right neighbour */
     }
     w->gradient = drogue_hls_gradient(w->levels[0][0], w->levels[0][1], w->levels[0][2], w->levels[1][0],
                                       w->levels[1][2], w->levels[2][0], w->levels[2][1], w->levels[2][2]);
