@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # A top through Bambu (PandA), in build/hls/bambu/NAME: RTL; with --simulate the RTL beside the C, under Verilator, over
 # the vectors of build/hls/NAME; with --area what yosys makes of it for 7-series. One line: PASS, or FAIL, MISMATCH,
-# TIMEOUT. Exit status 0 only for PASS, 77 where there is no bambu.
+# TIMEOUT; cycles and frequency as Bambu reports them. Exit status 0 only for PASS, 77 where there is no bambu.
 # usage: bambu.sh NAME [--simulate] [--area] [FLAG...]      other flags go to bambu
 # Device, clock and patience: DROGUE_HLS_BAMBU_DEVICE, DROGUE_HLS_CLOCK_NS, DROGUE_HLS_TIMEOUT_S.
 # Vectors other than those of hls/tops.txt: DROGUE_HLS_VECTORS="STAGE/CASE ...".
@@ -63,14 +63,22 @@ elif [ $status -ne 0 ] || [ ! -s "$function.v" ]; then
 elif [ $simulated = yes ] && ! grep -q 'Average execution' log; then
     verdict=FAIL # nothing was simulated
 fi
-cycles=$(sed -nE 's/^.*(Total cycles|Number of executions|Average execution) *: *([0-9.]+).*/\1=\2/p' log | tr '\n' ' ')
-echo "$verdict $name simulated=$simulated seconds=$((SECONDS - begin)) ${cycles}log=$work/log"
+
+# last NAME REGEX: 'NAME=' and the last number that the log gives
+last() { sed -nE "s/^ *$2 *: *([0-9]+).*/ $1=\1/p" log | tail -n 1 | tr -d '\n'; }
+figures=$(last cycles 'Total cycles')$(last calls 'Number of executions')$(last cycles_a_call 'Average execution')
+figures+=$(last MHz 'Estimated max frequency \(MHz\)')
+echo "$verdict $name simulated=$simulated seconds=$((SECONDS - begin))$figures log=$work/log"
 if [ $verdict != PASS ]; then
     complaints 2>/dev/null | sort -u | head -8 || true
     exit 1
 fi
 if [ $area = yes ]; then
-    yosys -q -p "read_verilog -defer $function.v; synth_xilinx -flatten -top $function; tee -o area stat" >yosys.log
+    if ! timeout "${DROGUE_HLS_TIMEOUT_S:-3600}" yosys -q \
+        -p "read_verilog -defer $function.v; synth_xilinx -flatten -top $function; tee -o area stat" >yosys.log 2>&1; then
+        echo "area of $name: yosys did not end well, see $work/yosys.log"
+        exit 1
+    fi
     awk -v name="$name" '
         /^ +LUT[1-6] / { lut += $2 } /^ +FD[CPRS]E/ { ff += $2 } /^ +DSP48E1 / { dsp += $2 }
         /^ +RAMB18E1 / { bram += $2 } /^ +RAMB36E1 / { bram += 2 * $2 } /^ +RAM(32|64|128|256)/ { lutram += $2 }

@@ -31,16 +31,27 @@ make_ir() {
         opt -passes='internalize,globaldce' -internalize-public-api-list="$function" -S "$dir/all.bc" -o "$dir/linked.ll"
 }
 
+# pragmas SOURCE...: those that Bambu refuses; exit status 1 where there are any
+pragmas() {
+    local source found=0
+    for source in "$@"; do
+        clang -std=c99 -E -D__BAMBU__ -w -Iinclude -Ihls "$source" | awk -f hls/check/pragmas.awk | grep . && found=1
+    done
+    return $found
+}
+
 # examine NAME FUNCTION "CORE SOURCES" SOURCE...
 examine() {
-    local name=$1 function=$2 core=$3 dir=$work/$1
+    local name=$1 function=$2 core=$3 dir=$work/$1 status=0
     shift 3
+    pragmas "$@" || status=1
     # shellcheck disable=SC2086 # a list of files
     make_ir "$dir" "$function" "$@" $core &&
         opt -passes="${passes//$'\n'/}" -S "$dir/linked.ll" -o "$dir/loops.ll" &&
         opt -passes='print<scalar-evolution>' -disable-output "$dir/loops.ll" 2>"$dir/trips" || return 2
     # shellcheck disable=SC2086
-    python3 hls/check/findings.py "$dir/linked.ll" "$dir/loops.ll" "$dir/trips" "$name" $core
+    python3 hls/check/findings.py "$dir/linked.ll" "$dir/loops.ll" "$dir/trips" "$name" $core || status=1
+    return $status
 }
 
 case ${1:-} in
