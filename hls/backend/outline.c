@@ -25,9 +25,9 @@ static int valid(const drogue_hls_parameters *p)
 }
 
 /* The lists into the workspace; 0 when they cannot be a front end's. */
-static int read_lists(drogue_edge edges[DROGUE_HLS_EDGES], drogue_arc arcs[DROGUE_HLS_ARCS],
-                      const uint64_t edge_words[DROGUE_HLS_EDGES], const uint64_t arc_words[DROGUE_HLS_ARCS],
-                      const drogue_edge_list *list)
+static inline int read_lists(drogue_edge edges[DROGUE_HLS_EDGES], drogue_arc arcs[DROGUE_HLS_ARCS],
+                             const uint64_t edge_words[DROGUE_HLS_EDGES], const uint64_t arc_words[DROGUE_HLS_ARCS],
+                             const drogue_edge_list *list)
 {
     const uint32_t edge_count = list->edge_count;
     const uint32_t arc_count = list->arc_count;

@@ -4,19 +4,19 @@
 
 #include <string.h>
 
-static void get_wide(drogue_wide *v, const int64_t words[2])
+static inline void get_wide(drogue_wide *v, const int64_t words[2])
 {
     v->mantissa = words[0];
     v->exponent = (int32_t)words[1];
 }
 
-static void put_wide(int64_t words[2], const drogue_wide *v)
+static inline void put_wide(int64_t words[2], const drogue_wide *v)
 {
     words[0] = v->mantissa;
     words[1] = v->exponent;
 }
 
-static void load(drogue_kalman *filter, const int64_t memory[DROGUE_HLS_FILTER_WORDS])
+static inline void load(drogue_kalman *filter, const int64_t memory[DROGUE_HLS_FILTER_WORDS])
 {
     int p;
     int k;
@@ -31,7 +31,7 @@ static void load(drogue_kalman *filter, const int64_t memory[DROGUE_HLS_FILTER_W
     }
 }
 
-static void store(int64_t memory[DROGUE_HLS_FILTER_WORDS], const drogue_kalman *filter)
+static inline void store(int64_t memory[DROGUE_HLS_FILTER_WORDS], const drogue_kalman *filter)
 {
     int p;
     int k;
@@ -48,13 +48,13 @@ static void store(int64_t memory[DROGUE_HLS_FILTER_WORDS], const drogue_kalman *
 
 /* Are command and arguments in range? */
 static int valid(uint32_t command, uint32_t dt_us, const drogue_q16 std[DROGUE_PARAMETERS],
-                 const drogue_q16 process[4 * DROGUE_PARAMETERS])
+                 const drogue_q16 noise[4 * DROGUE_PARAMETERS])
 {
     int32_t least = 0;
     int32_t least_std = 1;
     int k;
     for (k = 0; k < 4 * DROGUE_PARAMETERS; k++) {
-        least = process[k] < least ? process[k] : least;
+        least = noise[k] < least ? noise[k] : least;
     }
     for (k = 0; k < DROGUE_PARAMETERS; k++) {
         least_std = std[k] < least_std ? std[k] : least_std;
@@ -67,18 +67,18 @@ static int valid(uint32_t command, uint32_t dt_us, const drogue_q16 std[DROGUE_P
 }
 
 static void start(drogue_kalman *filter, uint32_t which, const drogue_q16 value[DROGUE_PARAMETERS],
-                  const drogue_q16 process[4 * DROGUE_PARAMETERS])
+                  const drogue_q16 noise[4 * DROGUE_PARAMETERS])
 {
     int p;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         if ((which >> p & 1u) != 0) {
-            drogue_kalman_restart(filter, p, value[p], process + DROGUE_PARAMETERS + 3 * p);
+            drogue_kalman_restart(filter, p, value[p], noise + DROGUE_PARAMETERS + 3 * p);
         }
     }
 }
 
 int32_t drogue_hls_filter(uint32_t command, uint32_t which, uint32_t dt_us, const int32_t value[DROGUE_PARAMETERS],
-                          const int32_t std[DROGUE_PARAMETERS], const int32_t process[4 * DROGUE_PARAMETERS],
+                          const int32_t std[DROGUE_PARAMETERS], const int32_t noise[4 * DROGUE_PARAMETERS],
                           int64_t memory[DROGUE_HLS_FILTER_WORDS], int32_t states[3 * DROGUE_PARAMETERS],
                           int64_t value_std[DROGUE_PARAMETERS])
 {
@@ -88,7 +88,7 @@ int32_t drogue_hls_filter(uint32_t command, uint32_t which, uint32_t dt_us, cons
 #pragma HLS interface mode = s_axilite port = dt_us
 #pragma HLS interface mode = s_axilite port = value
 #pragma HLS interface mode = s_axilite port = std
-#pragma HLS interface mode = s_axilite port = process
+#pragma HLS interface mode = s_axilite port = noise
 #pragma HLS interface mode = s_axilite port = states
 #pragma HLS interface mode = s_axilite port = value_std
 #pragma HLS interface mode = s_axilite port = return
@@ -96,7 +96,7 @@ int32_t drogue_hls_filter(uint32_t command, uint32_t which, uint32_t dt_us, cons
     drogue_kalman filter;
     drogue_q16 v[DROGUE_PARAMETERS];
     drogue_q16 s[DROGUE_PARAMETERS];
-    drogue_q16 noise[4 * DROGUE_PARAMETERS];
+    drogue_q16 n[4 * DROGUE_PARAMETERS];
     drogue_q16 state[DROGUE_PARAMETERS];
     int64_t deviation[DROGUE_PARAMETERS];
     int ok;
@@ -107,18 +107,18 @@ int32_t drogue_hls_filter(uint32_t command, uint32_t which, uint32_t dt_us, cons
         s[k] = std[k];
     }
     for (k = 0; k < 4 * DROGUE_PARAMETERS; k++) {
-        noise[k] = process[k];
+        n[k] = noise[k];
     }
     memset(&filter, 0, sizeof filter);
-    ok = valid(command, dt_us, s, noise);
+    ok = valid(command, dt_us, s, n);
     if (ok) {
         if (command != DROGUE_HLS_FILTER_START) {
             load(&filter, memory);
         }
         if (command <= DROGUE_HLS_FILTER_RESTART) {
-            start(&filter, command == DROGUE_HLS_FILTER_START ? 31u : which, v, noise);
+            start(&filter, command == DROGUE_HLS_FILTER_START ? 31u : which, v, n);
         } else {
-            drogue_kalman_predict(&filter, dt_us, noise);
+            drogue_kalman_predict(&filter, dt_us, n);
         }
         if (command == DROGUE_HLS_FILTER_STEP) {
             drogue_kalman_correct(&filter, v, s);

@@ -24,7 +24,7 @@ enum drogue_hls_filter_command {
  *  dt_us      microseconds, [1, 2^31); STEP and COAST
  *  value      measured; START, RESTART, STEP
  *  std        of the measurement, > 0; STEP
- *  process    standard deviation of the change of acceleration per step, five; then at a start those of value, rate and
+ *  noise    standard deviation of the change of acceleration per step, five; then at a start those of value, rate and
  *             acceleration of each parameter
  *  memory     in and out
  *  states     out: five values, five rates, five accelerations, Q16
@@ -32,7 +32,7 @@ enum drogue_hls_filter_command {
  *  return     DROGUE_OK; DROGUE_E_ARGUMENT: 'memory' is left alone, states and value_std are 0
  */
 int32_t drogue_hls_filter(uint32_t command, uint32_t which, uint32_t dt_us, const int32_t value[DROGUE_PARAMETERS],
-                          const int32_t std[DROGUE_PARAMETERS], const int32_t process[4 * DROGUE_PARAMETERS],
+                          const int32_t std[DROGUE_PARAMETERS], const int32_t noise[4 * DROGUE_PARAMETERS],
                           int64_t memory[DROGUE_HLS_FILTER_WORDS], int32_t states[3 * DROGUE_PARAMETERS],
                           int64_t value_std[DROGUE_PARAMETERS]);
 

@@ -9,7 +9,7 @@
 
 static int32_t value[DROGUE_PARAMETERS];
 static int32_t std_q16[DROGUE_PARAMETERS];
-static int32_t process[4 * DROGUE_PARAMETERS];
+static int32_t noise[4 * DROGUE_PARAMETERS];
 static int64_t memory[DROGUE_HLS_FILTER_WORDS];
 static int32_t states[3 * DROGUE_PARAMETERS];
 static int64_t value_std[DROGUE_PARAMETERS];
@@ -18,11 +18,11 @@ static int32_t command(uint32_t what, uint32_t which, uint32_t dt_us)
 {
     SIM_ARRAY(3, value);
     SIM_ARRAY(4, std_q16);
-    SIM_ARRAY(5, process);
+    SIM_ARRAY(5, noise);
     SIM_ARRAY(6, memory);
     SIM_ARRAY(7, states);
     SIM_ARRAY(8, value_std);
-    return drogue_hls_filter(what, which, dt_us, value, std_q16, process, memory, states, value_std);
+    return drogue_hls_filter(what, which, dt_us, value, std_q16, noise, memory, states, value_std);
 }
 
 static void compare_wide(bench *b, size_t at, const drogue_wide *expected)
@@ -62,8 +62,8 @@ static void run_commands(bench *b, drogue_kalman *filter)
     int64_t before[DROGUE_HLS_FILTER_WORDS];
     size_t k;
     (void)bench_word(b, "restart", command(DROGUE_HLS_FILTER_RESTART, 24, 0), DROGUE_OK);
-    drogue_kalman_restart(filter, DROGUE_PITCH, value[DROGUE_PITCH], process + 5 + 3 * DROGUE_PITCH);
-    drogue_kalman_restart(filter, DROGUE_YAW, value[DROGUE_YAW], process + 5 + 3 * DROGUE_YAW);
+    drogue_kalman_restart(filter, DROGUE_PITCH, value[DROGUE_PITCH], noise + 5 + 3 * DROGUE_PITCH);
+    drogue_kalman_restart(filter, DROGUE_YAW, value[DROGUE_YAW], noise + 5 + 3 * DROGUE_YAW);
     compare(b, filter);
     memcpy(before, memory, sizeof before);
     (void)bench_word(b, "unknown command", command(4, 31, 1), DROGUE_E_ARGUMENT);
@@ -89,10 +89,10 @@ static void run(bench *b, const conf_case *c)
     size_t k;
     memset(memory, 0x55, sizeof memory);
     for (k = 0; k < 20; k++) {
-        process[k] = (int32_t)conf_word(in, 1 + k);
+        noise[k] = (int32_t)conf_word(in, 1 + k);
     }
     for (k = 0; k < 15; k++) {
-        start[k / 3][k % 3] = process[5 + k];
+        start[k / 3][k % 3] = noise[5 + k];
     }
     for (k = 0; k < DROGUE_PARAMETERS; k++) {
         value[k] = (int32_t)conf_word(in, 21 + k);
@@ -109,7 +109,7 @@ static void run(bench *b, const conf_case *c)
         }
         (void)bench_word(
             b, "step", command(std_q16[0] > 0 ? DROGUE_HLS_FILTER_STEP : DROGUE_HLS_FILTER_COAST, 0, dt_us), DROGUE_OK);
-        drogue_kalman_predict(&filter, dt_us, process);
+        drogue_kalman_predict(&filter, dt_us, noise);
         if (std_q16[0] > 0) {
             drogue_kalman_correct(&filter, value, std_q16);
         }
