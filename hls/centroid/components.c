@@ -148,11 +148,10 @@ static void begin_frame(registers *r, held_sums *h)
     h->y = 0;
 }
 
-void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, const drogue_hls_region *region,
-                                const drogue_mask *disc, uint8_t threshold, uint32_t *full)
+void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int32_t centre2_x,
+                                int32_t centre2_y, int32_t longest_px, uint8_t threshold, uint32_t *full)
 {
-    const int32_t width = region->width_px;
-    const int32_t height = region->height_px;
+    const drogue_mask disc = {centre2_x, centre2_y, longest_px};
     registers r;
     held_sums held;
     int32_t x;
@@ -160,7 +159,7 @@ void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, const drogue
     begin_frame(&r, &held);
     for (y = 0; y < height + LAG; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT + LAG
-        const int64_t most_x9 = drogue_mask_disc_row(disc, y);
+        const int64_t most_x9 = drogue_mask_disc_row(&disc, y);
         begin_row(&r);
         for (x = 0; x < width + LAG; x++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH + LAG
@@ -179,7 +178,7 @@ void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, const drogue
 #endif
             uint32_t bit = 1;
             if (x < width && y < height) {
-                bit = drogue_hls_is_dark(pixels[at++], threshold, drogue_hls_in_disc(x, disc->centre2_x, most_x9));
+                bit = drogue_hls_is_dark(pixels[at++], threshold, drogue_hls_in_disc(x, centre2_x, most_x9));
             }
             r.dark = drogue_hls_shift_window(r.dark, take_column(dark_rows, x, width, y == 0, bit, 7u));
             bit = y >= 1 && y <= height ? drogue_hls_erode(r.dark) : 0;
