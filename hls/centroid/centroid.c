@@ -169,8 +169,6 @@ void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_DARK_PASSES * DROGUE_HL
 {
 #ifdef __BAMBU__
 #pragma HLS interface port = pixels mode = fifo
-#pragma HLS interface port = expected mode = m_axi
-#pragma HLS interface port = dark mode = m_axi
 #else
 #pragma HLS interface port = pixels mode = axis
 #pragma HLS interface port = expected mode = s_axilite
