@@ -7,11 +7,11 @@
 
 enum { LEVELS = 256, RAMPS = 3, MIDDLE = 1 };
 
-static uint32_t histogram[LEVELS];
+static uint32_t histogram[LEVELS + 1]; /* the last bin is that of pixels outside the disc */
 
 /* The two bins counted last: a table of two cycles' latency serves a pixel a cycle, whatever the levels are. */
 typedef struct recent_bins {
-    uint32_t level[2]; /* LEVELS: none */
+    uint32_t level[2];
     uint32_t count[2];
 } recent_bins;
 
@@ -36,10 +36,11 @@ static uint8_t take_threshold(const uint8_t *pixels, uint32_t at, int32_t width,
 {
     const drogue_mask disc = {centre2_x, centre2_y, longest_px};
     recent_bins recent = {{LEVELS, LEVELS}, {0, 0}};
+    uint32_t bin = LEVELS; /* of the pixel before */
     int32_t level;
     int32_t x;
     int32_t y;
-    for (level = 0; level < LEVELS; level++) {
+    for (level = 0; level <= LEVELS; level++) {
         histogram[level] = 0;
     }
     for (y = 0; y < height; y++) {
@@ -52,12 +53,12 @@ static uint8_t take_threshold(const uint8_t *pixels, uint32_t at, int32_t width,
 /* What the last two ticks wrote comes from registers. */
 #pragma HLS dependence variable = histogram type = inter direction = RAW distance = 3 true
 #endif
-            const uint8_t pixel = pixels[at++];
-            if (drogue_hls_in_disc(x, centre2_x, most_x9) != 0) {
-                count_level(&recent, pixel);
-            }
+            const uint8_t pixel = drogue_hls_take_pixel(pixels, at++);
+            count_level(&recent, bin);
+            bin = drogue_hls_in_disc(x, centre2_x, most_x9) != 0 ? pixel : LEVELS;
         }
     }
+    count_level(&recent, bin);
     return drogue_otsu(histogram);
 }
 
@@ -87,7 +88,7 @@ static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, u
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 #endif
-            const uint8_t pixel = pixels[at++];
+            const uint8_t pixel = drogue_hls_take_pixel(pixels, at++);
             const uint32_t within = drogue_hls_in_disc(x, centre2_x, most_x9);
             for (k = 0; k < RAMPS; k++) { /* the pipeline unrolls it */
                 const int32_t darkness = (int32_t)drogue_hls_darkness(pixel, full + (k - MIDDLE) * step, range, within);
