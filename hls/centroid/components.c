@@ -172,12 +172,13 @@ void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, int32_t widt
 #pragma HLS dependence variable = x_sum type = inter direction = RAW distance = 3 true
 #pragma HLS dependence variable = y_sum type = inter direction = RAW distance = 3 true
 #endif
+            const uint32_t in_disc = r.in_disc;
+            r.in_disc = drogue_hls_in_disc(x + 1, centre2_x, most_x9);
             tick(&r, &held, x, y, width, height);
             r.bit = 1;
             if (x < width && y < height) {
-                r.bit = drogue_hls_is_dark(drogue_hls_take_pixel(pixels, at++), threshold, r.in_disc);
+                r.bit = drogue_hls_is_dark(drogue_hls_take_pixel(pixels, at++), threshold, in_disc);
             }
-            r.in_disc = drogue_hls_in_disc(x + 1, centre2_x, most_x9);
         }
         drogue_labels_resolve(parent, merges, r.merge_count);
     }
