@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Dark components of a stream of pixels. Tick x of row y takes pixel (x, y) in and labels (x - 5, y - 2); the stages
+/* Dark components of a stream of pixels. Tick x of row y takes pixel (x, y) in and sums (x - 6, y - 2); the stages
  * between run from the last to the first, each on what the one before it left in the tick before, so that they are
  * independent within a tick. Nothing is stored on a condition: what is not wanted goes where nobody looks. */
 #include "components.h"
 
 #include "operators.h"
 
-enum { LAG_ROWS = 2, LAG = 5, AHEAD = 3, MERGES = DROGUE_HLS_WIDTH / 2 + 2 };
+enum { LAG_ROWS = 2, LAG = 6, LABEL_LAG = 5, AHEAD = 3, MERGES = DROGUE_HLS_WIDTH / 2 + 2 };
 
 /* Line buffers, by the tick that writes a word. Of bits: row y - 1 in bit 0, row y - 2 in bit 1, as they come in; a word
  * is read and written once in a tick and not again before the next row. */
@@ -124,20 +124,22 @@ static void begin_frame(registers *r, held_sums *h)
     h->y = 0;
 }
 
-/* The stages of a tick but the first, from the last on. */
+/* The stages of a tick but the first, from the last on: sums of column x - 6, label of x - 5. Memories are read before
+ * they are written. */
 static void tick(registers *r, held_sums *h, int32_t x, int32_t y, int32_t width, int32_t height)
 {
-    const int32_t at = x - LAG;
+    const int32_t at = x - LABEL_LAG;
     const int opened = at >= 0 && at < width && y >= LAG_ROWS && drogue_hls_dilate(r->eroded) != 0;
-    const uint32_t label = label_pixel(r, opened);
     const uint32_t eroded = y >= 1 && y <= height ? drogue_hls_erode(r->dark) : 0;
-    label_row[x] = label;
-    add_pixel(h, label, (uint32_t)at, (uint32_t)(y - LAG_ROWS));
-    r->left = label;
+    const uint32_t root = parent[r->stored];
+    const uint32_t stored = label_row[x + AHEAD];
+    add_pixel(h, r->left, (uint32_t)(at - 1), (uint32_t)(y - LAG_ROWS));
+    r->left = label_pixel(r, opened);
+    label_row[x] = r->left;
     r->above_left = r->above;
     r->above = r->root;
-    r->root = parent[r->stored];
-    r->stored = x >= LAG - AHEAD && x < width + LAG - AHEAD && y > LAG_ROWS ? label_row[x + AHEAD] : 0;
+    r->root = root;
+    r->stored = x >= LABEL_LAG - AHEAD && x < width + LABEL_LAG - AHEAD && y > LAG_ROWS ? stored : 0;
     r->eroded =
         drogue_hls_shift_window(r->eroded, take_column(&eroded_rows[x], x >= 3 && x < width + 3, y == 0, eroded, 0));
     r->dark = drogue_hls_shift_window(r->dark, take_column(&dark_rows[x], x >= 1 && x < width + 1, y == 0, r->bit, 7u));
