@@ -33,19 +33,18 @@ static void weigh(drogue_dark_part *part, const drogue_image *image, const drogu
 
 /* Weigh the part about its own threshold, that of a window about it, then at the lower and the upper ramp: the middle
  * of the two, and how far apart they are. */
-static void weigh_about(drogue_dark_part *part, uint32_t *histogram, const drogue_image *image,
-                        const drogue_ellipse *expected)
+static void weigh_about(drogue_dark_part *part, uint32_t *histogram, const drogue_image *image, drogue_q16 a_px_q16)
 {
     drogue_mask window;
     drogue_dark_part lower;
     drogue_dark_part upper;
     drogue_dark_ramp ramp;
-    drogue_dark_window(&window, part, expected, DROGUE_DARK_WIDE);
+    drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_WIDE);
     part->threshold = drogue_disc_threshold(histogram, image, &window);
     drogue_dark_ramp_of(&ramp, part, histogram);
-    drogue_dark_window(&window, part, expected, DROGUE_DARK_NARROW);
+    drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
     weigh(part, image, &window, &ramp);
-    drogue_dark_window(&window, part, expected, DROGUE_DARK_NARROW);
+    drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
     weigh(part, image, &window, &ramp);
     lower = *part;
     upper = *part;
@@ -68,7 +67,7 @@ drogue_status drogue_dark_disc_find(drogue_dark_part *out, uint32_t *which, drog
                                     workspace->arc_component, pass.labels.count, min_area, expected, count);
     }
     if (status == DROGUE_OK) {
-        weigh_about(out, workspace->histogram, image, &expected[*which]);
+        weigh_about(out, workspace->histogram, image, expected[*which].a_px_q16);
     }
     return status;
 }

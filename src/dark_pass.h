@@ -94,8 +94,7 @@ drogue_status drogue_dark_choose(drogue_dark_part *out, uint32_t *which, const u
  * weigh it. */
 #define DROGUE_DARK_WIDE DROGUE_Q16(16, 10)
 #define DROGUE_DARK_NARROW DROGUE_Q16(12, 10)
-void drogue_dark_window(drogue_mask *window, const drogue_dark_part *part, const drogue_ellipse *expected,
-                        drogue_q16 factor_q16);
+void drogue_dark_window(drogue_mask *window, const drogue_dark_part *part, drogue_q16 a_px_q16, drogue_q16 factor_q16);
 
 /* Contrast of a part and its ramp from its threshold and the histogram that gave that. The lower and the upper ramp
  * begin a third of the way to the dark level below and above. */

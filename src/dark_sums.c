@@ -114,12 +114,11 @@ drogue_status drogue_dark_choose(drogue_dark_part *out, uint32_t *which, const u
     return least == DROGUE_Q16_MAX ? DROGUE_E_NO_DARK_PART : DROGUE_OK;
 }
 
-void drogue_dark_window(drogue_mask *window, const drogue_dark_part *part, const drogue_ellipse *expected,
-                        drogue_q16 factor_q16)
+void drogue_dark_window(drogue_mask *window, const drogue_dark_part *part, drogue_q16 a_px_q16, drogue_q16 factor_q16)
 {
     window->centre2_x = (int32_t)drogue_shr_round_s64(part->x_px_q16, 15);
     window->centre2_y = (int32_t)drogue_shr_round_s64(part->y_px_q16, 15);
-    window->longest_px = (int32_t)drogue_shr_round_s64(3 * (int64_t)expected->a_px_q16 * factor_q16, 32) + 3;
+    window->longest_px = (int32_t)drogue_shr_round_s64(3 * (int64_t)a_px_q16 * factor_q16, 32) + 3;
 }
 
 void drogue_dark_ramp_of(drogue_dark_ramp *ramp, drogue_dark_part *part, const uint32_t *histogram)

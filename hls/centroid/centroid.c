@@ -7,11 +7,11 @@
 
 enum { LEVELS = 256, RAMPS = 3, MIDDLE = 1 };
 
-static uint32_t histogram[LEVELS];
+static uint32_t histogram[LEVELS + 1]; /* the last bin is that of pixels outside the disc */
 
 /* The two bins counted last: a table of two cycles' latency serves a pixel a cycle, whatever the levels are. */
 typedef struct recent_bins {
-    uint32_t level[2]; /* LEVELS: none */
+    uint32_t level[2];
     uint32_t count[2];
 } recent_bins;
 
@@ -29,22 +29,23 @@ static void count_level(recent_bins *recent, uint32_t level)
     histogram[level] = count;
 }
 
-/* Otsu's threshold of a disc, which leaves its histogram. */
-static uint8_t take_threshold(const uint8_t *pixels, uint32_t at, const drogue_hls_region *region,
-                              const drogue_mask *disc)
+/* Otsu's threshold of a disc, which leaves its histogram. What reads the stream takes scalars: Bambu loses the stream
+ * behind a pointer whose target the compiler would rather pass by value. */
+static uint8_t take_threshold(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int32_t centre2_x,
+                              int32_t centre2_y, int32_t longest_px)
 {
-    const int32_t width = region->width_px;
-    const int32_t height = region->height_px;
+    const drogue_mask disc = {centre2_x, centre2_y, longest_px};
     recent_bins recent = {{LEVELS, LEVELS}, {0, 0}};
+    uint32_t bin = LEVELS; /* of the pixel before */
     int32_t level;
     int32_t x;
     int32_t y;
-    for (level = 0; level < LEVELS; level++) {
+    for (level = 0; level <= LEVELS; level++) {
         histogram[level] = 0;
     }
     for (y = 0; y < height; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT
-        const int64_t most_x9 = drogue_mask_disc_row(disc, y);
+        const int64_t most_x9 = drogue_mask_disc_row(&disc, y);
         for (x = 0; x < width; x++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH
 #ifndef __BAMBU__
@@ -52,22 +53,23 @@ static uint8_t take_threshold(const uint8_t *pixels, uint32_t at, const drogue_h
 /* What the last two ticks wrote comes from registers. */
 #pragma HLS dependence variable = histogram type = inter direction = RAW distance = 3 true
 #endif
-            const uint8_t pixel = pixels[at++];
-            if (drogue_hls_in_disc(x, disc->centre2_x, most_x9) != 0) {
-                count_level(&recent, pixel);
-            }
+            const uint8_t pixel = drogue_hls_take_pixel(pixels, at++);
+            count_level(&recent, bin);
+            bin = drogue_hls_in_disc(x, centre2_x, most_x9) != 0 ? pixel : LEVELS;
         }
     }
+    count_level(&recent, bin);
     return drogue_otsu(histogram);
 }
 
 /* Darkness in a window about the part, by the lower, the middle and the upper ramp. */
-static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, uint32_t at,
-                          const drogue_hls_region *region, const drogue_mask *window, const drogue_dark_ramp *ramp)
+static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, uint32_t at, int32_t width,
+                          int32_t height, int32_t centre2_x, int32_t centre2_y, int32_t longest_px, int32_t full,
+                          int32_t range)
 {
-    const int32_t width = region->width_px;
-    const int32_t height = region->height_px;
-    const int32_t step = drogue_dark_ramp_step(ramp);
+    const drogue_mask window = {centre2_x, centre2_y, longest_px};
+    const drogue_dark_ramp ramp = {full, range};
+    const int32_t step = drogue_dark_ramp_step(&ramp);
     int32_t x;
     int32_t y;
     int32_t k;
@@ -78,7 +80,7 @@ static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, u
     }
     for (y = 0; y < height; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT
-        const int64_t most_x9 = drogue_mask_disc_row(window, y);
+        const int64_t most_x9 = drogue_mask_disc_row(&window, y);
         int32_t row_sum[RAMPS] = {0, 0, 0};
         int32_t row_x[RAMPS] = {0, 0, 0};
         for (x = 0; x < width; x++) {
@@ -86,11 +88,10 @@ static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, u
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 #endif
-            const uint8_t pixel = pixels[at++];
-            const uint32_t within = drogue_hls_in_disc(x, window->centre2_x, most_x9);
+            const uint8_t pixel = drogue_hls_take_pixel(pixels, at++);
+            const uint32_t within = drogue_hls_in_disc(x, centre2_x, most_x9);
             for (k = 0; k < RAMPS; k++) { /* the pipeline unrolls it */
-                const int32_t full = ramp->full + (k - MIDDLE) * step;
-                const int32_t darkness = (int32_t)drogue_hls_darkness(pixel, full, ramp->range, within);
+                const int32_t darkness = (int32_t)drogue_hls_darkness(pixel, full + (k - MIDDLE) * step, range, within);
                 row_sum[k] += darkness;
                 row_x[k] += darkness * x;
             }
@@ -102,23 +103,25 @@ static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, u
 }
 
 /* The last three passes: as the library weighs a part, with the three ramps in one pass. */
-static void weigh(drogue_dark_part *part, const uint8_t *pixels, uint32_t at, const drogue_hls_region *region,
-                  const drogue_ellipse *expected)
+static void weigh(drogue_dark_part *part, const uint8_t *pixels, uint32_t at, int32_t width, int32_t height,
+                  drogue_q16 a_px_q16)
 {
-    const uint32_t frame = (uint32_t)(region->width_px * region->height_px);
+    const uint32_t frame = (uint32_t)(width * height);
     drogue_dark_sums sums[RAMPS];
     drogue_mask window;
     drogue_dark_ramp ramp;
     drogue_dark_part lower;
     drogue_dark_part upper;
-    drogue_dark_window(&window, part, expected, DROGUE_DARK_WIDE);
-    part->threshold = take_threshold(pixels, at, region, &window);
+    drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_WIDE);
+    part->threshold = take_threshold(pixels, at, width, height, window.centre2_x, window.centre2_y, window.longest_px);
     drogue_dark_ramp_of(&ramp, part, histogram);
-    drogue_dark_window(&window, part, expected, DROGUE_DARK_NARROW);
-    take_darkness(sums, pixels, at + frame, region, &window, &ramp);
+    drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
+    take_darkness(sums, pixels, at + frame, width, height, window.centre2_x, window.centre2_y, window.longest_px,
+                  ramp.full, ramp.range);
     drogue_dark_place(part, &sums[MIDDLE], &ramp);
-    drogue_dark_window(&window, part, expected, DROGUE_DARK_NARROW);
-    take_darkness(sums, pixels, at + 2 * frame, region, &window, &ramp);
+    drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
+    take_darkness(sums, pixels, at + 2 * frame, width, height, window.centre2_x, window.centre2_y, window.longest_px,
+                  ramp.full, ramp.range);
     drogue_dark_place(part, &sums[MIDDLE], &ramp);
     lower = *part;
     upper = *part;
@@ -128,19 +131,19 @@ static void weigh(drogue_dark_part *part, const uint8_t *pixels, uint32_t at, co
 }
 
 /* All five passes; without a part the last three are taken all the same, for nothing. */
-static uint32_t find(drogue_dark_part *out, uint32_t *which, const uint8_t *pixels, const drogue_hls_region *region,
-                     const drogue_mask *disc, uint32_t min_area, const drogue_ellipse expected[DROGUE_HLS_DISCS],
-                     uint32_t count)
+static uint32_t find(drogue_dark_part *out, uint32_t *which, const uint8_t *pixels, int32_t width, int32_t height,
+                     int32_t centre2_x, int32_t centre2_y, int32_t longest_px, uint32_t min_area,
+                     const drogue_ellipse expected[DROGUE_HLS_DISCS], uint32_t count)
 {
-    const uint32_t frame = (uint32_t)(region->width_px * region->height_px);
+    const uint32_t frame = (uint32_t)(width * height);
     drogue_dark_part part = {0, 0, 0, 0, 0, 0};
     drogue_status status;
     uint32_t full;
-    part.threshold = take_threshold(pixels, 0, region, disc);
+    part.threshold = take_threshold(pixels, 0, width, height, centre2_x, centre2_y, longest_px);
     *out = part;
-    drogue_hls_take_components(pixels, frame, region, disc, part.threshold, &full);
+    drogue_hls_take_components(pixels, frame, width, height, centre2_x, centre2_y, longest_px, part.threshold, &full);
     status = drogue_hls_choose_components(&part, which, min_area, expected, count);
-    weigh(&part, pixels, 2 * frame, region, &expected[*which]);
+    weigh(&part, pixels, 2 * frame, width, height, expected[*which].a_px_q16);
     if (full != 0) {
         *which = 0;
         return DROGUE_E_LABELS_FULL | DROGUE_HLS_DARK_FULL;
@@ -151,14 +154,13 @@ static uint32_t find(drogue_dark_part *out, uint32_t *which, const uint8_t *pixe
     return (uint32_t)status;
 }
 
-static drogue_status check(const drogue_hls_region *region, const drogue_mask *disc, uint32_t count)
+static drogue_status check(int32_t width, int32_t height, const drogue_mask *disc, uint32_t count)
 {
-    if (region->width_px < 1 || region->width_px > DROGUE_MAX_SIDE || region->height_px < 1 ||
-        region->height_px > DROGUE_MAX_SIDE || !drogue_mask_valid(disc) || count > DROGUE_HLS_DISCS) {
+    if (width < 1 || width > DROGUE_MAX_SIDE || height < 1 || height > DROGUE_MAX_SIDE || !drogue_mask_valid(disc) ||
+        count > DROGUE_HLS_DISCS) {
         return DROGUE_E_ARGUMENT;
     }
-    return region->width_px > DROGUE_HLS_WIDTH || region->height_px > DROGUE_HLS_HEIGHT ? DROGUE_E_WORKSPACE
-                                                                                        : DROGUE_OK;
+    return width > DROGUE_HLS_WIDTH || height > DROGUE_HLS_HEIGHT ? DROGUE_E_WORKSPACE : DROGUE_OK;
 }
 
 void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_DARK_PASSES * DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
@@ -168,8 +170,6 @@ void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_DARK_PASSES * DROGUE_HL
 {
 #ifdef __BAMBU__
 #pragma HLS interface port = pixels mode = fifo
-#pragma HLS interface port = expected mode = m_axi
-#pragma HLS interface port = dark mode = m_axi
 #else
 #pragma HLS interface port = pixels mode = axis
 #pragma HLS interface port = expected mode = s_axilite
@@ -185,8 +185,7 @@ void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_DARK_PASSES * DROGUE_HL
 #endif
     drogue_dark_part part = {0, 0, 0, 0, 0, 0};
     drogue_ellipse discs[DROGUE_HLS_DISCS];
-    drogue_hls_region region;
-    drogue_mask disc;
+    const drogue_mask disc = {centre2_x, centre2_y, longest_px};
     uint32_t which = 0;
     uint32_t status;
     int32_t k;
@@ -198,14 +197,10 @@ void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_DARK_PASSES * DROGUE_HL
         discs[k].b_px_q16 = words[3];
         discs[k].angle_rad_q16 = words[4];
     }
-    region.width_px = width_px;
-    region.height_px = height_px;
-    disc.centre2_x = centre2_x;
-    disc.centre2_y = centre2_y;
-    disc.longest_px = longest_px;
-    status = (uint32_t)check(&region, &disc, count);
+    status = (uint32_t)check(width_px, height_px, &disc, count);
     if (status == DROGUE_OK) {
-        status = find(&part, &which, pixels, &region, &disc, min_area, discs, count);
+        status =
+            find(&part, &which, pixels, width_px, height_px, centre2_x, centre2_y, longest_px, min_area, discs, count);
     }
     dark[DROGUE_HLS_D_STATUS] = (int32_t)status;
     dark[DROGUE_HLS_D_X] = part.x_px_q16;
