@@ -11,44 +11,6 @@ void drogue_labels_reset(drogue_labels *labels, uint32_t *parent, uint32_t capac
     parent[0] = 0;
 }
 
-/* What the last two steps wrote. */
-typedef struct recent_parents {
-    uint32_t label[2];
-    uint32_t parent[2];
-} recent_parents;
-
-static uint32_t parent_of(const uint32_t *parent, const recent_parents *recent, uint32_t label)
-{
-    return label == recent->label[0]   ? recent->parent[0]
-           : label == recent->label[1] ? recent->parent[1]
-                                       : parent[label];
-}
-
-static void set_parent(uint32_t *parent, recent_parents *recent, uint32_t label, uint32_t to)
-{
-    recent->label[1] = recent->label[0];
-    recent->parent[1] = recent->parent[0];
-    recent->label[0] = label;
-    recent->parent[0] = to;
-    parent[label] = to;
-}
-
-void drogue_labels_resolve(uint32_t *parent, drogue_merge *merges, uint32_t count)
-{
-    recent_parents recent = {{0, 0}, {0, 0}};
-    uint32_t i;
-    for (i = 0; i < count; i++) {
-        uint32_t a = parent_of(parent, &recent, merges[i].a);
-        uint32_t b = parent_of(parent, &recent, merges[i].b);
-        merges[i].a = a < b ? a : b;
-        merges[i].b = a < b ? b : a;
-        set_parent(parent, &recent, merges[i].b, merges[i].a);
-    }
-    for (i = count; i > 0; i--) { /* a root that lost its place later has its own root by now */
-        set_parent(parent, &recent, merges[i - 1].b, parent_of(parent, &recent, merges[i - 1].a));
-    }
-}
-
 static uint32_t labels_new(drogue_labels *labels)
 {
     uint32_t label = labels->count;

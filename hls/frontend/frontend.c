@@ -165,12 +165,15 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
     point_list list = {0, 0};
     uint32_t taken = 0;
     uint32_t arcs_full;
+    uint32_t arcs_listed;
+    uint32_t left;
+    uint32_t in_arcs;
     int32_t x;
     int32_t y;
-    *edge_count = 0;
-    *arc_count = 0;
-    *status = (uint32_t)refused;
     if (refused != DROGUE_OK) {
+        *edge_count = 0;
+        *arc_count = 0;
+        *status = (uint32_t)refused;
         return;
     }
     row.width_px = width_px;
@@ -204,13 +207,16 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
         drogue_hls_labels_settle();
     }
     drogue_hls_labels_flatten(&labels);
-    *edge_count = drop_weak(list.count, labels.arc_count);
-    sort_points(edges, *edge_count, place_arcs(arcs, arc_count, &arcs_full, labels.arc_count, min_arc_px));
-    *status |= (labels.components_full ? DROGUE_HLS_COMPONENTS_FULL : 0u) |
-               (labels.arcs_full ? DROGUE_HLS_ARC_LABELS_FULL : 0u) | (list.full ? DROGUE_HLS_EDGES_FULL : 0u) |
-               (arcs_full ? DROGUE_HLS_ARCS_FULL : 0u);
-    *status |= (uint32_t)(labels.components_full || labels.arcs_full ? DROGUE_E_LABELS_FULL
-                          : list.full                                ? DROGUE_E_EDGES_FULL
-                          : arcs_full                                ? DROGUE_E_ARCS_FULL
-                                                                     : DROGUE_OK);
+    left = drop_weak(list.count, labels.arc_count);
+    in_arcs = place_arcs(arcs, &arcs_listed, &arcs_full, labels.arc_count, min_arc_px);
+    sort_points(edges, left, in_arcs);
+    *edge_count = left;
+    *arc_count = arcs_listed;
+    *status = (labels.components_full ? DROGUE_HLS_COMPONENTS_FULL : 0u) |
+              (labels.arcs_full ? DROGUE_HLS_ARC_LABELS_FULL : 0u) | (list.full ? DROGUE_HLS_EDGES_FULL : 0u) |
+              (arcs_full ? DROGUE_HLS_ARCS_FULL : 0u) |
+              (uint32_t)(labels.components_full || labels.arcs_full ? DROGUE_E_LABELS_FULL
+                         : list.full                                ? DROGUE_E_EDGES_FULL
+                         : arcs_full                                ? DROGUE_E_ARCS_FULL
+                                                                    : DROGUE_OK);
 }

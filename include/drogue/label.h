@@ -53,6 +53,28 @@ static inline uint32_t drogue_label_choose(uint32_t *merge_with, uint32_t above,
     return label;
 }
 
+/* What the last two steps of drogue_labels_resolve() wrote. */
+typedef struct drogue_recent_parents {
+    uint32_t label[2];
+    uint32_t parent[2];
+} drogue_recent_parents;
+
+static inline uint32_t drogue_parent_of(const uint32_t *parent, const drogue_recent_parents *recent, uint32_t label)
+{
+    return label == recent->label[0]   ? recent->parent[0]
+           : label == recent->label[1] ? recent->parent[1]
+                                       : parent[label];
+}
+
+static inline void drogue_set_parent(uint32_t *parent, drogue_recent_parents *recent, uint32_t label, uint32_t to)
+{
+    recent->label[1] = recent->label[0];
+    recent->parent[1] = recent->parent[0];
+    recent->label[0] = label;
+    recent->parent[0] = to;
+    parent[label] = to;
+}
+
 /* Resolve the merges of a row: after it every label that occurs in them points straight at its root.
  *
  *  parent  in/out; labels of the row above are roots, and so are new ones
@@ -62,7 +84,21 @@ static inline uint32_t drogue_label_choose(uint32_t *merge_with, uint32_t above,
  * are never met again through a label two steps from its root (Bailey and Johnston 2007). What the last two steps wrote
  * is taken from registers, so that a table of one cycle's latency serves a step a cycle in hardware.
  */
-void drogue_labels_resolve(uint32_t *parent, drogue_merge *merges, uint32_t count);
+static inline void drogue_labels_resolve(uint32_t *parent, drogue_merge *merges, uint32_t count)
+{
+    drogue_recent_parents recent = {{0, 0}, {0, 0}};
+    uint32_t i;
+    for (i = 0; i < count; i++) {
+        uint32_t a = drogue_parent_of(parent, &recent, merges[i].a);
+        uint32_t b = drogue_parent_of(parent, &recent, merges[i].b);
+        merges[i].a = a < b ? a : b;
+        merges[i].b = a < b ? b : a;
+        drogue_set_parent(parent, &recent, merges[i].b, merges[i].a);
+    }
+    for (i = count; i > 0; i--) { /* a root that lost its place later has its own root by now */
+        drogue_set_parent(parent, &recent, merges[i - 1].b, drogue_parent_of(parent, &recent, merges[i - 1].a));
+    }
+}
 
 /* Label one row: 8-connected pixels of equal key share a component. A pixel's key is code & mask; key 0 is background.
  *
