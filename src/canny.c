@@ -9,20 +9,15 @@ int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after)
     int32_t rest = 32 * slope + 33 * curvature; /* floor(rest / (2 curvature)) - 16 rounds 16 slope / curvature */
     int32_t offset = -16;
     int32_t bit;
-    if (curvature <= 0) {
-        return 0;
-    }
-    if (slope >= curvature || slope <= -curvature) { /* 16 and more */
-        return slope > 0 ? 15 : -15;
-    }
     DROGUE_NOTE("canny: offset numerator", rest, 18);
     for (bit = 4; bit >= 0; bit--) { /* a division whose quotient is in [0, 32) */
-        if (rest >= curvature << (bit + 1)) {
-            rest -= curvature << (bit + 1);
-            offset += 1 << bit;
-        }
+        const int32_t part = curvature * (2 << bit);
+        const int32_t fits = rest >= part;
+        rest -= fits ? part : 0;
+        offset += fits ? 1 << bit : 0;
     }
-    return offset < -15 ? -15 : offset;
+    offset = offset < -15 || slope <= -curvature ? -15 : slope >= curvature ? 15 : offset; /* 16 and more */
+    return curvature <= 0 ? 0 : offset;
 }
 
 void drogue_canny_row(uint8_t *out, const uint16_t *const magnitude[3], const int16_t *gx, const int16_t *gy,

@@ -4,7 +4,7 @@
 
 #include "stages.h"
 
-enum { LAG_PX = 8, LAG_ROWS = 4 }; /* ticks a pixel needs through the stages; rows */
+enum { LAG_PX = 10, LAG_ROWS = 4 }; /* ticks a pixel needs through the stages; rows */
 
 static uint64_t
     points[DROGUE_HLS_EDGES + 1]; /* candidates in the ring, packed; the last word takes what does not fit */
@@ -25,13 +25,13 @@ static void append(point_list *list, const drogue_hls_windows *w, int32_t x, int
     drogue_edge e;
     e.x_q5 = (uint16_t)(32 * x + (int8_t)(uint8_t)(w->code >> 8 & 0xFFu));
     e.y_q5 = (uint16_t)(32 * y + (int8_t)(uint8_t)(w->code >> 16 & 0xFFu));
-    e.gx = (int16_t)(uint16_t)(w->code_gradient & 0xFFFFu);
-    e.gy = (int16_t)(uint16_t)(w->code_gradient >> 16);
+    e.gx = (int16_t)(uint16_t)(w->gradients[1] & 0xFFFFu);
+    e.gy = (int16_t)(uint16_t)(w->gradients[1] >> 16);
     e.arc = arc;
     points[list->count] = drogue_hls_pack_edge(&e);
     point_arc[list->count] = arc;
-    list->count += arc != 0 && room;
-    list->full |= arc != 0 && !room;
+    list->count += (arc != 0) & room;
+    list->full |= (arc != 0) & (room ^ 1u);
 }
 
 /* Keep the points whose component is strong; count those of each arc. Returns their number. */
@@ -132,8 +132,7 @@ static void prepare_row(drogue_hls_row *row, const drogue_mask *ring, int32_t y)
 void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], uint64_t edges[DROGUE_HLS_EDGES],
                          uint64_t arcs[DROGUE_HLS_ARCS], int32_t width_px, int32_t height_px, int32_t canny_low,
                          int32_t canny_high, int32_t smooth, uint32_t min_arc_px, int32_t use_ring, int32_t centre2_x,
-                         int32_t centre2_y, int32_t longest_px, uint32_t *edge_count, uint32_t *arc_count,
-                         uint32_t *status)
+                         int32_t centre2_y, int32_t longest_px, uint32_t results[DROGUE_HLS_FRONTEND_RESULTS])
 {
 #ifdef __BAMBU__
 #pragma HLS interface port = pixels mode = fifo
@@ -153,9 +152,7 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
 #pragma HLS interface mode = s_axilite port = centre2_x
 #pragma HLS interface mode = s_axilite port = centre2_y
 #pragma HLS interface mode = s_axilite port = longest_px
-#pragma HLS interface mode = s_axilite port = edge_count
-#pragma HLS interface mode = s_axilite port = arc_count
-#pragma HLS interface mode = s_axilite port = status
+#pragma HLS interface mode = s_axilite port = results
 #pragma HLS interface mode = s_axilite port = return
 #endif
     const drogue_mask ring = {centre2_x, centre2_y, longest_px};
@@ -171,9 +168,9 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
     int32_t x;
     int32_t y;
     if (refused != DROGUE_OK) {
-        *edge_count = 0;
-        *arc_count = 0;
-        *status = (uint32_t)refused;
+        results[DROGUE_HLS_FRONTEND_EDGE_COUNT] = 0;
+        results[DROGUE_HLS_FRONTEND_ARC_COUNT] = 0;
+        results[DROGUE_HLS_FRONTEND_STATUS] = (uint32_t)refused;
         return;
     }
     row.width_px = width_px;
@@ -185,7 +182,7 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
     drogue_hls_labels_begin(&labels);
     for (y = 0; y < height_px + LAG_ROWS; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT + LAG_ROWS
-        drogue_hls_windows w = {{0}, {0}, 0, {{0}}, 0, {{0}}, 0, 0, 0};
+        drogue_hls_windows w = {{0}, {0}, 0, {{0}}, 0, {0}, 0, {{0}}, 0, 0, {0}, 0};
         prepare_row(&row, &ring, y);
         drogue_hls_labels_row(&labels);
         for (x = 0; x < width_px + LAG_PX; x++) {
@@ -193,13 +190,16 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 #endif
-            const uint32_t arc = drogue_hls_label_stage(&labels, &row, x - LAG_PX, w.code);
             uint8_t pixel = 0;
-            append(&list, &w, x - LAG_PX, y - LAG_ROWS, arc);
-            if (x < width_px && y < height_px) {
+            uint32_t arc;
+            if ((x < width_px) & (y < height_px)) {
                 pixel = pixels[taken++];
             }
-            drogue_hls_suppress_stage(&w, &row, x - 6);
+            arc = drogue_hls_label_stage(&labels, &row, x - LAG_PX, w.code);
+            append(&list, &w, x - LAG_PX, y - LAG_ROWS, arc);
+            drogue_hls_locate_stage(&w);
+            drogue_hls_suppress_stage(&w, &row, x - 7);
+            drogue_hls_column_stage(&w, &row, x - 6);
             drogue_hls_gradient_stage(&w, &row, x - 4);
             drogue_hls_smooth_horizontally(&w, &row, x - 1);
             drogue_hls_smooth_vertically(&w, &row, x, pixel);
@@ -210,13 +210,14 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
     left = drop_weak(list.count, labels.arc_count);
     in_arcs = place_arcs(arcs, &arcs_listed, &arcs_full, labels.arc_count, min_arc_px);
     sort_points(edges, left, in_arcs);
-    *edge_count = left;
-    *arc_count = arcs_listed;
-    *status = (labels.components_full ? DROGUE_HLS_COMPONENTS_FULL : 0u) |
-              (labels.arcs_full ? DROGUE_HLS_ARC_LABELS_FULL : 0u) | (list.full ? DROGUE_HLS_EDGES_FULL : 0u) |
-              (arcs_full ? DROGUE_HLS_ARCS_FULL : 0u) |
-              (uint32_t)(labels.components_full || labels.arcs_full ? DROGUE_E_LABELS_FULL
-                         : list.full                                ? DROGUE_E_EDGES_FULL
-                         : arcs_full                                ? DROGUE_E_ARCS_FULL
-                                                                    : DROGUE_OK);
+    results[DROGUE_HLS_FRONTEND_EDGE_COUNT] = left;
+    results[DROGUE_HLS_FRONTEND_ARC_COUNT] = arcs_listed;
+    results[DROGUE_HLS_FRONTEND_STATUS] = (labels.components_full ? DROGUE_HLS_COMPONENTS_FULL : 0u) |
+                                          (labels.arcs_full ? DROGUE_HLS_ARC_LABELS_FULL : 0u) |
+                                          (list.full ? DROGUE_HLS_EDGES_FULL : 0u) |
+                                          (arcs_full ? DROGUE_HLS_ARCS_FULL : 0u) |
+                                          (uint32_t)(labels.components_full || labels.arcs_full ? DROGUE_E_LABELS_FULL
+                                                     : list.full                                ? DROGUE_E_EDGES_FULL
+                                                     : arcs_full                                ? DROGUE_E_ARCS_FULL
+                                                                                                : DROGUE_OK);
 }

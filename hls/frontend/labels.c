@@ -57,19 +57,20 @@ void drogue_hls_labels_row(drogue_hls_labels *l)
 /* Table of a key; that of key 0 is any, its label is 0. */
 static uint32_t table(uint32_t key) { return (key + KEYS - 1u) % KEYS; }
 
-/* Let the window move one column to the right; x is the one it comes to. */
+/* Let the window move one column to the right; x is the one it leaves. */
 static void move_window(drogue_hls_labels *l, const drogue_hls_row *row, int32_t x)
 {
-    const int inside = row->y > 4 && x + 2 >= 0 && x + 2 < row->width_px;
-    const int32_t word = inside ? x + 2 : OUTSIDE;
+    const int inside = (row->y > 4) & (x + 3 >= 0) & (x + 3 < row->width_px);
+    const uint32_t known = drogue_hls_when(inside);
+    const int32_t word = inside ? x + 3 : OUTSIDE;
     l->above[0] = l->above[1];
     l->above[1] = l->above[2];
     l->above[2].component = component_parent[l->next.component];
     l->above[2].arc = arc_parent[table(l->next.key)][l->next.arc];
     l->above[2].key = l->next.key;
-    l->next.component = inside ? component_row[word] : 0;
-    l->next.arc = inside ? arc_row[word] : 0;
-    l->next.key = inside ? key_row[word] : 0;
+    l->next.component = component_row[word] & known;
+    l->next.arc = arc_row[word] & known;
+    l->next.key = key_row[word] & known;
 }
 
 /* Label of a pixel's component; 0 when it is no candidate, or the table is full. */
@@ -83,19 +84,24 @@ static uint32_t label_component(drogue_hls_labels *l, uint32_t code)
     const uint32_t strong = code / STRONG & 1u;
     const uint32_t new = candidate &&near == 0;
     const uint32_t room = l->component_count < DROGUE_HLS_LABELS;
-    const uint32_t label = !candidate ? 0 : !new ? near : room ? l->component_count : 0;
+    const uint32_t label =
+        drogue_hls_when((int)candidate) & (near | (l->component_count & drogue_hls_when((int)(new &room))));
+    const uint32_t fresh = drogue_hls_when((int)new);
     drogue_merge *merge = &component_merges[component_merge_count];
     merge->a = near;
     merge->b = merge_with;
-    component_merge_count += candidate && merge_with != 0;
-    component_parent[new ? label : 0] = new ? label : 0;
-    component_strong[new || strong ? label : 0] = (uint8_t)strong;
+    component_merge_count += candidate & (merge_with != 0);
+    component_parent[label & fresh] = label & fresh;
+    component_strong[label & (fresh | drogue_hls_when((int)strong))] = (uint8_t)strong;
     l->component_count += new &&room;
-    l->components_full |= new && !room;
+    l->components_full |= new &(room ^ 1u);
     return label;
 }
 
-static uint32_t arc_of(const drogue_hls_labelled *pixel, uint32_t key) { return pixel->key == key ? pixel->arc : 0; }
+static uint32_t arc_of(const drogue_hls_labelled *pixel, uint32_t key)
+{
+    return pixel->arc & drogue_hls_when(pixel->key == key);
+}
 
 /* Label of the arc of a point of the given key, in the component given; 0 when the key is, or the table is full. */
 static uint32_t label_arc(drogue_hls_labels *l, uint32_t key, uint32_t component)
@@ -105,19 +111,21 @@ static uint32_t label_arc(drogue_hls_labels *l, uint32_t key, uint32_t component
     const uint32_t merge_with = (uint32_t)(chosen >> 32);
     const uint32_t near = (uint32_t)(chosen & 0xFFFFFFFFu);
     const uint32_t in = table(key);
-    const uint32_t new = key != 0 && near == 0;
+    const uint32_t keyed = key != 0;
+    const uint32_t new = keyed &(near == 0);
+    const uint32_t fresh = drogue_hls_when((int)new);
     const uint32_t room = l->arc_count < DROGUE_HLS_LABELS;
-    const uint32_t label = key == 0 ? 0 : !new ? near : room ? l->arc_count : 0;
+    const uint32_t label = drogue_hls_when((int)keyed) & (near | (l->arc_count & drogue_hls_when((int)(new &room))));
     const uint32_t merges = arc_merge_count[in];
     drogue_merge *merge = &arc_merges[in][merges];
     merge->a = near;
     merge->b = merge_with;
-    arc_merge_count[in] = merges + (key != 0 && merge_with != 0);
-    arc_parent[in][new ? label : 0] = new ? label : 0;
-    arc_key[new ? label : 0] = (uint8_t)key;
+    arc_merge_count[in] = merges + (keyed & (merge_with != 0));
+    arc_parent[in][label & fresh] = label & fresh;
+    arc_key[label & fresh] = (uint8_t)key;
     arc_component[label] = component; /* all points of an arc are in one component */
     l->arc_count += new &&room;
-    l->arcs_full |= new && !room;
+    l->arcs_full |= new &(room ^ 1u);
     return label;
 }
 
@@ -131,18 +139,18 @@ uint32_t drogue_hls_label_stage(drogue_hls_labels *l, const drogue_hls_row *row,
 /* Read: labels of the rows above. Written: new ones. */
 #pragma HLS dependence variable = component_parent type = inter false
 #pragma HLS dependence variable = arc_parent type = inter false
-    const int32_t word = x >= 0 && x < row->width_px ? x : OUTSIDE;
+    const int32_t word = (x >= 0) & (x < row->width_px) ? x : OUTSIDE;
     drogue_hls_labelled pixel;
     uint32_t key;
-    move_window(l, row, x);
     pixel.component = label_component(l, code);
-    key = pixel.component != 0 ? code >> KEY_SHIFT & 7u : 0;
+    key = code >> KEY_SHIFT & 7u & drogue_hls_when(pixel.component != 0);
     pixel.arc = label_arc(l, key, pixel.component);
-    pixel.key = pixel.arc != 0 ? key : 0;
+    pixel.key = key & drogue_hls_when(pixel.arc != 0);
     component_row[word] = pixel.component;
     arc_row[word] = pixel.arc;
     key_row[word] = (uint8_t)pixel.key;
     l->left = pixel;
+    move_window(l, row, x);
     return pixel.arc;
 }
 

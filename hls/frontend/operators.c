@@ -31,26 +31,35 @@ uint16_t drogue_hls_magnitude(uint32_t gradient)
     return drogue_magnitude_l1((int16_t)(uint16_t)(gradient & 0xFFFFu), (int16_t)(uint16_t)(gradient >> 16));
 }
 
-uint32_t drogue_hls_suppress(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2, uint16_t b0,
+/* All bits when the condition (0 or 1) holds. */
+static uint32_t when(int condition) { return 0u - (uint32_t)condition; }
+
+uint64_t drogue_hls_suppress(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2, uint16_t b0,
                              uint16_t b1, uint16_t b2, uint32_t gradient, uint16_t low, uint16_t high)
 {
     const int16_t gx = (int16_t)(uint16_t)(gradient & 0xFFFFu);
     const int16_t gy = (int16_t)(uint16_t)(gradient >> 16);
     const drogue_sector sector = drogue_canny_sector(gx, gy);
-    const int32_t before = sector == DROGUE_SECTOR_HORIZONTAL ? c0
-                           : sector == DROGUE_SECTOR_VERTICAL ? t1
-                           : sector == DROGUE_SECTOR_DIAGONAL ? t0
-                                                              : t2;
-    const int32_t after = sector == DROGUE_SECTOR_HORIZONTAL ? c2
-                          : sector == DROGUE_SECTOR_VERTICAL ? b1
-                          : sector == DROGUE_SECTOR_DIAGONAL ? b2
-                                                             : b0;
-    const int32_t offset_q5 = drogue_canny_offset_q5(before, c1, after);
+    const uint32_t horizontal = when(sector == DROGUE_SECTOR_HORIZONTAL);
+    const uint32_t vertical = when(sector == DROGUE_SECTOR_VERTICAL);
+    const uint32_t diagonal = when(sector == DROGUE_SECTOR_DIAGONAL);
+    const uint32_t antidiagonal = when(sector == DROGUE_SECTOR_ANTIDIAGONAL);
+    const uint32_t before = (c0 & horizontal) | (t1 & vertical) | (t0 & diagonal) | (t2 & antidiagonal);
+    const uint32_t after = (c2 & horizontal) | (b1 & vertical) | (b2 & diagonal) | (b0 & antidiagonal);
+    const uint32_t code = 1u | (uint32_t)(c1 > high) << 1 | (drogue_direction_class(gx, gy) + 1u) << 2;
+    const int kept = (c1 > low) & drogue_canny_is_maximum(sector, (int32_t)before, c1, (int32_t)after);
+    return (code & when(kept)) | (uint32_t)sector << 6 | (uint64_t)before << 16 | (uint64_t)c1 << 32 |
+           (uint64_t)after << 48;
+}
+
+uint32_t drogue_hls_locate(uint64_t suppressed)
+{
+    const drogue_sector sector = (drogue_sector)(suppressed >> 6 & 3u);
+    const int32_t offset_q5 = drogue_canny_offset_q5(
+        (int32_t)(suppressed >> 16 & 0xFFFFu), (int32_t)(suppressed >> 32 & 0xFFFFu), (int32_t)(suppressed >> 48));
     const uint32_t dx = (uint8_t)(drogue_canny_step_x(sector) * offset_q5);
     const uint32_t dy = (uint8_t)(drogue_canny_step_y(sector) * offset_q5);
-    const uint32_t direction = drogue_direction_class(gx, gy) + 1u;
-    const uint32_t code = 1u | (c1 > high ? 2u : 0u) | direction << 2 | dx << 8 | dy << 16;
-    return c1 > low && drogue_canny_is_maximum(sector, before, c1, after) ? code : 0;
+    return (uint32_t)(suppressed & 0x1Fu) | dx << 8 | dy << 16;
 }
 
 uint32_t drogue_hls_in_ring(int32_t x, int32_t centre2_x, int64_t least_x9, int64_t most)

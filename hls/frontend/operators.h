@@ -19,10 +19,15 @@ uint32_t drogue_hls_gradient(uint8_t t0, uint8_t t1, uint8_t t2, uint8_t c0, uin
 /* L1 magnitude of a gradient word. */
 uint16_t drogue_hls_magnitude(uint32_t gradient);
 
-/* Non-maximum suppression and thresholds: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1, bits 8-15 and
- * 16-23 the subpixel offset in x and y, Q5. 0 when the pixel is no candidate. */
-uint32_t drogue_hls_suppress(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2, uint16_t b0,
+/* Non-maximum suppression and thresholds: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1, all 0 when the
+ * pixel is no candidate; bits 6-7 sector of the gradient; bits 16-31, 32-47, 48-63 the magnitudes before, at and after it,
+ * across the edge. */
+uint64_t drogue_hls_suppress(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2, uint16_t b0,
                              uint16_t b1, uint16_t b2, uint32_t gradient, uint16_t low, uint16_t high);
+
+/* Code of a candidate by what drogue_hls_suppress() says of it: bits 0-4 as there, bits 8-15 and 16-23 the subpixel offset
+ * in x and y, Q5. */
+uint32_t drogue_hls_locate(uint64_t suppressed);
 
 /* Ring mask: is column x of a row within it? The bounds are those of drogue_mask_ring_row(). */
 uint32_t drogue_hls_in_ring(int32_t x, int32_t centre2_x, int64_t least_x9, int64_t most);

@@ -12,7 +12,7 @@ static uint16_t smooth_rows[WORDS];   /* the two above the newest */
 static uint32_t gradient_row[WORDS];  /* the one above the newest */
 static uint16_t magnitude_row[WORDS]; /* and the one above that */
 
-static int is_inside(const drogue_hls_row *row, int32_t x) { return x >= 0 && x < row->width_px; }
+static int is_inside(const drogue_hls_row *row, int32_t x) { return (x >= 0) & (x < row->width_px); }
 
 static uint8_t pick(uint32_t tap, uint32_t older, uint8_t newest)
 {
@@ -71,33 +71,47 @@ void drogue_hls_gradient_stage(drogue_hls_windows *w, const drogue_hls_row *row,
                                       w->levels[1][2], w->levels[2][0], w->levels[2][1], w->levels[2][2]);
 }
 
-void drogue_hls_suppress_stage(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x)
+void drogue_hls_column_stage(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x)
 {
     const int32_t at = row->y - 4; /* row suppressed */
     const int inside = is_inside(row, x);
     const int32_t word = inside ? x : OUTSIDE;
-    const uint32_t below = w->gradient;
     const uint32_t middle = gradient_row[word];
     const uint16_t above = magnitude_row[word];
-    const uint16_t middle_magnitude = drogue_hls_magnitude(middle);
-    uint32_t code;
+    const uint16_t magnitude = drogue_hls_magnitude(middle);
+    const uint16_t below = drogue_hls_magnitude(w->gradient);
+    gradient_row[word] = w->gradient;
+    magnitude_row[word] = magnitude;
+    w->column[0] = (uint16_t)(above & drogue_hls_when(inside & (at >= 1)));
+    w->column[1] = (uint16_t)(magnitude & drogue_hls_when(inside));
+    w->column[2] = (uint16_t)(below & drogue_hls_when(inside & (at + 1 < row->height_px)));
+    w->column_gradient = middle;
+}
+
+void drogue_hls_suppress_stage(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x)
+{
+    const uint32_t begun = drogue_hls_when(x > 0);
+    const int inside = (x >= 1) & (x <= row->width_px) & (row->y >= 4);
     uint32_t in_ring;
+    uint32_t kept;
     int k;
-    gradient_row[word] = below;
-    magnitude_row[word] = middle_magnitude;
     for (k = 0; k < 3; k++) {
-        w->magnitude[k][0] = x <= 0 ? 0 : w->magnitude[k][1];
-        w->magnitude[k][1] = x <= 0 ? 0 : w->magnitude[k][2];
+        w->magnitude[k][0] = (uint16_t)(w->magnitude[k][1] & begun);
+        w->magnitude[k][1] = (uint16_t)(w->magnitude[k][2] & begun);
+        w->magnitude[k][2] = w->column[k];
     }
-    w->magnitude[0][2] = inside && at >= 1 ? above : 0;
-    w->magnitude[1][2] = inside ? middle_magnitude : 0;
-    w->magnitude[2][2] = inside && at + 1 < row->height_px ? drogue_hls_magnitude(below) : 0;
-    w->code_gradient = w->middle_gradient;
-    w->middle_gradient = middle;
-    code = drogue_hls_suppress(w->magnitude[0][0], w->magnitude[0][1], w->magnitude[0][2], w->magnitude[1][0],
-                               w->magnitude[1][1], w->magnitude[1][2], w->magnitude[2][0], w->magnitude[2][1],
-                               w->magnitude[2][2], w->code_gradient, row->low, row->high);
+    w->gradients[0] = w->middle_gradient;
+    w->middle_gradient = w->column_gradient;
     in_ring = drogue_hls_in_ring(x - 1, row->ring.centre2_x, row->ring.least_x9, row->ring.most);
-    code &= row->use_ring && !in_ring ? ~UINT32_C(0x1C) : ~UINT32_C(0);
-    w->code = x >= 1 && x <= row->width_px && at >= 0 ? code : 0;
+    kept = (0x1Fu & ~(drogue_hls_when((row->use_ring != 0) & (in_ring == 0)) & 0x1Cu)) & drogue_hls_when(inside);
+    w->suppressed = drogue_hls_suppress(w->magnitude[0][0], w->magnitude[0][1], w->magnitude[0][2], w->magnitude[1][0],
+                                        w->magnitude[1][1], w->magnitude[1][2], w->magnitude[2][0], w->magnitude[2][1],
+                                        w->magnitude[2][2], w->gradients[0], row->low, row->high) &
+                    ~(uint64_t)(0x1Fu & ~kept);
+}
+
+void drogue_hls_locate_stage(drogue_hls_windows *w)
+{
+    w->code = drogue_hls_locate(w->suppressed);
+    w->gradients[1] = w->gradients[0];
 }

@@ -7,6 +7,9 @@
 
 #include "../drogue_hls.h"
 
+/* All bits when the condition (0 or 1) holds: masks instead of branches, so that a tick is one block of operations. */
+static inline uint32_t drogue_hls_when(int condition) { return 0u - (uint32_t)condition; }
+
 /* What holds for a row of ticks. Row y of pixels comes in; row y - 2 is smoothed, y - 3 has its gradient taken, y - 4 is
  * suppressed and labelled. */
 typedef struct drogue_hls_row {
@@ -23,15 +26,18 @@ typedef struct drogue_hls_row {
 
 /* Registers between the stages of pixels.c; all 0 at the start of a row. */
 typedef struct drogue_hls_windows {
-    uint16_t sum[5];      /* vertical sums of columns x - 4 .. x */
-    uint8_t middle[5];    /* and their middle pixels */
-    uint8_t level;        /* smoothed pixel */
-    uint8_t levels[3][3]; /* window of smoothed pixels, [row][column] */
-    uint32_t gradient;    /* of one pixel */
+    uint16_t sum[5];          /* vertical sums of columns x - 4 .. x */
+    uint8_t middle[5];        /* and their middle pixels */
+    uint8_t level;            /* smoothed pixel */
+    uint8_t levels[3][3];     /* window of smoothed pixels, [row][column] */
+    uint32_t gradient;        /* of one pixel */
+    uint16_t column[3];       /* magnitudes of a column, top to bottom */
+    uint32_t column_gradient; /* gradient of its middle */
     uint16_t magnitude[3][3];
-    uint32_t middle_gradient; /* of the middle row, right column */
-    uint32_t code;            /* drogue_hls_suppress()'s, class bits 0 outside the ring */
-    uint32_t code_gradient;   /* the gradient of that pixel */
+    uint32_t middle_gradient; /* of the window's right column */
+    uint64_t suppressed;      /* drogue_hls_suppress()'s word, class bits 0 outside the ring */
+    uint32_t gradients[2];    /* of that pixel, and of the one of 'code' */
+    uint32_t code;            /* drogue_hls_locate()'s */
 } drogue_hls_windows;
 
 /* Stages of pixels.c; 'x' is the column of the pixel that each takes in, which the caller delays: a stage does nothing
@@ -39,7 +45,10 @@ typedef struct drogue_hls_windows {
 void drogue_hls_smooth_vertically(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x, uint8_t pixel);
 void drogue_hls_smooth_horizontally(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x);
 void drogue_hls_gradient_stage(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x);
+void drogue_hls_column_stage(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x);
 void drogue_hls_suppress_stage(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x);
+
+void drogue_hls_locate_stage(drogue_hls_windows *w);
 
 /* A pixel of the row above and its labels. */
 typedef struct drogue_hls_labelled {

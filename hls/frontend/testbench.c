@@ -23,16 +23,17 @@ typedef struct answer {
 
 static answer run_block(const drogue_frontend_config *c, int32_t width_px, int32_t height_px)
 {
-    answer a = {77, 77, 77};
+    uint32_t results[DROGUE_HLS_FRONTEND_RESULTS];
+    answer a;
     SIM_ARRAY(0, pixels);
     SIM_ARRAY(1, edges);
     SIM_ARRAY(2, arcs);
-    SIM_ARRAY(13, a.edge_count);
-    SIM_ARRAY(14, a.arc_count);
-    SIM_ARRAY(15, a.status);
+    SIM_ARRAY(13, results);
     drogue_hls_frontend(pixels, edges, arcs, width_px, height_px, c->canny_low, c->canny_high, c->smooth, c->min_arc_px,
-                        c->use_ring, c->ring.centre2_x, c->ring.centre2_y, c->ring.longest_px, &a.edge_count,
-                        &a.arc_count, &a.status);
+                        c->use_ring, c->ring.centre2_x, c->ring.centre2_y, c->ring.longest_px, results);
+    a.edge_count = results[DROGUE_HLS_FRONTEND_EDGE_COUNT];
+    a.arc_count = results[DROGUE_HLS_FRONTEND_ARC_COUNT];
+    a.status = results[DROGUE_HLS_FRONTEND_STATUS];
     return a;
 }
 

@@ -39,18 +39,10 @@ void drogue_labels_reset(drogue_labels *labels, uint32_t *parent, uint32_t capac
 static inline uint32_t drogue_label_choose(uint32_t *merge_with, uint32_t above, uint32_t left, uint32_t above_left,
                                            uint32_t above_right)
 {
-    uint32_t label = left != 0 ? left : above_left;
-    *merge_with = 0;
-    if (above != 0) { /* left, above left and above right all touch it: they are joined already or will be */
-        return above;
-    }
-    if (label == 0) {
-        return above_right;
-    }
-    if (above_right != label) {
-        *merge_with = above_right;
-    }
-    return label;
+    const uint32_t label = left != 0 ? left : above_left;
+    /* Left, above left and above right all touch the one above: they are joined already or will be. */
+    *merge_with = (above == 0) & (label != 0) & (above_right != label) ? above_right : 0;
+    return above != 0 ? above : label != 0 ? label : above_right;
 }
 
 /* What the last two steps of drogue_labels_resolve() wrote. */

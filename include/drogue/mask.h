@@ -46,7 +46,7 @@ static inline int drogue_ring_row_holds(const drogue_ring_row *row, int32_t x)
 {
     int64_t dx = 2 * x - row->centre2_x;
     int64_t d = dx * dx;
-    return 9 * d >= row->least_x9 && d <= row->most;
+    return (9 * d >= row->least_x9) & (d <= row->most);
 }
 
 static inline int drogue_mask_in_ring(const drogue_mask *mask, int32_t x, int32_t y)
