@@ -4,7 +4,7 @@
 
 #include "stages.h"
 
-enum { LAG_PX = 10, LAG_ROWS = 4 }; /* ticks a pixel needs through the stages; rows */
+enum { LAG_PX = 11, LAG_ROWS = 4 }; /* ticks a pixel needs through the stages; rows */
 
 static uint64_t
     points[DROGUE_HLS_EDGES + 1]; /* candidates in the ring, packed; the last word takes what does not fit */
@@ -161,6 +161,7 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
     drogue_hls_labels labels;
     point_list list = {0, 0};
     uint32_t taken = 0;
+    uint8_t pixel = 0;
     uint32_t arcs_full;
     uint32_t arcs_listed;
     uint32_t left;
@@ -190,19 +191,17 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 #endif
-            uint8_t pixel = 0;
-            uint32_t arc;
-            if ((x < width_px) & (y < height_px)) {
-                pixel = pixels[taken++];
-            }
-            arc = drogue_hls_label_stage(&labels, &row, x - LAG_PX, w.code);
+            const uint32_t arc = drogue_hls_label_stage(&labels, &row, x - LAG_PX, w.code);
             append(&list, &w, x - LAG_PX, y - LAG_ROWS, arc);
             drogue_hls_locate_stage(&w);
-            drogue_hls_suppress_stage(&w, &row, x - 7);
-            drogue_hls_column_stage(&w, &row, x - 6);
-            drogue_hls_gradient_stage(&w, &row, x - 4);
-            drogue_hls_smooth_horizontally(&w, &row, x - 1);
-            drogue_hls_smooth_vertically(&w, &row, x, pixel);
+            drogue_hls_suppress_stage(&w, &row, x - 8);
+            drogue_hls_column_stage(&w, &row, x - 7);
+            drogue_hls_gradient_stage(&w, &row, x - 5);
+            drogue_hls_smooth_horizontally(&w, &row, x - 2);
+            drogue_hls_smooth_vertically(&w, &row, x - 1, pixel);
+            if ((x < width_px) & (y < height_px)) { /* for the next tick */
+                pixel = pixels[taken++];
+            }
         }
         drogue_hls_labels_settle();
     }

@@ -57,20 +57,20 @@ void drogue_hls_labels_row(drogue_hls_labels *l)
 /* Table of a key; that of key 0 is any, its label is 0. */
 static uint32_t table(uint32_t key) { return (key + KEYS - 1u) % KEYS; }
 
-/* Let the window move one column to the right; x is the one it leaves. */
-static void move_window(drogue_hls_labels *l, const drogue_hls_row *row, int32_t x)
+/* The pixel that enters the window next, with its roots; the one after it is read. */
+static drogue_hls_labelled fetch(drogue_hls_labels *l, const drogue_hls_row *row, int32_t x)
 {
-    const int inside = (row->y > 4) & (x + 3 >= 0) & (x + 3 < row->width_px);
+    const int inside = (row->y > 4) & (x >= 0) & (x < row->width_px);
     const uint32_t known = drogue_hls_when(inside);
-    const int32_t word = inside ? x + 3 : OUTSIDE;
-    l->above[0] = l->above[1];
-    l->above[1] = l->above[2];
-    l->above[2].component = component_parent[l->next.component];
-    l->above[2].arc = arc_parent[table(l->next.key)][l->next.arc];
-    l->above[2].key = l->next.key;
+    const int32_t word = inside ? x : OUTSIDE;
+    drogue_hls_labelled next;
+    next.component = component_parent[l->next.component];
+    next.arc = arc_parent[table(l->next.key)][l->next.arc];
+    next.key = l->next.key;
     l->next.component = component_row[word] & known;
     l->next.arc = arc_row[word] & known;
     l->next.key = key_row[word] & known;
+    return next;
 }
 
 /* Label of a pixel's component; 0 when it is no candidate, or the table is full. */
@@ -140,6 +140,7 @@ uint32_t drogue_hls_label_stage(drogue_hls_labels *l, const drogue_hls_row *row,
 #pragma HLS dependence variable = component_parent type = inter false
 #pragma HLS dependence variable = arc_parent type = inter false
     const int32_t word = (x >= 0) & (x < row->width_px) ? x : OUTSIDE;
+    const drogue_hls_labelled next = fetch(l, row, x + 3);
     drogue_hls_labelled pixel;
     uint32_t key;
     pixel.component = label_component(l, code);
@@ -150,7 +151,9 @@ uint32_t drogue_hls_label_stage(drogue_hls_labels *l, const drogue_hls_row *row,
     arc_row[word] = pixel.arc;
     key_row[word] = (uint8_t)pixel.key;
     l->left = pixel;
-    move_window(l, row, x);
+    l->above[0] = l->above[1];
+    l->above[1] = l->above[2];
+    l->above[2] = next;
     return pixel.arc;
 }
 

@@ -57,8 +57,10 @@ uint32_t drogue_hls_locate(uint64_t suppressed)
     const drogue_sector sector = (drogue_sector)(suppressed >> 6 & 3u);
     const int32_t offset_q5 = drogue_canny_offset_q5(
         (int32_t)(suppressed >> 16 & 0xFFFFu), (int32_t)(suppressed >> 32 & 0xFFFFu), (int32_t)(suppressed >> 48));
-    const uint32_t dx = (uint8_t)(drogue_canny_step_x(sector) * offset_q5);
-    const uint32_t dy = (uint8_t)(drogue_canny_step_y(sector) * offset_q5);
+    /* drogue_canny_step_x(), _y() times the offset, without a multiplier at the end of the chain */
+    const int32_t sideways = sector == DROGUE_SECTOR_ANTIDIAGONAL ? -offset_q5 : offset_q5;
+    const uint32_t dx = (uint8_t)(sector == DROGUE_SECTOR_VERTICAL ? 0 : sideways);
+    const uint32_t dy = (uint8_t)(sector == DROGUE_SECTOR_HORIZONTAL ? 0 : offset_q5);
     return (uint32_t)(suppressed & 0x1Fu) | dx << 8 | dy << 16;
 }
 
