@@ -20,7 +20,6 @@ foreach file {
     ../../hls/frontend/operators.c
     ../../hls/frontend/pixels.c
     ../../src/canny.c
-    ../../src/label.c
 } {
     add_files $file -cflags $flags
 }
@@ -51,6 +50,7 @@ foreach file {
     ../../src/joint_model.c
     ../../src/joint_weights.c
     ../../src/kalman.c
+    ../../src/label.c
     ../../src/moments.c
     ../../src/otsu.c
     ../../src/outline.c
