@@ -41,7 +41,7 @@ static inline uint32_t drogue_label_choose(uint32_t *merge_with, uint32_t above,
 {
     const uint32_t label = left != 0 ? left : above_left;
     /* Left, above left and above right all touch the one above: they are joined already or will be. */
-    *merge_with = (above == 0) & (label != 0) & (above_right != label) ? above_right : 0;
+    *merge_with = ((above == 0) & (label != 0) & (above_right != label)) ? above_right : 0;
     return above != 0 ? above : label != 0 ? label : above_right;
 }
 

@@ -44,8 +44,8 @@ static inline drogue_ring_row drogue_mask_ring_row(const drogue_mask *mask, int3
 
 static inline int drogue_ring_row_holds(const drogue_ring_row *row, int32_t x)
 {
-    int64_t dx = 2 * x - row->centre2_x;
-    int64_t d = dx * dx;
+    const int64_t dx = 2 * (int64_t)x - row->centre2_x;
+    const int64_t d = dx * dx;
     return (9 * d >= row->least_x9) & (d <= row->most);
 }
 
@@ -64,8 +64,8 @@ static inline int64_t drogue_mask_disc_row(const drogue_mask *mask, int32_t y)
 
 static inline int drogue_disc_row_holds(int64_t most_x9, int32_t centre2_x, int32_t x)
 {
-    int32_t dx = 2 * x - centre2_x; /* below 2^15 + 2^12 for the sides of a region: its square fits 32 bits */
-    return 9 * (int64_t)(dx * dx) <= most_x9;
+    const int64_t dx = 2 * (int64_t)x - centre2_x;
+    return 9 * dx * dx <= most_x9;
 }
 
 static inline int drogue_mask_in_disc(const drogue_mask *mask, int32_t x, int32_t y)
