@@ -139,7 +139,7 @@ uint32_t drogue_hls_label_stage(drogue_hls_labels *l, const drogue_hls_row *row,
 /* Read: labels of the rows above. Written: new ones. */
 #pragma HLS dependence variable = component_parent type = inter false
 #pragma HLS dependence variable = arc_parent type = inter false
-    const int32_t word = (x >= 0) & (x < row->width_px) ? x : OUTSIDE;
+    const int32_t word = ((x >= 0) & (x < row->width_px)) ? x : OUTSIDE;
     const drogue_hls_labelled next = fetch(l, row, x + 3);
     drogue_hls_labelled pixel;
     uint32_t key;
