@@ -33,6 +33,31 @@
 #define DROGUE_HLS_ARCS_FULL 0x800u
 #define DROGUE_HLS_DARK_FULL 0x1000u /* labels of dark components */
 
+/* All bits when the condition (0 or 1) holds: masks instead of branches, so that a tick is one block of operations. */
+static inline uint32_t drogue_hls_when(int condition) { return 0u - (uint32_t)condition; }
+
+#define DROGUE_HLS_ELLIPSE_WORDS 5 /* xc yc a b angle, as drogue_ellipse */
+
+static inline drogue_ellipse drogue_hls_unpack_ellipse(const int32_t words[DROGUE_HLS_ELLIPSE_WORDS])
+{
+    drogue_ellipse e;
+    e.xc_px_q16 = words[0];
+    e.yc_px_q16 = words[1];
+    e.a_px_q16 = words[2];
+    e.b_px_q16 = words[3];
+    e.angle_rad_q16 = words[4];
+    return e;
+}
+
+static inline void drogue_hls_pack_ellipse(int32_t words[DROGUE_HLS_ELLIPSE_WORDS], const drogue_ellipse *e)
+{
+    words[0] = e->xc_px_q16;
+    words[1] = e->yc_px_q16;
+    words[2] = e->a_px_q16;
+    words[3] = e->b_px_q16;
+    words[4] = e->angle_rad_q16;
+}
+
 /* Word of the edge list: x_q5, y_q5, gx, gy from the lowest bits up, 16 each. Points of arc 0, 1, ... first. */
 static inline uint64_t drogue_hls_pack_edge(const drogue_edge *e)
 {

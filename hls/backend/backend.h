@@ -140,26 +140,6 @@ enum drogue_hls_result_word {
 #define DROGUE_HLS_COVARIANCE_WORDS 15 /* Q48, of x y z yaw pitch, by rows of the lower triangle */
 #define DROGUE_HLS_STD_WORDS 4         /* Q32, of x y z (m), axis (rad) */
 
-static inline drogue_ellipse drogue_hls_unpack_ellipse(const int32_t words[5])
-{
-    drogue_ellipse e;
-    e.xc_px_q16 = words[0];
-    e.yc_px_q16 = words[1];
-    e.a_px_q16 = words[2];
-    e.b_px_q16 = words[3];
-    e.angle_rad_q16 = words[4];
-    return e;
-}
-
-static inline void drogue_hls_pack_ellipse(int32_t words[5], const drogue_ellipse *e)
-{
-    words[0] = e->xc_px_q16;
-    words[1] = e->yc_px_q16;
-    words[2] = e->a_px_q16;
-    words[3] = e->b_px_q16;
-    words[4] = e->angle_rad_q16;
-}
-
 static inline void drogue_hls_unpack_pose(drogue_pose *p, const int32_t words[8])
 {
     int k;

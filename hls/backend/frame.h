@@ -29,28 +29,13 @@ typedef struct frame {
     int32_t words[DROGUE_HLS_OUTLINE_WORDS]; /* of the outline's top */
 } frame;
 
-static inline void frame_clip(int32_t *at, int32_t *length, int32_t limit)
-{
-    const int32_t end = *at + *length;
-    *at = *at < 0 ? 0 : *at;
-    *length = (end > limit ? limit : end) - *at;
-}
-
 /* The part of the region within the image, and the mask of the whole region in its coordinates; 0 when there is none or
  * the blocks are too small. */
 static inline int frame_place(frame *f)
 {
-    const int32_t most = DROGUE_MAX_REGION;
-    f->region = f->asked;
-    if (f->asked.width_px < 1 || f->asked.height_px < 1 || f->asked.width_px > most || f->asked.height_px > most ||
-        f->asked.x_px > most || f->asked.x_px < -most || f->asked.y_px > most || f->asked.y_px < -most) {
+    if (!bench_place(&f->region, &f->p.mask, &f->image, &f->asked)) {
         return 0;
     }
-    frame_clip(&f->region.x_px, &f->region.width_px, f->image.width_px);
-    frame_clip(&f->region.y_px, &f->region.height_px, f->image.height_px);
-    f->p.mask = drogue_mask_of_size(f->asked.width_px, f->asked.height_px);
-    f->p.mask.centre2_x += 2 * (f->asked.x_px - f->region.x_px);
-    f->p.mask.centre2_y += 2 * (f->asked.y_px - f->region.y_px);
     f->p.x_px = f->region.x_px;
     f->p.y_px = f->region.y_px;
     f->view = f->image;

@@ -10,14 +10,14 @@ if ! command -v bambu >/dev/null; then
     exit 77
 fi
 status=0
-for folder in frontend centroid; do
-    for operator in $(grep -oE '\bdrogue_hls_[a-z_]+\(' "hls/$folder/operators.h" | tr -d '(' | awk '!seen[$0]++'); do
+for header in hls/choose_label.h hls/frontend/operators.h hls/centroid/operators.h; do
+    for operator in $(grep -oE '\bdrogue_hls_[a-z_]+\(' "$header" | tr -d '(' | awk '!seen[$0]++'); do
         work=build/hls/bambu/operators/$operator
         rm -rf "$work"
         mkdir -p "$work"
         (cd "$work" && bambu "--top-fname=$operator" --std=c99 -O2 "--pipelining=$operator=1" \
             "--device-name=${DROGUE_HLS_BAMBU_DEVICE:-xc7z020,-1,clg484,VVD}" \
-            "--clock-period=${DROGUE_HLS_CLOCK_NS:-5}" "-I$root/include" "-I$root/hls" "$root/hls/$folder/operators.c" \
+            "--clock-period=${DROGUE_HLS_CLOCK_NS:-5}" "-I$root/include" "-I$root/hls" "$root/${header%.h}.c" \
             "$root/src/canny.c" >log 2>&1 </dev/null)
         verdict=PASS
         if [ ! -s "$work/$operator.v" ] || ! grep -q 'Required pipelining with II=1' "$work/log"; then

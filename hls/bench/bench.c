@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "drogue/drogue.h"
+
 enum { MOST_FAILURES = 100 }; /* an exit status holds 8 bits */
 
 void bench_begin(bench *b, const char *name)
@@ -176,4 +178,19 @@ drogue_region bench_region(const conf_case *c)
     region.width_px = w[2];
     region.height_px = w[3];
     return region;
+}
+
+int bench_place(drogue_region *part, drogue_mask *mask, const drogue_image *image, const drogue_region *region)
+{
+    *part = *region;
+    if (region->width_px < 1 || region->height_px < 1 || region->width_px > DROGUE_MAX_REGION ||
+        region->height_px > DROGUE_MAX_REGION) {
+        return 0;
+    }
+    drogue_clip(&part->x_px, &part->width_px, image->width_px);
+    drogue_clip(&part->y_px, &part->height_px, image->height_px);
+    *mask = drogue_mask_of_size(region->width_px, region->height_px);
+    mask->centre2_x += 2 * (region->x_px - part->x_px);
+    mask->centre2_y += 2 * (region->y_px - part->y_px);
+    return 1;
 }

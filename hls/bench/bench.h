@@ -15,7 +15,7 @@
 #define DROGUE_HLS_BENCH_H
 
 #include "conformance.h"
-#include "drogue/types.h"
+#include "drogue/mask.h"
 
 typedef struct bench {
     const char *name;
@@ -62,5 +62,9 @@ drogue_image bench_image(const conf_case *c);
 drogue_camera bench_camera(const conf_case *c);
 drogue_model bench_model(const conf_case *c);
 drogue_region bench_region(const conf_case *c);
+
+/* The part of a region within the image, its sides 0 or less when there is none, and the mask of the whole region in the
+ * part's coordinates. Returns 0 when drogue_measure() takes no region of such sides. */
+int bench_place(drogue_region *part, drogue_mask *mask, const drogue_image *image, const drogue_region *region);
 
 #endif

@@ -5,9 +5,10 @@
 
 #ifdef __BAMBU_SIM__
 #include <mdpi/mdpi_user.h>
-#define SIM_ARRAY(index, array) m_param_alloc(index, sizeof(array))
+#define SIM_BYTES(index, bytes) m_param_alloc(index, bytes)
 #else
-#define SIM_ARRAY(index, array) ((void)0)
+#define SIM_BYTES(index, bytes) ((void)(bytes))
 #endif
+#define SIM_ARRAY(index, array) SIM_BYTES(index, sizeof(array))
 
 #endif

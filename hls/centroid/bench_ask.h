@@ -6,11 +6,9 @@
 #include <string.h>
 
 #include "bench/bench.h"
+#include "bench/sim.h"
 #include "centroid.h"
 #include "drogue/centroid.h"
-#ifdef __BAMBU_SIM__
-#include <mdpi/mdpi_user.h>
-#endif
 
 enum { MOST_PIXELS = DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT, GUARD = 0x5A5A5A5A };
 
@@ -58,23 +56,14 @@ static void ask_block(int32_t dark[DROGUE_HLS_DARK_WORDS], const question *q)
     const size_t sent = fits(q) ? send(q) : 0;
     int k;
     for (k = 0; k < DROGUE_HLS_DISCS; k++) {
-        int32_t *to = expected + k * DROGUE_HLS_ELLIPSE_WORDS;
-        to[0] = q->expected[k].xc_px_q16;
-        to[1] = q->expected[k].yc_px_q16;
-        to[2] = q->expected[k].a_px_q16;
-        to[3] = q->expected[k].b_px_q16;
-        to[4] = q->expected[k].angle_rad_q16;
+        drogue_hls_pack_ellipse(expected + k * DROGUE_HLS_ELLIPSE_WORDS, &q->expected[k]);
     }
     for (k = 0; k < DROGUE_HLS_DARK_WORDS; k++) {
         out[k] = GUARD; /* all are written */
     }
-#ifdef __BAMBU_SIM__
-    m_param_alloc(0, sent);
-    m_param_alloc(1, sizeof expected);
-    m_param_alloc(2, sizeof out);
-#else
-    (void)sent;
-#endif
+    SIM_BYTES(0, sent);
+    SIM_ARRAY(1, expected);
+    SIM_ARRAY(2, out);
     drogue_hls_centroid(stream, expected, out, q->image.width_px, q->image.height_px, q->disc.centre2_x,
                         q->disc.centre2_y, q->disc.longest_px, q->min_area, q->count);
     memcpy(dark, out, sizeof out);

@@ -190,12 +190,7 @@ void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_DARK_PASSES * DROGUE_HL
     uint32_t status;
     int32_t k;
     for (k = 0; k < DROGUE_HLS_DISCS; k++) {
-        const int32_t *words = &expected[k * DROGUE_HLS_ELLIPSE_WORDS];
-        discs[k].xc_px_q16 = words[0];
-        discs[k].yc_px_q16 = words[1];
-        discs[k].a_px_q16 = words[2];
-        discs[k].b_px_q16 = words[3];
-        discs[k].angle_rad_q16 = words[4];
+        discs[k] = drogue_hls_unpack_ellipse(&expected[k * DROGUE_HLS_ELLIPSE_WORDS]);
     }
     status = (uint32_t)check(width_px, height_px, &disc, count);
     if (status == DROGUE_OK) {

@@ -9,8 +9,7 @@
  * those chosen; to weigh their darkness; to weigh it about the place found. */
 #define DROGUE_HLS_DARK_PASSES 5
 
-#define DROGUE_HLS_DISCS 2         /* expected discs at most */
-#define DROGUE_HLS_ELLIPSE_WORDS 5 /* xc yc a b angle, as drogue_ellipse */
+#define DROGUE_HLS_DISCS 2 /* expected discs at most */
 
 /* The part: words of drogue_dark_part, what drogue_dark_disc_find() returns and its 'which'. */
 enum drogue_hls_dark_word {

@@ -4,6 +4,7 @@
  * independent within a tick. Nothing is stored on a condition: what is not wanted goes where nobody looks. */
 #include "components.h"
 
+#include "../choose_label.h"
 #include "operators.h"
 
 enum { LAG_ROWS = 2, LAG = 6, LABEL_LAG = 5, AHEAD = 3, MERGES = DROGUE_HLS_WIDTH / 2 + 2 };
@@ -84,7 +85,7 @@ static uint32_t new_label(registers *r, int wanted)
 /* Label of the pixel whose neighbours the registers hold, 0 when it is not an opened one. */
 static uint32_t label_pixel(registers *r, int opened)
 {
-    const uint64_t choice = drogue_hls_choose_dark_label(r->above, r->left, r->above_left, r->root);
+    const uint64_t choice = drogue_hls_choose_label(r->above, r->left, r->above_left, r->root);
     const uint32_t label = (uint32_t)choice;
     const uint32_t merge_with = (uint32_t)(choice >> 32);
     const uint32_t fresh = new_label(r, opened && label == 0);

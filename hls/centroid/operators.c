@@ -25,13 +25,6 @@ uint32_t drogue_hls_erode(uint32_t window) { return window == WINDOW; }
 
 uint32_t drogue_hls_dilate(uint32_t window) { return window != 0; }
 
-uint64_t drogue_hls_choose_dark_label(uint32_t above, uint32_t left, uint32_t above_left, uint32_t above_right)
-{
-    uint32_t merge_with;
-    const uint32_t label = drogue_label_choose(&merge_with, above, left, above_left, above_right);
-    return label | (uint64_t)merge_with << 32;
-}
-
 uint32_t drogue_hls_darkness(uint8_t level, int32_t full, int32_t range, uint32_t in_disc)
 {
     drogue_dark_ramp ramp;

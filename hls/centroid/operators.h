@@ -16,9 +16,6 @@ uint32_t drogue_hls_shift_window(uint32_t window, uint32_t column);
 uint32_t drogue_hls_erode(uint32_t window);  /* all set? */
 uint32_t drogue_hls_dilate(uint32_t window); /* any set? */
 
-/* Label of a pixel in the lower half of the word, the label it merges with in the upper half; 0 for none. */
-uint64_t drogue_hls_choose_dark_label(uint32_t above, uint32_t left, uint32_t above_left, uint32_t above_right);
-
 /* Darkness of a grey level in [0, range], 0 outside the disc. */
 uint32_t drogue_hls_darkness(uint8_t level, int32_t full, int32_t range, uint32_t in_disc);
 

@@ -15,6 +15,7 @@ if {[llength [info commands open_component]] > 0} {
     open_project -reset centroid
 }
 foreach file {
+    ../../hls/choose_label.c
     ../../hls/centroid/centroid.c
     ../../hls/centroid/components.c
     ../../hls/centroid/operators.c

@@ -2,7 +2,7 @@
 /* Hysteresis and arcs: two union-finds in the pass. Within a row the parents of labels given before are only read, those
  * of new labels only written; the merges of a row are resolved at its end, at most one every other pixel in each of the
  * five tables. */
-#include "operators.h"
+#include "../choose_label.h"
 #include "stages.h"
 
 enum { CANDIDATE = 1, STRONG = 2, KEY_SHIFT = 2, KEYS = 4, MERGES = DROGUE_HLS_WIDTH / 2 + 1 };

@@ -2,9 +2,9 @@
 /* The pure operators of the pixel loop. */
 #include "operators.h"
 
+#include "../drogue_hls.h"
 #include "drogue/canny.h"
 #include "drogue/gradient.h"
-#include "drogue/label.h"
 #include "drogue/mask.h"
 #include "drogue/smooth.h"
 
@@ -31,24 +31,21 @@ uint16_t drogue_hls_magnitude(uint32_t gradient)
     return drogue_magnitude_l1((int16_t)(uint16_t)(gradient & 0xFFFFu), (int16_t)(uint16_t)(gradient >> 16));
 }
 
-/* All bits when the condition (0 or 1) holds. */
-static uint32_t when(int condition) { return 0u - (uint32_t)condition; }
-
 uint64_t drogue_hls_suppress(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2, uint16_t b0,
                              uint16_t b1, uint16_t b2, uint32_t gradient, uint16_t low, uint16_t high)
 {
     const int16_t gx = (int16_t)(uint16_t)(gradient & 0xFFFFu);
     const int16_t gy = (int16_t)(uint16_t)(gradient >> 16);
     const drogue_sector sector = drogue_canny_sector(gx, gy);
-    const uint32_t horizontal = when(sector == DROGUE_SECTOR_HORIZONTAL);
-    const uint32_t vertical = when(sector == DROGUE_SECTOR_VERTICAL);
-    const uint32_t diagonal = when(sector == DROGUE_SECTOR_DIAGONAL);
-    const uint32_t antidiagonal = when(sector == DROGUE_SECTOR_ANTIDIAGONAL);
+    const uint32_t horizontal = drogue_hls_when(sector == DROGUE_SECTOR_HORIZONTAL);
+    const uint32_t vertical = drogue_hls_when(sector == DROGUE_SECTOR_VERTICAL);
+    const uint32_t diagonal = drogue_hls_when(sector == DROGUE_SECTOR_DIAGONAL);
+    const uint32_t antidiagonal = drogue_hls_when(sector == DROGUE_SECTOR_ANTIDIAGONAL);
     const uint32_t before = (c0 & horizontal) | (t1 & vertical) | (t0 & diagonal) | (t2 & antidiagonal);
     const uint32_t after = (c2 & horizontal) | (b1 & vertical) | (b2 & diagonal) | (b0 & antidiagonal);
     const uint32_t code = 1u | (uint32_t)(c1 > high) << 1 | (drogue_direction_class(gx, gy) + 1u) << 2;
     const int kept = (c1 > low) & drogue_canny_is_maximum(sector, (int32_t)before, c1, (int32_t)after);
-    return (code & when(kept)) | (uint32_t)sector << 6 | (uint64_t)before << 16 | (uint64_t)c1 << 32 |
+    return (code & drogue_hls_when(kept)) | (uint32_t)sector << 6 | (uint64_t)before << 16 | (uint64_t)c1 << 32 |
            (uint64_t)after << 48;
 }
 
@@ -71,11 +68,4 @@ uint32_t drogue_hls_in_ring(int32_t x, int32_t centre2_x, int64_t least_x9, int6
     row.most = most;
     row.centre2_x = centre2_x;
     return (uint32_t)drogue_ring_row_holds(&row, x);
-}
-
-uint64_t drogue_hls_choose_label(uint32_t above, uint32_t left, uint32_t above_left, uint32_t above_right)
-{
-    uint32_t merge_with;
-    const uint32_t label = drogue_label_choose(&merge_with, above, left, above_left, above_right);
-    return label | (uint64_t)merge_with << 32;
 }

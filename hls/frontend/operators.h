@@ -32,7 +32,4 @@ uint32_t drogue_hls_locate(uint64_t suppressed);
 /* Ring mask: is column x of a row within it? The bounds are those of drogue_mask_ring_row(). */
 uint32_t drogue_hls_in_ring(int32_t x, int32_t centre2_x, int64_t least_x9, int64_t most);
 
-/* Label of a pixel in the lower half of the word, the label it merges with in the upper half; 0 for none. */
-uint64_t drogue_hls_choose_label(uint32_t above, uint32_t left, uint32_t above_left, uint32_t above_right);
-
 #endif

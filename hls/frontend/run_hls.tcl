@@ -15,6 +15,7 @@ if {[llength [info commands open_component]] > 0} {
     open_project -reset frontend
 }
 foreach file {
+    ../../hls/choose_label.c
     ../../hls/frontend/frontend.c
     ../../hls/frontend/labels.c
     ../../hls/frontend/operators.c

@@ -7,9 +7,6 @@
 
 #include "../drogue_hls.h"
 
-/* All bits when the condition (0 or 1) holds: masks instead of branches, so that a tick is one block of operations. */
-static inline uint32_t drogue_hls_when(int condition) { return 0u - (uint32_t)condition; }
-
 /* What holds for a row of ticks. Row y of pixels comes in; row y - 2 is smoothed, y - 3 has its gradient taken, y - 4 is
  * suppressed and labelled. */
 typedef struct drogue_hls_row {

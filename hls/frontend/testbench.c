@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "bench.h"
+#include "drogue/config.h"
 #include "frontend.h"
 #include "sim.h"
 
@@ -175,25 +176,24 @@ static void check_frame(bench *b, const conf_case *c)
 {
     const drogue_image image = bench_image(c);
     const drogue_region region = bench_region(c);
-    drogue_frontend_config config = {30, 80, 1, 1, {0, 0, 1}, 10};
-    int32_t x = region.x_px;
-    int32_t y = region.y_px;
-    int32_t width_px = region.width_px;
-    int32_t height_px = region.height_px;
-    if (region.width_px < 1 || region.height_px < 1 || region.width_px > 8192 || region.height_px > 8192) {
+    drogue_config defaults;
+    drogue_frontend_config config;
+    drogue_region part;
+    if (!bench_place(&part, &config.ring, &image, &region)) {
         bench_skip(b, "no region");
         return;
     }
-    drogue_clip(&x, &width_px, image.width_px);
-    drogue_clip(&y, &height_px, image.height_px);
-    config.ring = drogue_mask_of_size(region.width_px, region.height_px);
-    config.ring.centre2_x += 2 * (region.x_px - x);
-    config.ring.centre2_y += 2 * (region.y_px - y);
-    if (width_px > 0 && height_px > 0 && !load(&image, x, y, width_px, height_px)) {
+    drogue_config_default(&defaults);
+    config.canny_low = defaults.canny_low;
+    config.canny_high = defaults.canny_high;
+    config.smooth = defaults.smooth;
+    config.use_ring = 1;
+    config.min_arc_px = defaults.min_arc_px;
+    if (part.width_px > 0 && part.height_px > 0 && !load(&image, part.x_px, part.y_px, part.width_px, part.height_px)) {
         bench_skip(b, "larger than the block");
         return;
     }
-    against_library(b, &config, width_px, height_px);
+    against_library(b, &config, part.width_px, part.height_px);
 }
 
 static int32_t random_below(uint32_t *state, int32_t n)
