@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../bench/bench.h"
+#include "../bench/dark.h"
 #include "backend.h"
 #include "drogue/decide.h"
 #include "drogue/inner.h"
@@ -187,6 +188,7 @@ static inline void frame_find_dark(int32_t dark[DROGUE_HLS_DARK_WORDS], const fr
     drogue_workspace workspace = f->workspace;
     drogue_mask disc;
     drogue_dark_part part;
+    drogue_status status;
     uint32_t which = 0;
     memset(dark, 0, DROGUE_HLS_DARK_WORDS * sizeof *dark);
     memset(&part, 0, sizeof part);
@@ -197,16 +199,9 @@ static inline void frame_find_dark(int32_t dark[DROGUE_HLS_DARK_WORDS], const fr
         dark[DROGUE_HLS_D_STATUS] = DROGUE_E_ARGUMENT; /* which nobody is to look at */
         return;
     }
-    dark[DROGUE_HLS_D_STATUS] =
-        (int32_t)drogue_dark_disc_find(&part, &which, &workspace, &f->view, &disc, f->p.config.min_dark_area_px,
-                                       expected, (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT]);
-    dark[DROGUE_HLS_D_X] = part.x_px_q16;
-    dark[DROGUE_HLS_D_Y] = part.y_px_q16;
-    dark[DROGUE_HLS_D_AREA] = (int32_t)part.area_px;
-    dark[DROGUE_HLS_D_SPREAD] = part.spread_px_q16;
-    dark[DROGUE_HLS_D_THRESHOLD] = part.threshold;
-    dark[DROGUE_HLS_D_CONTRAST] = part.contrast;
-    dark[DROGUE_HLS_D_WHICH] = (int32_t)which;
+    status = drogue_dark_disc_find(&part, &which, &workspace, &f->view, &disc, f->p.config.min_dark_area_px, expected,
+                                   (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT]);
+    bench_put_dark(dark, (uint32_t)status, &part, which);
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "bench/bench.h"
+#include "bench/dark.h"
 #include "bench/sim.h"
 #include "centroid.h"
 #include "drogue/centroid.h"
@@ -83,14 +84,7 @@ static void ask_library(int32_t dark[DROGUE_HLS_DARK_WORDS], const question *q)
     } else {
         memset(&part, 0, sizeof part);
     }
-    dark[DROGUE_HLS_D_STATUS] = (int32_t)(status | (status == DROGUE_E_LABELS_FULL ? DROGUE_HLS_DARK_FULL : 0));
-    dark[DROGUE_HLS_D_X] = part.x_px_q16;
-    dark[DROGUE_HLS_D_Y] = part.y_px_q16;
-    dark[DROGUE_HLS_D_AREA] = (int32_t)part.area_px;
-    dark[DROGUE_HLS_D_SPREAD] = part.spread_px_q16;
-    dark[DROGUE_HLS_D_THRESHOLD] = part.threshold;
-    dark[DROGUE_HLS_D_CONTRAST] = part.contrast;
-    dark[DROGUE_HLS_D_WHICH] = (int32_t)which;
+    bench_put_dark(dark, status | (status == DROGUE_E_LABELS_FULL ? DROGUE_HLS_DARK_FULL : 0), &part, which);
     answers[status]++;
 }
 

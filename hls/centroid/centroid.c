@@ -3,40 +3,51 @@
 #include "centroid.h"
 
 #include "components.h"
+#include "disc_walk.h"
 #include "operators.h"
 
-enum { LEVELS = 256, RAMPS = 3, MIDDLE = 1 };
+enum { LEVELS = 256, RAMPS = 3, MIDDLE = 1, COUNT_LAG = 3 };
 
 static uint32_t histogram[LEVELS + 1]; /* the last bin is that of pixels outside the disc */
 
-/* The two bins counted last: a table of two cycles' latency serves a pixel a cycle, whatever the levels are. */
-typedef struct recent_bins {
-    uint32_t level[2];
-    uint32_t count[2];
-} recent_bins;
+/* Registers of the counting loop: a bin's count is read in one tick and written in the next. The two written last are
+ * kept: a table of two cycles' latency serves a pixel a cycle, whatever the levels are. */
+typedef struct counting {
+    uint32_t level; /* of the pixel taken last, and whether it counts */
+    uint32_t in_disc;
+    uint32_t bin;     /* of the one before */
+    uint32_t counted; /* of the one before that, and what the table held */
+    uint32_t stored;
+    uint32_t recent_bin[2];
+    uint32_t recent_count[2];
+} counting;
 
-static void count_level(recent_bins *recent, uint32_t level)
+static void count_tick(counting *c)
 {
-    const uint32_t stored = histogram[level];
-    const uint32_t count = (level == recent->level[0]   ? recent->count[0]
-                            : level == recent->level[1] ? recent->count[1]
-                                                        : stored) +
-                           1;
-    recent->level[1] = recent->level[0];
-    recent->count[1] = recent->count[0];
-    recent->level[0] = level;
-    recent->count[0] = count;
-    histogram[level] = count;
+    const uint32_t stored = histogram[c->bin];
+    const uint32_t outside = drogue_hls_when(c->in_disc == 0);
+    const uint32_t last = drogue_hls_when(c->counted == c->recent_bin[0]);
+    const uint32_t before = drogue_hls_when(c->counted == c->recent_bin[1]) & ~last;
+    const uint32_t count =
+        ((c->recent_count[0] & last) | (c->recent_count[1] & before) | (c->stored & ~(last | before))) + 1;
+    histogram[c->counted] = count;
+    c->recent_bin[1] = c->recent_bin[0];
+    c->recent_count[1] = c->recent_count[0];
+    c->recent_bin[0] = c->counted;
+    c->recent_count[0] = count;
+    c->stored = stored;
+    c->counted = c->bin;
+    c->bin = (c->level & ~outside) | (LEVELS & outside);
 }
 
-/* Otsu's threshold of a disc, which leaves its histogram. What reads the stream takes scalars: Bambu loses the stream
- * behind a pointer whose target the compiler would rather pass by value. */
-static uint8_t take_threshold(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int32_t centre2_x,
-                              int32_t centre2_y, int32_t longest_px)
+/* Histogram of a disc. What reads the stream takes scalars: Bambu loses the stream behind a pointer whose target the
+ * compiler would rather pass by value. */
+static void take_histogram(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int32_t centre2_x,
+                           int32_t centre2_y, int32_t longest_px)
 {
     const drogue_mask disc = {centre2_x, centre2_y, longest_px};
-    recent_bins recent = {{LEVELS, LEVELS}, {0, 0}};
-    uint32_t bin = LEVELS; /* of the pixel before */
+    drogue_hls_walk rows = drogue_hls_walk_rows(&disc);
+    counting c = {0, 0, LEVELS, LEVELS, 0, {LEVELS, LEVELS}, {0, 0}};
     int32_t level;
     int32_t x;
     int32_t y;
@@ -45,24 +56,29 @@ static uint8_t take_threshold(const uint8_t *pixels, uint32_t at, int32_t width,
     }
     for (y = 0; y < height; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT
-        const int64_t most_x9 = drogue_mask_disc_row(&disc, y);
+        drogue_hls_walk columns = drogue_hls_walk_columns(&rows, centre2_x);
+        drogue_hls_walk_on(&rows);
         for (x = 0; x < width; x++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 /* What the last two ticks wrote comes from registers. */
-#pragma HLS dependence variable = histogram type = inter direction = RAW distance = 3 true
+#pragma HLS dependence variable = histogram type = inter direction = RAW distance = 2 true
 #endif
-            const uint8_t pixel = drogue_hls_take_pixel(pixels, at++);
-            count_level(&recent, bin);
-            bin = drogue_hls_in_disc(x, centre2_x, most_x9) != 0 ? pixel : LEVELS;
+            count_tick(&c);
+            c.level = drogue_hls_take_pixel(pixels, at++);
+            c.in_disc = drogue_hls_in_disc(columns.left);
+            drogue_hls_walk_on(&columns);
         }
     }
-    count_level(&recent, bin);
-    return drogue_otsu(histogram);
+    for (x = 0; x < COUNT_LAG; x++) { /* the last pixels */
+        count_tick(&c);
+        c.in_disc = 0;
+    }
 }
 
-/* Darkness in a window about the part, by the lower, the middle and the upper ramp. */
+/* Darkness in a window about the part, by the lower, the middle and the upper ramp. The sum weighted by the column comes
+ * without a product: over columns x of w, the sum of x d(x) is w times that of d less the sum of all its partial sums. */
 static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, uint32_t at, int32_t width,
                           int32_t height, int32_t centre2_x, int32_t centre2_y, int32_t longest_px, int32_t full,
                           int32_t range)
@@ -70,6 +86,7 @@ static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, u
     const drogue_mask window = {centre2_x, centre2_y, longest_px};
     const drogue_dark_ramp ramp = {full, range};
     const int32_t step = drogue_dark_ramp_step(&ramp);
+    drogue_hls_walk rows = drogue_hls_walk_rows(&window);
     int32_t x;
     int32_t y;
     int32_t k;
@@ -80,24 +97,25 @@ static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, u
     }
     for (y = 0; y < height; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT
-        const int64_t most_x9 = drogue_mask_disc_row(&window, y);
+        drogue_hls_walk columns = drogue_hls_walk_columns(&rows, centre2_x);
         int32_t row_sum[RAMPS] = {0, 0, 0};
-        int32_t row_x[RAMPS] = {0, 0, 0};
+        int32_t row_sums[RAMPS] = {0, 0, 0}; /* of the partial sums */
+        drogue_hls_walk_on(&rows);
         for (x = 0; x < width; x++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 #endif
             const uint8_t pixel = drogue_hls_take_pixel(pixels, at++);
-            const uint32_t within = drogue_hls_in_disc(x, centre2_x, most_x9);
+            const uint32_t within = drogue_hls_in_disc(columns.left);
+            drogue_hls_walk_on(&columns);
             for (k = 0; k < RAMPS; k++) { /* the pipeline unrolls it */
-                const int32_t darkness = (int32_t)drogue_hls_darkness(pixel, full + (k - MIDDLE) * step, range, within);
-                row_sum[k] += darkness;
-                row_x[k] += darkness * x;
+                row_sum[k] += (int32_t)drogue_hls_darkness(pixel, full + (k - MIDDLE) * step, range, within);
+                row_sums[k] += row_sum[k];
             }
         }
         for (k = 0; k < RAMPS; k++) {
-            drogue_dark_add_row(&sums[k], row_sum[k], row_x[k], y);
+            drogue_dark_add_row(&sums[k], row_sum[k], width * row_sum[k] - row_sums[k], y);
         }
     }
 }
@@ -113,7 +131,8 @@ static void weigh(drogue_dark_part *part, const uint8_t *pixels, uint32_t at, in
     drogue_dark_part lower;
     drogue_dark_part upper;
     drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_WIDE);
-    part->threshold = take_threshold(pixels, at, width, height, window.centre2_x, window.centre2_y, window.longest_px);
+    take_histogram(pixels, at, width, height, window.centre2_x, window.centre2_y, window.longest_px);
+    part->threshold = drogue_otsu(histogram);
     drogue_dark_ramp_of(&ramp, part, histogram);
     drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
     take_darkness(sums, pixels, at + frame, width, height, window.centre2_x, window.centre2_y, window.longest_px,
@@ -139,7 +158,8 @@ static uint32_t find(drogue_dark_part *out, uint32_t *which, const uint8_t *pixe
     drogue_dark_part part = {0, 0, 0, 0, 0, 0};
     drogue_status status;
     uint32_t full;
-    part.threshold = take_threshold(pixels, 0, width, height, centre2_x, centre2_y, longest_px);
+    take_histogram(pixels, 0, width, height, centre2_x, centre2_y, longest_px);
+    part.threshold = drogue_otsu(histogram);
     *out = part;
     drogue_hls_take_components(pixels, frame, width, height, centre2_x, centre2_y, longest_px, part.threshold, &full);
     status = drogue_hls_choose_components(&part, which, min_area, expected, count);

@@ -6,14 +6,11 @@
 
 enum { COLUMN_BITS = 3, WINDOW = 0x1FF };
 
-uint32_t drogue_hls_in_disc(int32_t x, int32_t centre2_x, int64_t most_x9)
-{
-    return (uint32_t)drogue_disc_row_holds(most_x9, centre2_x, x);
-}
+uint32_t drogue_hls_in_disc(int64_t left) { return left >= 0; }
 
 uint32_t drogue_hls_is_dark(uint8_t level, uint8_t threshold, uint32_t in_disc)
 {
-    return in_disc != 0 && level <= threshold;
+    return (in_disc != 0) & (level <= threshold);
 }
 
 uint32_t drogue_hls_shift_window(uint32_t window, uint32_t column)

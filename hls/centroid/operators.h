@@ -5,8 +5,8 @@
 
 #include <stdint.h>
 
-/* Is column x of a row in the disc? 'most_x9' is the row's drogue_mask_disc_row(). */
-uint32_t drogue_hls_in_disc(int32_t x, int32_t centre2_x, int64_t most_x9);
+/* Is a pixel in the disc? 'left' is its drogue_hls_walk's along the row. */
+uint32_t drogue_hls_in_disc(int64_t left);
 
 /* Is a pixel dark? */
 uint32_t drogue_hls_is_dark(uint8_t level, uint8_t threshold, uint32_t in_disc);

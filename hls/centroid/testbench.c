@@ -3,6 +3,7 @@
  * sizes, on patterns that merge or exceed the labels. */
 #include "../../src/dark_pass.h"
 #include "bench_drawn.h"
+#include "disc_walk.h"
 #include "drogue/drogue.h"
 #include "drogue/inner.h"
 #include "operators.h"
@@ -182,32 +183,65 @@ static void refusals(bench *b)
     b->cases += 8;
 }
 
-/* The test of a pixel against the disc gives the columns that the library computes by a root. */
-static void disc_by_pixel(bench *b)
+/* Along a row the walk says of each pixel what the library's own test and its columns by a root say. */
+static int walk_differs(const drogue_mask *disc, const drogue_hls_walk *rows, int32_t y, int32_t side)
 {
-    enum { SIDE = 13 };
+    drogue_hls_walk columns = drogue_hls_walk_columns(rows, disc->centre2_x);
+    int32_t first = 0;
+    int32_t last = -1;
+    const int any = drogue_disc_span(&first, &last, disc, y, side);
+    int differ = 0;
+    int32_t x;
+    for (x = 0; x < side; x++) {
+        const int in = drogue_hls_in_disc(columns.left) != 0;
+        differ += in != (any && x >= first && x <= last) || in != drogue_mask_in_disc(disc, x, y);
+        drogue_hls_walk_on(&columns);
+    }
+    return differ;
+}
+
+static int disc_differs(const drogue_mask *disc, int32_t side)
+{
+    drogue_hls_walk rows = drogue_hls_walk_rows(disc);
+    int differ = 0;
+    int32_t y;
+    for (y = 0; y < side; y++) {
+        differ += walk_differs(disc, &rows, y, side);
+        drogue_hls_walk_on(&rows);
+    }
+    return differ;
+}
+
+/* Small discs about every place, and the largest numbers of a valid mask. */
+static void disc_by_walk(bench *b)
+{
+    enum { SIDE = 13, FAR = 1 << 15, MOST = 1 << 20 };
+    static const int32_t centres[] = {-FAR, -FAR + 1, -2049, 0, 2047, 4095, 4096, FAR - 1, FAR};
+    static const int32_t sizes[] = {1, 2048, 4096, 3 * FAR / 2 - 2, 3 * FAR / 2, 3 * FAR / 2 + 300, MOST - 1, MOST};
     drogue_mask disc;
     int differ = 0;
+    size_t i;
+    size_t j;
+    size_t k;
     for (disc.longest_px = 1; disc.longest_px <= 48; disc.longest_px++) {
         for (disc.centre2_x = -SIDE; disc.centre2_x <= 3 * SIDE; disc.centre2_x++) {
             for (disc.centre2_y = -1; disc.centre2_y <= 0; disc.centre2_y++) {
-                int32_t y;
-                for (y = 0; y <= 17; y++) {
-                    const int64_t most_x9 = drogue_mask_disc_row(&disc, y);
-                    int32_t first = 0;
-                    int32_t last = -1;
-                    const int any = drogue_disc_span(&first, &last, &disc, y, SIDE);
-                    int32_t x;
-                    for (x = 0; x < SIDE; x++) {
-                        differ +=
-                            (drogue_hls_in_disc(x, disc.centre2_x, most_x9) != 0) != (any && x >= first && x <= last);
-                    }
-                }
+                differ += disc_differs(&disc, SIDE);
+            }
+        }
+    }
+    for (i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        for (j = 0; j < sizeof centres / sizeof *centres; j++) {
+            for (k = 0; k < sizeof centres / sizeof *centres; k++) {
+                disc.longest_px = sizes[i];
+                disc.centre2_x = centres[j];
+                disc.centre2_y = centres[k];
+                differ += disc_differs(&disc, 300);
             }
         }
     }
     b->cases++;
-    bench_word(b, "pixels in a disc by one test alone", differ, 0);
+    bench_word(b, "pixels in a disc by the walk", differ, 0);
 }
 
 int main(void)
@@ -228,7 +262,7 @@ int main(void)
     random_images(&b, 400, 70);
     full_labels(&b);
     refusals(&b);
-    disc_by_pixel(&b);
+    disc_by_walk(&b);
     printf("answers: ok %u, no part %u, labels full %u, refused %u\n", answers[DROGUE_OK],
            answers[DROGUE_E_NO_DARK_PART], answers[DROGUE_E_LABELS_FULL],
            answers[DROGUE_E_ARGUMENT] + answers[DROGUE_E_WORKSPACE]);
