@@ -40,23 +40,22 @@ static void count_tick(counting *c)
     c->bin = (c->level & ~outside) | (LEVELS & outside);
 }
 
-/* Histogram of a disc. What reads the stream takes scalars: Bambu loses the stream behind a pointer whose target the
- * compiler would rather pass by value. */
-static void take_histogram(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int32_t centre2_x,
-                           int32_t centre2_y, int32_t longest_px)
+/* Histogram of a disc: drogue_hls_disc_left() and centre. What reads the stream takes scalars: Bambu loses the stream
+ * behind a pointer whose target the compiler would rather pass by value. */
+static void take_histogram(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int64_t disc_left,
+                           int32_t centre2_x, int32_t centre2_y)
 {
-    const drogue_mask disc = {centre2_x, centre2_y, longest_px};
-    drogue_hls_walk rows = drogue_hls_walk_rows(&disc);
+    drogue_hls_walk rows = drogue_hls_walk_from(disc_left, centre2_y);
     counting c = {0, 0, LEVELS, LEVELS, 0, {LEVELS, LEVELS}, {0, 0}};
-    int32_t level;
+    int32_t bin;
     int32_t x;
     int32_t y;
-    for (level = 0; level <= LEVELS; level++) {
-        histogram[level] = 0;
+    for (bin = 0; bin <= LEVELS; bin++) {
+        histogram[bin] = 0;
     }
     for (y = 0; y < height; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT
-        drogue_hls_walk columns = drogue_hls_walk_columns(&rows, centre2_x);
+        drogue_hls_walk columns = drogue_hls_walk_from(rows.left, centre2_x);
         drogue_hls_walk_on(&rows);
         for (x = 0; x < width; x++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH
@@ -65,8 +64,9 @@ static void take_histogram(const uint8_t *pixels, uint32_t at, int32_t width, in
 /* What the last two ticks wrote comes from registers. */
 #pragma HLS dependence variable = histogram type = inter direction = RAW distance = 2 true
 #endif
+            const uint8_t level = drogue_hls_take_pixel(pixels, at++);
             count_tick(&c);
-            c.level = drogue_hls_take_pixel(pixels, at++);
+            c.level = level;
             c.in_disc = drogue_hls_in_disc(columns.left);
             drogue_hls_walk_on(&columns);
         }
@@ -77,30 +77,41 @@ static void take_histogram(const uint8_t *pixels, uint32_t at, int32_t width, in
     }
 }
 
-/* Darkness in a window about the part, by the lower, the middle and the upper ramp. The sum weighted by the column comes
- * without a product: over columns x of w, the sum of x d(x) is w times that of d less the sum of all its partial sums. */
-static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, uint32_t at, int32_t width,
-                          int32_t height, int32_t centre2_x, int32_t centre2_y, int32_t longest_px, int32_t full,
-                          int32_t range)
+/* Sums over a window by one ramp. Weights come without products: the sum of x d(x) over w columns is w times that of d
+ * less the sum of all the partial sums of d; the same down the rows. */
+typedef struct weighing {
+    int32_t row; /* of this row */
+    int32_t row_partial;
+    int32_t total;
+    int64_t x_partial;
+    int64_t y_partial;
+} weighing;
+
+static void add_row(weighing *w)
 {
-    const drogue_mask window = {centre2_x, centre2_y, longest_px};
-    const drogue_dark_ramp ramp = {full, range};
-    const int32_t step = drogue_dark_ramp_step(&ramp);
-    drogue_hls_walk rows = drogue_hls_walk_rows(&window);
+    w->total += w->row;
+    w->x_partial += w->row_partial;
+    w->y_partial += w->total;
+}
+
+/* Darkness in a window about the part, by the lower, the middle and the upper ramp. */
+static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, uint32_t at, int32_t width,
+                          int32_t height, int64_t disc_left, int32_t centre2_x, int32_t centre2_y, int32_t full,
+                          int32_t range, int32_t step)
+{
+    drogue_hls_walk rows = drogue_hls_walk_from(disc_left, centre2_y);
+    weighing by[RAMPS] = {{0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}};
     int32_t x;
     int32_t y;
     int32_t k;
-    for (k = 0; k < RAMPS; k++) {
-        sums[k].sum = 0;
-        sums[k].x = 0;
-        sums[k].y = 0;
-    }
     for (y = 0; y < height; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT
-        drogue_hls_walk columns = drogue_hls_walk_columns(&rows, centre2_x);
-        int32_t row_sum[RAMPS] = {0, 0, 0};
-        int32_t row_sums[RAMPS] = {0, 0, 0}; /* of the partial sums */
+        drogue_hls_walk columns = drogue_hls_walk_from(rows.left, centre2_x);
         drogue_hls_walk_on(&rows);
+        for (k = 0; k < RAMPS; k++) {
+            by[k].row = 0;
+            by[k].row_partial = 0;
+        }
         for (x = 0; x < width; x++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH
 #ifndef __BAMBU__
@@ -110,13 +121,18 @@ static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, u
             const uint32_t within = drogue_hls_in_disc(columns.left);
             drogue_hls_walk_on(&columns);
             for (k = 0; k < RAMPS; k++) { /* the pipeline unrolls it */
-                row_sum[k] += (int32_t)drogue_hls_darkness(pixel, full + (k - MIDDLE) * step, range, within);
-                row_sums[k] += row_sum[k];
+                by[k].row += (int32_t)drogue_hls_darkness(pixel, full + (k - MIDDLE) * step, range, within);
+                by[k].row_partial += by[k].row;
             }
         }
         for (k = 0; k < RAMPS; k++) {
-            drogue_dark_add_row(&sums[k], row_sum[k], width * row_sum[k] - row_sums[k], y);
+            add_row(&by[k]);
         }
+    }
+    for (k = 0; k < RAMPS; k++) {
+        sums[k].sum = by[k].total;
+        sums[k].x = (int64_t)width * by[k].total - by[k].x_partial;
+        sums[k].y = (int64_t)height * by[k].total - by[k].y_partial;
     }
 }
 
@@ -131,16 +147,16 @@ static void weigh(drogue_dark_part *part, const uint8_t *pixels, uint32_t at, in
     drogue_dark_part lower;
     drogue_dark_part upper;
     drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_WIDE);
-    take_histogram(pixels, at, width, height, window.centre2_x, window.centre2_y, window.longest_px);
+    take_histogram(pixels, at, width, height, drogue_hls_disc_left(&window), window.centre2_x, window.centre2_y);
     part->threshold = drogue_otsu(histogram);
     drogue_dark_ramp_of(&ramp, part, histogram);
     drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
-    take_darkness(sums, pixels, at + frame, width, height, window.centre2_x, window.centre2_y, window.longest_px,
-                  ramp.full, ramp.range);
+    take_darkness(sums, pixels, at + frame, width, height, drogue_hls_disc_left(&window), window.centre2_x,
+                  window.centre2_y, ramp.full, ramp.range, drogue_dark_ramp_step(&ramp));
     drogue_dark_place(part, &sums[MIDDLE], &ramp);
     drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
-    take_darkness(sums, pixels, at + 2 * frame, width, height, window.centre2_x, window.centre2_y, window.longest_px,
-                  ramp.full, ramp.range);
+    take_darkness(sums, pixels, at + 2 * frame, width, height, drogue_hls_disc_left(&window), window.centre2_x,
+                  window.centre2_y, ramp.full, ramp.range, drogue_dark_ramp_step(&ramp));
     drogue_dark_place(part, &sums[MIDDLE], &ramp);
     lower = *part;
     upper = *part;
@@ -151,17 +167,19 @@ static void weigh(drogue_dark_part *part, const uint8_t *pixels, uint32_t at, in
 
 /* All five passes; without a part the last three are taken all the same, for nothing. */
 static uint32_t find(drogue_dark_part *out, uint32_t *which, const uint8_t *pixels, int32_t width, int32_t height,
-                     int32_t centre2_x, int32_t centre2_y, int32_t longest_px, uint32_t min_area,
-                     const drogue_ellipse expected[DROGUE_HLS_DISCS], uint32_t count)
+                     const drogue_mask *disc, uint32_t min_area, const drogue_ellipse expected[DROGUE_HLS_DISCS],
+                     uint32_t count)
 {
     const uint32_t frame = (uint32_t)(width * height);
+    const int64_t disc_left = drogue_hls_disc_left(disc);
     drogue_dark_part part = {0, 0, 0, 0, 0, 0};
     drogue_status status;
     uint32_t full;
-    take_histogram(pixels, 0, width, height, centre2_x, centre2_y, longest_px);
+    take_histogram(pixels, 0, width, height, disc_left, disc->centre2_x, disc->centre2_y);
     part.threshold = drogue_otsu(histogram);
     *out = part;
-    drogue_hls_take_components(pixels, frame, width, height, centre2_x, centre2_y, longest_px, part.threshold, &full);
+    drogue_hls_take_components(pixels, frame, width, height, disc_left, disc->centre2_x, disc->centre2_y,
+                               part.threshold, &full);
     status = drogue_hls_choose_components(&part, which, min_area, expected, count);
     weigh(&part, pixels, 2 * frame, width, height, expected[*which].a_px_q16);
     if (full != 0) {
@@ -214,8 +232,7 @@ void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_DARK_PASSES * DROGUE_HL
     }
     status = (uint32_t)check(width_px, height_px, &disc, count);
     if (status == DROGUE_OK) {
-        status =
-            find(&part, &which, pixels, width_px, height_px, centre2_x, centre2_y, longest_px, min_area, discs, count);
+        status = find(&part, &which, pixels, width_px, height_px, &disc, min_area, discs, count);
     }
     dark[DROGUE_HLS_D_STATUS] = (int32_t)status;
     dark[DROGUE_HLS_D_X] = part.x_px_q16;

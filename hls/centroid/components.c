@@ -185,11 +185,10 @@ static void tick(registers *r, adder *s, int32_t x, int32_t y, int32_t width, in
     r->bit = bit;
 }
 
-void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int32_t centre2_x,
-                                int32_t centre2_y, int32_t longest_px, uint8_t threshold, uint32_t *full)
+void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int64_t disc_left,
+                                int32_t centre2_x, int32_t centre2_y, uint8_t threshold, uint32_t *full)
 {
-    const drogue_mask disc = {centre2_x, centre2_y, longest_px};
-    drogue_hls_walk rows = drogue_hls_walk_rows(&disc);
+    drogue_hls_walk rows = drogue_hls_walk_from(disc_left, centre2_y);
     registers r;
     adder sums;
     int32_t x;
@@ -198,7 +197,7 @@ void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, int32_t widt
     for (y = 0; y < height + LAG_ROWS; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT + LAG_ROWS
         const int32_t taken = y < height ? width : 0;
-        drogue_hls_walk columns = drogue_hls_walk_columns(&rows, centre2_x);
+        drogue_hls_walk columns = drogue_hls_walk_from(rows.left, centre2_x);
         begin_row(&r);
         for (x = 0; x < width + LAG; x++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH + LAG

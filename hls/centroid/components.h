@@ -12,9 +12,10 @@ static inline uint8_t drogue_hls_take_pixel(const uint8_t *pixels, uint32_t at)
     return *(const volatile uint8_t *)&pixels[at];
 }
 
-/* Take the components of a pass, pixels[at] its first, in the disc of a drogue_mask; full is set when a label was refused. */
-void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int32_t centre2_x,
-                                int32_t centre2_y, int32_t longest_px, uint8_t threshold, uint32_t *full);
+/* Take the components of a pass, pixels[at] its first, in a disc: drogue_hls_disc_left() and centre; full is set when a
+ * label was refused. */
+void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int64_t disc_left,
+                                int32_t centre2_x, int32_t centre2_y, uint8_t threshold, uint32_t *full);
 
 /* Choose among them, as drogue_dark_choose(). */
 drogue_status drogue_hls_choose_components(drogue_dark_part *part, uint32_t *which, uint32_t min_area,

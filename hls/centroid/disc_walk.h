@@ -26,16 +26,11 @@ static inline void drogue_hls_walk_on(drogue_hls_walk *w)
     w->step += 72;
 }
 
-/* Down the rows, from row 0: 'left' is drogue_mask_disc_row(). */
-static inline drogue_hls_walk drogue_hls_walk_rows(const drogue_mask *disc)
+/* What the disc's bound leaves to pixel (0, 0), drogue_mask_disc_row()'s without the columns' part. From there down the
+ * rows with centre2_y, and from each row's along its columns with centre2_x: in the disc where nothing less than 0 is left. */
+static inline int64_t drogue_hls_disc_left(const drogue_mask *disc)
 {
-    return drogue_hls_walk_from(drogue_mask_disc_row(disc, 0), disc->centre2_y);
-}
-
-/* Along a row, from column 0: a pixel is in the disc where 'left' is not negative. */
-static inline drogue_hls_walk drogue_hls_walk_columns(const drogue_hls_walk *rows, int32_t centre2_x)
-{
-    return drogue_hls_walk_from(rows->left - 9 * (int64_t)centre2_x * centre2_x, centre2_x);
+    return drogue_mask_disc_row(disc, 0) - 9 * (int64_t)disc->centre2_x * disc->centre2_x;
 }
 
 #endif

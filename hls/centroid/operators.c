@@ -3,6 +3,7 @@
 #include "operators.h"
 
 #include "../../src/dark_pass.h"
+#include "../drogue_hls.h"
 
 enum { COLUMN_BITS = 3, WINDOW = 0x1FF };
 
@@ -27,5 +28,5 @@ uint32_t drogue_hls_darkness(uint8_t level, int32_t full, int32_t range, uint32_
     drogue_dark_ramp ramp;
     ramp.full = full;
     ramp.range = range;
-    return in_disc != 0 ? (uint32_t)drogue_dark_darkness(level, &ramp) : 0;
+    return (uint32_t)drogue_dark_darkness(level, &ramp) & drogue_hls_when(in_disc != 0);
 }

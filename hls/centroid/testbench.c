@@ -186,7 +186,7 @@ static void refusals(bench *b)
 /* Along a row the walk says of each pixel what the library's own test and its columns by a root say. */
 static int walk_differs(const drogue_mask *disc, const drogue_hls_walk *rows, int32_t y, int32_t side)
 {
-    drogue_hls_walk columns = drogue_hls_walk_columns(rows, disc->centre2_x);
+    drogue_hls_walk columns = drogue_hls_walk_from(rows->left, disc->centre2_x);
     int32_t first = 0;
     int32_t last = -1;
     const int any = drogue_disc_span(&first, &last, disc, y, side);
@@ -202,7 +202,7 @@ static int walk_differs(const drogue_mask *disc, const drogue_hls_walk *rows, in
 
 static int disc_differs(const drogue_mask *disc, int32_t side)
 {
-    drogue_hls_walk rows = drogue_hls_walk_rows(disc);
+    drogue_hls_walk rows = drogue_hls_walk_from(drogue_hls_disc_left(disc), disc->centre2_y);
     int differ = 0;
     int32_t y;
     for (y = 0; y < side; y++) {
