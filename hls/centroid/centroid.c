@@ -136,52 +136,65 @@ static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, u
     }
 }
 
-/* The last three passes: as the library weighs a part, with the three ramps in one pass. */
+/* Spread of the part: between its places by the lower and by the upper ramp. */
+static drogue_q16 spread(const drogue_dark_part *part, const drogue_dark_sums sums[RAMPS], const drogue_dark_ramp *ramp)
+{
+    drogue_dark_part lower = *part;
+    drogue_dark_part upper = *part;
+    drogue_dark_place(&lower, &sums[0], ramp);
+    drogue_dark_place(&upper, &sums[RAMPS - 1], ramp);
+    return drogue_dark_distance(&lower, upper.x_px_q16, upper.y_px_q16);
+}
+
+/* The last two passes: weigh the part, then about the place found, with the three ramps in one pass. */
 static void weigh(drogue_dark_part *part, const uint8_t *pixels, uint32_t at, int32_t width, int32_t height,
                   drogue_q16 a_px_q16)
 {
-    const uint32_t frame = (uint32_t)(width * height);
     drogue_dark_sums sums[RAMPS];
     drogue_mask window;
     drogue_dark_ramp ramp;
-    drogue_dark_part lower;
-    drogue_dark_part upper;
-    drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_WIDE);
-    take_histogram(pixels, at, width, height, drogue_hls_disc_left(&window), window.centre2_x, window.centre2_y);
-    part->threshold = drogue_otsu(histogram);
+    int round;
     drogue_dark_ramp_of(&ramp, part, histogram);
-    drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
-    take_darkness(sums, pixels, at + frame, width, height, drogue_hls_disc_left(&window), window.centre2_x,
-                  window.centre2_y, ramp.full, ramp.range, drogue_dark_ramp_step(&ramp));
-    drogue_dark_place(part, &sums[MIDDLE], &ramp);
-    drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
-    take_darkness(sums, pixels, at + 2 * frame, width, height, drogue_hls_disc_left(&window), window.centre2_x,
-                  window.centre2_y, ramp.full, ramp.range, drogue_dark_ramp_step(&ramp));
-    drogue_dark_place(part, &sums[MIDDLE], &ramp);
-    lower = *part;
-    upper = *part;
-    drogue_dark_place(&lower, &sums[0], &ramp);
-    drogue_dark_place(&upper, &sums[RAMPS - 1], &ramp);
-    part->spread_px_q16 = drogue_dark_distance(&lower, upper.x_px_q16, upper.y_px_q16);
+    for (round = 0; round < 2; round++) {
+        drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
+        take_darkness(sums, pixels, at, width, height, drogue_hls_disc_left(&window), window.centre2_x,
+                      window.centre2_y, ramp.full, ramp.range, drogue_dark_ramp_step(&ramp));
+        drogue_dark_place(part, &sums[MIDDLE], &ramp);
+        at += (uint32_t)(width * height);
+    }
+    part->spread_px_q16 = spread(part, sums, &ramp);
 }
 
-/* All five passes; without a part the last three are taken all the same, for nothing. */
+/* All five passes; without a part the last three are taken all the same, for nothing. Each kind of pass is called in one
+ * place: one piece of hardware. */
 static uint32_t find(drogue_dark_part *out, uint32_t *which, const uint8_t *pixels, int32_t width, int32_t height,
                      const drogue_mask *disc, uint32_t min_area, const drogue_ellipse expected[DROGUE_HLS_DISCS],
                      uint32_t count)
 {
     const uint32_t frame = (uint32_t)(width * height);
-    const int64_t disc_left = drogue_hls_disc_left(disc);
+    drogue_mask window = *disc;
     drogue_dark_part part = {0, 0, 0, 0, 0, 0};
-    drogue_status status;
-    uint32_t full;
-    take_histogram(pixels, 0, width, height, disc_left, disc->centre2_x, disc->centre2_y);
-    part.threshold = drogue_otsu(histogram);
-    *out = part;
-    drogue_hls_take_components(pixels, frame, width, height, disc_left, disc->centre2_x, disc->centre2_y,
-                               part.threshold, &full);
-    status = drogue_hls_choose_components(&part, which, min_area, expected, count);
-    weigh(&part, pixels, 2 * frame, width, height, expected[*which].a_px_q16);
+    drogue_status status = DROGUE_OK;
+    drogue_q16 a_px_q16 = 0;
+    uint32_t full = 0;
+    uint32_t at = 0;
+    int round;
+    for (round = 0; round < 2; round++) { /* threshold of the disc, then of a window about what is dark in it */
+        const int64_t left = drogue_hls_disc_left(&window);
+        take_histogram(pixels, at, width, height, left, window.centre2_x, window.centre2_y);
+        part.threshold = drogue_otsu(histogram);
+        at += frame;
+        if (round == 0) {
+            *out = part;
+            drogue_hls_take_components(pixels, at, width, height, left, window.centre2_x, window.centre2_y,
+                                       part.threshold, &full);
+            at += frame;
+            status = drogue_hls_choose_components(&part, which, min_area, expected, count);
+            a_px_q16 = expected[*which].a_px_q16;
+            drogue_dark_window(&window, &part, a_px_q16, DROGUE_DARK_WIDE);
+        }
+    }
+    weigh(&part, pixels, at, width, height, a_px_q16);
     if (full != 0) {
         *which = 0;
         return DROGUE_E_LABELS_FULL | DROGUE_HLS_DARK_FULL;
