@@ -34,28 +34,29 @@ static int greater(int64_t p, int64_t q, int64_t r, int64_t s)
 
 uint8_t drogue_otsu(const uint32_t *histogram)
 {
-    int64_t total = 0;
-    int64_t sum = 0;
-    int64_t below = 0;
-    int64_t sum_below = 0;
+    uint32_t total = 0; /* 2^22 pixels of level 255 sum to less than 2^30 */
+    uint32_t sum = 0;
+    uint32_t below = 0;
+    uint32_t sum_below = 0;
     int64_t best_p = 0;
     int64_t best_q = 1;
     uint8_t best = 0;
     int level;
     for (level = 0; level < 256; level++) {
         total += histogram[level];
-        sum += (int64_t)histogram[level] * level;
+        sum += histogram[level] * (uint32_t)level;
     }
     for (level = 0; level < 255; level++) {
         int64_t p;
         int64_t q;
         below += histogram[level];
-        sum_below += (int64_t)histogram[level] * level;
-        q = below * (total - below);
+        sum_below += histogram[level] * (uint32_t)level;
+        q = (int64_t)((uint64_t)below * (total - below));
         if (q == 0) {
             continue;
         }
-        p = below * sum - total * sum_below; /* variance between the classes = p^2 / (q total^2) */
+        p = (int64_t)((uint64_t)below * sum) -
+            (int64_t)((uint64_t)total * sum_below); /* variance between the classes = p^2 / (q total^2) */
         DROGUE_NOTE("centroid: root of Otsu's variance", p, 52);
         DROGUE_NOTE("centroid: weights of Otsu's variance", q, 44);
         if (greater(p, q, best_p, best_q)) {

@@ -6,7 +6,8 @@
 #include "disc_walk.h"
 #include "operators.h"
 
-enum { LEVELS = 256, RAMPS = 3, MIDDLE = 1, COUNT_LAG = 3 };
+enum { LEVELS = 256, COUNT_LAG = 3 };
+enum { MIDDLE, LOWER, UPPER, RAMPS };
 
 static uint32_t histogram[LEVELS + 1]; /* the last bin is that of pixels outside the disc */
 
@@ -87,31 +88,46 @@ typedef struct weighing {
     int64_t y_partial;
 } weighing;
 
+static int32_t totals[RAMPS];
+static int64_t x_partials[RAMPS];
+static int64_t y_partials[RAMPS];
+
 static void add_row(weighing *w)
 {
     w->total += w->row;
     w->x_partial += w->row_partial;
     w->y_partial += w->total;
+    w->row = 0;
+    w->row_partial = 0;
 }
 
-/* Darkness in a window about the part, by the lower, the middle and the upper ramp. */
-static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, uint32_t at, int32_t width,
-                          int32_t height, int64_t disc_left, int32_t centre2_x, int32_t centre2_y, int32_t full,
-                          int32_t range, int32_t step)
+static void add_darkness(weighing *w, uint8_t pixel, int32_t full, int32_t range, uint32_t within)
+{
+    w->row += (int32_t)drogue_hls_darkness(pixel, full, range, within);
+    w->row_partial += w->row;
+}
+
+static void keep(int ramp, const weighing *w)
+{
+    totals[ramp] = w->total;
+    x_partials[ramp] = w->x_partial;
+    y_partials[ramp] = w->y_partial;
+}
+
+/* Darkness in a window about the part, by the three ramps. */
+static void take_darkness(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int64_t disc_left,
+                          int32_t centre2_x, int32_t centre2_y, int32_t full, int32_t range, int32_t step)
 {
     drogue_hls_walk rows = drogue_hls_walk_from(disc_left, centre2_y);
-    weighing by[RAMPS] = {{0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}, {0, 0, 0, 0, 0}};
+    weighing middle = {0, 0, 0, 0, 0};
+    weighing lower = {0, 0, 0, 0, 0};
+    weighing upper = {0, 0, 0, 0, 0};
     int32_t x;
     int32_t y;
-    int32_t k;
     for (y = 0; y < height; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT
         drogue_hls_walk columns = drogue_hls_walk_from(rows.left, centre2_x);
         drogue_hls_walk_on(&rows);
-        for (k = 0; k < RAMPS; k++) {
-            by[k].row = 0;
-            by[k].row_partial = 0;
-        }
         for (x = 0; x < width; x++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH
 #ifndef __BAMBU__
@@ -120,49 +136,61 @@ static void take_darkness(drogue_dark_sums sums[RAMPS], const uint8_t *pixels, u
             const uint8_t pixel = drogue_hls_take_pixel(pixels, at++);
             const uint32_t within = drogue_hls_in_disc(columns.left);
             drogue_hls_walk_on(&columns);
-            for (k = 0; k < RAMPS; k++) { /* the pipeline unrolls it */
-                by[k].row += (int32_t)drogue_hls_darkness(pixel, full + (k - MIDDLE) * step, range, within);
-                by[k].row_partial += by[k].row;
-            }
+            add_darkness(&middle, pixel, full, range, within);
+            add_darkness(&lower, pixel, full - step, range, within);
+            add_darkness(&upper, pixel, full + step, range, within);
         }
-        for (k = 0; k < RAMPS; k++) {
-            add_row(&by[k]);
-        }
+        add_row(&middle);
+        add_row(&lower);
+        add_row(&upper);
     }
-    for (k = 0; k < RAMPS; k++) {
-        sums[k].sum = by[k].total;
-        sums[k].x = (int64_t)width * by[k].total - by[k].x_partial;
-        sums[k].y = (int64_t)height * by[k].total - by[k].y_partial;
-    }
+    keep(MIDDLE, &middle);
+    keep(LOWER, &lower);
+    keep(UPPER, &upper);
 }
 
-/* Spread of the part: between its places by the lower and by the upper ramp. */
-static drogue_q16 spread(const drogue_dark_part *part, const drogue_dark_sums sums[RAMPS], const drogue_dark_ramp *ramp)
+/* Of numbers not negative. */
+static int64_t times(int32_t a, int32_t b) { return (int64_t)((uint64_t)(uint32_t)a * (uint32_t)b); }
+
+/* The part's place by one of the ramps. */
+static drogue_dark_part place(const drogue_dark_part *part, int k, int32_t width, int32_t height,
+                              const drogue_dark_ramp *ramp)
 {
-    drogue_dark_part lower = *part;
-    drogue_dark_part upper = *part;
-    drogue_dark_place(&lower, &sums[0], ramp);
-    drogue_dark_place(&upper, &sums[RAMPS - 1], ramp);
-    return drogue_dark_distance(&lower, upper.x_px_q16, upper.y_px_q16);
+    drogue_dark_part placed = *part;
+    drogue_dark_sums sums;
+    sums.sum = totals[k];
+    sums.x = times(width, totals[k]) - x_partials[k];
+    sums.y = times(height, totals[k]) - y_partials[k];
+    drogue_dark_place(&placed, &sums, ramp);
+    return placed;
 }
 
-/* The last two passes: weigh the part, then about the place found, with the three ramps in one pass. */
+/* The last two passes: weigh the part, then about the place found, with the three ramps in one pass; by the lower and
+ * the upper one the part has a spread. */
 static void weigh(drogue_dark_part *part, const uint8_t *pixels, uint32_t at, int32_t width, int32_t height,
                   drogue_q16 a_px_q16)
 {
-    drogue_dark_sums sums[RAMPS];
+    enum { PASSES = 2, STEPS = PASSES + RAMPS - 1 };
+    drogue_dark_part lower = *part;
+    drogue_dark_part upper = *part;
     drogue_mask window;
     drogue_dark_ramp ramp;
-    int round;
+    int step;
     drogue_dark_ramp_of(&ramp, part, histogram);
-    for (round = 0; round < 2; round++) {
-        drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
-        take_darkness(sums, pixels, at, width, height, drogue_hls_disc_left(&window), window.centre2_x,
-                      window.centre2_y, ramp.full, ramp.range, drogue_dark_ramp_step(&ramp));
-        drogue_dark_place(part, &sums[MIDDLE], &ramp);
-        at += (uint32_t)(width * height);
+    for (step = 0; step < STEPS; step++) {
+        if (step < PASSES) {
+            drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
+            take_darkness(pixels, at, width, height, drogue_hls_disc_left(&window), window.centre2_x, window.centre2_y,
+                          ramp.full, ramp.range, drogue_dark_ramp_step(&ramp));
+            at += (uint32_t)(width * height);
+        }
+        lower = upper;
+        upper = place(part, step < PASSES ? MIDDLE : step - PASSES + LOWER, width, height, &ramp);
+        if (step < PASSES) {
+            *part = upper;
+        }
     }
-    part->spread_px_q16 = spread(part, sums, &ramp);
+    part->spread_px_q16 = drogue_dark_distance(&lower, upper.x_px_q16, upper.y_px_q16);
 }
 
 /* All five passes; without a part the last three are taken all the same, for nothing. Each kind of pass is called in one

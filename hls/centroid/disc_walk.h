@@ -4,6 +4,7 @@
 #ifndef DROGUE_HLS_DISC_WALK_H
 #define DROGUE_HLS_DISC_WALK_H
 
+#include "drogue/fixed.h"
 #include "drogue/mask.h"
 
 /* bound - 9 (2n - centre2)^2 for n = 0, 1, 2, ... */
@@ -26,11 +27,20 @@ static inline void drogue_hls_walk_on(drogue_hls_walk *w)
     w->step += 72;
 }
 
-/* What the disc's bound leaves to pixel (0, 0), drogue_mask_disc_row()'s without the columns' part. From there down the
- * rows with centre2_y, and from each row's along its columns with centre2_x: in the disc where nothing less than 0 is left. */
+/* v^2, of a product of 32 bits by 32: a signed one would take 64 by 64 and more than twice the multipliers. */
+static inline int64_t drogue_hls_square(int32_t v)
+{
+    const uint32_t size = (uint32_t)drogue_abs_u64(v);
+    return (int64_t)((uint64_t)size * size);
+}
+
+/* What the disc's bound leaves to pixel (0, 0): drogue_mask_disc_row() of row 0 without the column's part. From there down
+ * the rows with centre2_y, and from each row's along its columns with centre2_x: in the disc where nothing less than 0 is
+ * left. */
 static inline int64_t drogue_hls_disc_left(const drogue_mask *disc)
 {
-    return drogue_mask_disc_row(disc, 0) - 9 * (int64_t)disc->centre2_x * disc->centre2_x;
+    return 4 * drogue_hls_square(disc->longest_px) -
+           9 * (drogue_hls_square(disc->centre2_x) + drogue_hls_square(disc->centre2_y));
 }
 
 #endif
