@@ -256,10 +256,8 @@ int main(void)
     frame_vectors(&b);
 #ifdef __BAMBU_SIM__ /* few: each is simulated */
     largest_image(&b, DISC);
-    if (DROGUE_HLS_WIDTH <= 128) { /* else it takes too long */
-        largest_image(&b, CELLS);
-        largest_image(&b, ARCHES);
-    }
+    largest_image(&b, CELLS);
+    largest_image(&b, ARCHES);
 #else
     random_images(&b, 400, 70);
     full_labels(&b);
