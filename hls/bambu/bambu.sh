@@ -75,12 +75,14 @@ if [ $verdict != PASS ]; then
 fi
 if [ $area = yes ]; then
     if ! timeout "${DROGUE_HLS_TIMEOUT_S:-3600}" yosys -q \
-        -p "read_verilog -defer $function.v; synth_xilinx -flatten -top $function; tee -o area stat" >yosys.log 2>&1; then
+        -p "read_verilog -defer $function.v; synth_xilinx -noiopad -noclkbuf -top $function; tee -o area stat" >yosys.log 2>&1; then
         echo "area of $name: yosys did not end well, see $work/yosys.log"
         exit 1
     fi
     awk -v name="$name" '
-        /^ +LUT[1-6] / { lut += $2 } /^ +FD[CPRS]E/ { ff += $2 } /^ +DSP48E1 / { dsp += $2 }
+        /design hierarchy/ { whole = 1 } # after the modules one by one
+        !whole { next }
+        /^ +LUT[1-6] / { lut += $2 } /^ +FD[CPRS]E / { ff += $2 } /^ +DSP48E1 / { dsp += $2 }
         /^ +RAMB18E1 / { bram += $2 } /^ +RAMB36E1 / { bram += 2 * $2 } /^ +RAM(32|64|128|256)/ { lutram += $2 }
         END { printf "area of %s: LUT=%d FF=%d DSP=%d BRAM18=%d LUTRAM=%d\n", name, lut, ff, dsp, bram, lutram }' area
 fi

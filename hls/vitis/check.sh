@@ -35,9 +35,10 @@ for name in $(all_tops); do
     done < <(sed -nE 's/^(syn|tb)\.file=//p' "$folder/hls_config.cfg")
 done
 
-# bites SED FAULT: a script spoiled like this is refused with this fault
+# bites SED FAULT: a script spoiled like this, in its own part or in the common one, is refused with this fault
 bites() {
-    sed -E "$1" "$folder/run_hls.tcl" >"$work/spoiled.tcl"
+    sed -E "$1" hls/vitis/run.tcl >"$work/run.tcl"
+    sed -E "$1; s|^source .*|source $work/run.tcl|" "$folder/run_hls.tcl" >"$work/spoiled.tcl"
     if run_stub "$folder" "$function" "$work/spoiled.tcl" >"$work/out" 2>&1 || ! grep -q "$2" "$work/out"; then
         echo "vitis: the check does not notice: $2"
         status=1
@@ -45,8 +46,8 @@ bites() {
 }
 if [ -n "$last" ]; then
     top "$last"
-    bites 's|/src/wide\.c|/src/wade.c|' 'no file .*wade\.c'
-    bites 's/^set_top .*/set_top another/' 'top another'
+    bites 's|src/wide\.c|src/wade.c|' 'no file .*wade\.c'
+    bites 's/^set top .*/set top another/' 'top another'
     bites '/^ *cosim_design/d' 'steps .* csynth export'
     bites 's/^set_part/set_prat/' 'invalid command name "set_prat"'
 fi

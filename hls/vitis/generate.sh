@@ -17,10 +17,10 @@ prefixed() { printf "$1$2/%s\n" "${@:3}"; }
 # flags ROOT: of every compilation
 flags() { echo "-std=c99 -Wno-unknown-pragmas -I$1/include -I$1/hls -I$1/hls/bench -I$1/tests/conformance"; }
 
-# files NAME: of the test bench, beside the sources
-bench_files() { echo "$bench hls/bench/bench.c build/hls/$1/cases_0.c build/hls/$1/cases_index.c $rest"; }
+# files NAME: of the test bench alone
+bench_files() { echo "$bench hls/bench/bench.c build/hls/$1/cases_0.c build/hls/$1/cases_index.c"; }
 
-# set_top NAME: as top, and 'rest': files of src/ that the top does not need but its test bench may
+# load NAME: as top, and 'rest': files of src/ that the top does not need but its test bench may
 load() {
     local file
     top "$1"
@@ -49,7 +49,7 @@ syn.top=$function
 syn.cflags=$(flags "$2")
 $(prefixed syn.file= "$2" $sources $core)
 tb.cflags=$(flags "$2")
-$(prefixed tb.file= "$2" $(bench_files "$1"))
+$(prefixed tb.file= "$2" $(bench_files "$1") $rest)
 package.output.format=ip_catalog
 package.output.syn=false
 END
@@ -62,49 +62,16 @@ script() {
     cat <<END
 # Written by hls/vitis/generate.sh from hls/tops.txt. In this folder, after 'hls/vectors.sh $1':
 #   vitis-run --mode hls --tcl run_hls.tcl
-# Part, clock and steps are those of the environment, where it has any.
-proc setting {name otherwise} {
-    return [expr {[info exists ::env(\$name)] ? \$::env(\$name) : \$otherwise}]
+set name $1
+set top $function
+set root $2
+set sources {
+$(printf '    %s\n' $sources $core)
 }
-set part [setting DROGUE_HLS_PART $default_part]
-set clock_ns [setting DROGUE_HLS_CLOCK_NS $default_clock_ns]
-set steps [setting DROGUE_HLS_STEPS "csim csynth cosim export"]
-set flags "$(flags "$2")"
-
-if {[llength [info commands open_component]] > 0} {
-    open_component -reset $1 -flow_target vivado
-} else {
-    open_project -reset $1
+set bench {
+$(printf '    %s\n' $(bench_files "$1"))
 }
-foreach file {
-$(prefixed '    ' "$2" $sources $core)
-} {
-    add_files \$file -cflags \$flags
-}
-foreach file {
-$(prefixed '    ' "$2" $(bench_files "$1"))
-} {
-    add_files -tb \$file -cflags \$flags
-}
-set_top $function
-if {[llength [info commands open_component]] == 0} {
-    open_solution -reset solution -flow_target vivado
-}
-set_part \$part
-create_clock -period \$clock_ns
-if {"csim" in \$steps} {
-    csim_design
-}
-if {"csynth" in \$steps} {
-    csynth_design
-}
-if {"cosim" in \$steps} {
-    cosim_design
-}
-if {"export" in \$steps} {
-    export_design -format ip_catalog
-}
-exit
+source \$root/hls/vitis/run.tcl
 END
 }
 

@@ -6,16 +6,6 @@
 #include "drogue/undistort.h"
 #include "joint_model.h"
 
-static field usual_field(void)
-{
-    field f;
-    f.camera = pinhole(1465.5, 1470, 1023.5, 1000);
-    f.model.rim_radius_m_q16 = q16_of(0.35);
-    f.model.inner_radius_m_q16 = q16_of(0.12);
-    f.model.inner_depth_m_q16 = q16_of(0.25);
-    return f;
-}
-
 static drogue_pose pose_of(const pose_real *p)
 {
     drogue_pose q;

@@ -5,27 +5,6 @@
 #include "drogue/joint.h"
 #include "joint_model.h"
 
-static field usual_field(void)
-{
-    field f;
-    f.camera = pinhole(1465.5, 1470, 1023.5, 1000);
-    f.model.rim_radius_m_q16 = q16_of(0.35);
-    f.model.inner_radius_m_q16 = q16_of(0.12);
-    f.model.inner_depth_m_q16 = q16_of(0.25);
-    return f;
-}
-
-static pose_real random_pose(uint64_t *rng, double most_angle)
-{
-    pose_real p;
-    p.v[2] = exp(rng_real(rng, log(2.0), log(25.0)));
-    p.v[0] = p.v[2] * rng_real(rng, -0.3, 0.3);
-    p.v[1] = p.v[2] * rng_real(rng, -0.3, 0.3);
-    p.v[3] = rng_real(rng, -most_angle, most_angle);
-    p.v[4] = rng_real(rng, -most_angle, most_angle);
-    return p;
-}
-
 /* What the pose shows, exact but for the rounding to Q16; offsets known to 1 / 10 px over 200 points. */
 static int measurement_of(drogue_joint_outline *outline, drogue_joint_inner *inner, drogue_pose poses[2],
                           const field *f, const pose_real *p)
@@ -46,19 +25,6 @@ static int measurement_of(drogue_joint_outline *outline, drogue_joint_inner *inn
         outline->covariance[DROGUE_PACKED(i, i)] = wide_of((quad)(i == 0 ? variance : 2 * variance));
     }
     return drogue_pose_from_ellipse(poses, &outline->ellipse, &f->camera, f->model.rim_radius_m_q16) == DROGUE_OK;
-}
-
-/* Largest difference from the truth, LSB of m and rad; the axis counts, not the angles. */
-static double pose_error_lsb(const drogue_pose *got, const pose_real *p)
-{
-    double axis[3], worst = 0;
-    int k;
-    axis_of_angles(axis, p->v[3], p->v[4]);
-    for (k = 0; k < 3; k++) {
-        worst = fmax(worst, fabs(got->position_m_q16[k] - 65536 * p->v[k]));
-        worst = fmax(worst, fabs(got->axis_q16[k] - 65536 * axis[k]));
-    }
-    return worst;
 }
 
 /* From the right start within the few steps that a frame takes; from the other one within those that may be asked for,

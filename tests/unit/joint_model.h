@@ -17,6 +17,40 @@ typedef struct field {
     drogue_model model;
 } field;
 
+static inline field usual_field(void)
+{
+    field f;
+    f.camera = pinhole(1465.5, 1470, 1023.5, 1000);
+    f.model.rim_radius_m_q16 = q16_of(0.35);
+    f.model.inner_radius_m_q16 = q16_of(0.12);
+    f.model.inner_depth_m_q16 = q16_of(0.25);
+    return f;
+}
+
+static inline pose_real random_pose(uint64_t *rng, double most_angle)
+{
+    pose_real p;
+    p.v[2] = exp(rng_real(rng, log(2.0), log(25.0)));
+    p.v[0] = p.v[2] * rng_real(rng, -0.3, 0.3);
+    p.v[1] = p.v[2] * rng_real(rng, -0.3, 0.3);
+    p.v[3] = rng_real(rng, -most_angle, most_angle);
+    p.v[4] = rng_real(rng, -most_angle, most_angle);
+    return p;
+}
+
+/* Largest difference from the truth, LSB of m and rad; the axis counts, not the angles. */
+static inline double pose_error_lsb(const drogue_pose *got, const pose_real *p)
+{
+    double axis[3], worst = 0;
+    int k;
+    axis_of_angles(axis, p->v[3], p->v[4]);
+    for (k = 0; k < 3; k++) {
+        worst = fmax(worst, fabs(got->position_m_q16[k] - 65536 * p->v[k]));
+        worst = fmax(worst, fabs(got->axis_q16[k] - 65536 * axis[k]));
+    }
+    return worst;
+}
+
 static inline int field_ellipse(ellipse_real *out, const field *f, const pose_real *p, double depth, double radius)
 {
     double axis[3], centre[3];

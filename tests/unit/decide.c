@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The choice between the two poses, on outlines and inner parts whose truth is known. */
+#include "suite.h"
+
+#include "drogue/config.h"
+#include "drogue/decide.h"
+#include "joint_model.h"
+
+typedef struct seen {
+    drogue_result result;
+    drogue_support support;
+    drogue_joint_inner inner;
+    drogue_pose poses[2];
+    double outline_px; /* semi-axis */
+} seen;
+
+/* What a pose shows: points all round, each 0.1 px off, each bin by up to 0.02. */
+static int look_at(seen *s, const field *f, const pose_real *p, uint64_t *rng)
+{
+    ellipse_real outline, inner;
+    int k;
+    if (!field_outline(&outline, f, p) || !field_inner(&inner, f, p)) {
+        return 0;
+    }
+    memset(s, 0, sizeof *s);
+    s->outline_px = outline.a;
+    s->result.ideal = ellipse_to_q16(&outline);
+    s->support.points = 32 * DROGUE_SUPPORT_BINS;
+    s->support.gradient = UINT64_C(400) * s->support.points;
+    s->support.squares_q32 = (int64_t)(s->support.points * pow(0.1 / outline.a * 65536, 2));
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        s->support.bin[k].count[0] = 32;
+        s->support.bin[k].sum_q16 = (int32_t)(32 * 65536 * rng_real(rng, -0.02, 0.02) / outline.a);
+    }
+    s->inner.x_px_q16 = q16_of(inner.xc);
+    s->inner.y_px_q16 = q16_of(inner.yc);
+    s->inner.std_px_q16 = q16_of(0.05);
+    return drogue_pose_from_ellipse(s->poses, &s->result.ideal, &f->camera, f->model.rim_radius_m_q16) == DROGUE_OK;
+}
+
+static drogue_status decide(seen *s, const field *f, uint32_t nearer, const drogue_joint_inner *inner)
+{
+    drogue_config config;
+    drogue_config_default(&config);
+    return drogue_decide(&s->result, s->poses, nearer, &s->support, inner, &config, &f->camera, &f->model);
+}
+
+/* Between two axes, rad. */
+static double apart(const drogue_q16 *a, const drogue_q16 *b)
+{
+    double sum = 0;
+    int k;
+    for (k = 0; k < 3; k++) {
+        sum += pow(real_of_q16(a[k]) - real_of_q16(b[k]), 2);
+    }
+    return sqrt(sum);
+}
+
+/* The joint pose has its axis from its angles: that may be 2 LSB. */
+static int same(const drogue_pose *p, const drogue_pose *q)
+{
+    return memcmp(p->position_m_q16, q->position_m_q16, sizeof p->position_m_q16) == 0 &&
+           p->yaw_rad_q16 == q->yaw_rad_q16 && p->pitch_rad_q16 == q->pitch_rad_q16 &&
+           apart(p->axis_q16, q->axis_q16) * 65536 <= 2;
+}
+
+static void standing(pose_real *p, double z, double yaw, double pitch)
+{
+    memset(p, 0, sizeof *p);
+    p->v[2] = z;
+    p->v[3] = yaw;
+    p->v[4] = pitch;
+}
+
+/* Whichever pose it is told to be the nearer one, the right one wins; told right, it hands on the other one. */
+START_TEST(the_right_pose_from_both_sides)
+{
+    const field f = usual_field();
+    uint64_t rng = 11;
+    int i, solved = 0;
+    for (i = 0; i < 400; i++) {
+        const pose_real p = random_pose(&rng, 0.4);
+        seen s;
+        uint32_t nearer;
+        if (p.v[2] > 8 || !look_at(&s, &f, &p, &rng) || apart(s.poses[0].axis_q16, s.poses[1].axis_q16) < 0.3) {
+            continue;
+        }
+        for (nearer = 0; nearer < 2; nearer++) {
+            uint32_t right;
+            MUST(decide(&s, &f, nearer, &s.inner) == DROGUE_OK, "case %d refused", i);
+            MUST(s.result.orientation_resolved, "case %d from %u: not resolved", i, (unsigned)nearer);
+            MUST(pose_error_lsb(&s.result.pose, &p) < 3000, "case %d from %u: %g LSB off", i, (unsigned)nearer,
+                 pose_error_lsb(&s.result.pose, &p));
+            right =
+                apart(s.result.pose.axis_q16, s.poses[1].axis_q16) < apart(s.result.pose.axis_q16, s.poses[0].axis_q16);
+            MUST(nearer != right || memcmp(&s.result.alternative, &s.poses[1 - right], sizeof s.poses[0]) == 0,
+                 "case %d: alternative", i);
+        }
+        solved++;
+    }
+    ck_assert_int_gt(solved, 60);
+}
+END_TEST
+
+/* Without an inner part: the outline's pose that was asked for, unresolved. */
+START_TEST(outline_alone)
+{
+    const field f = usual_field();
+    const drogue_joint_inner none = {0, 0, 0};
+    pose_real p;
+    uint64_t rng = 12;
+    seen s;
+    uint32_t nearer;
+    standing(&p, 6, 0.25, -0.1);
+    ck_assert(look_at(&s, &f, &p, &rng));
+    for (nearer = 0; nearer < 2; nearer++) {
+        ck_assert_int_eq(decide(&s, &f, nearer, &none), DROGUE_OK);
+        ck_assert(!s.result.orientation_resolved);
+        ck_assert(same(&s.result.pose, &s.poses[nearer]));
+        ck_assert_mem_eq(&s.result.alternative, &s.poses[1 - nearer], sizeof s.result.alternative);
+        ck_assert_int_gt(s.result.position_std_m_q32[2], 0);
+        ck_assert_int_gt(s.result.axis_std_rad_q32, 0);
+    }
+}
+END_TEST
+
+/* An inner part where neither pose can have it contradicts the outline: the outline alone is believed. */
+START_TEST(contradiction)
+{
+    const field f = usual_field();
+    pose_real p;
+    uint64_t rng = 13;
+    seen s;
+    drogue_joint_inner moved;
+    standing(&p, 6, 0.25, -0.1);
+    ck_assert(look_at(&s, &f, &p, &rng));
+    ck_assert_int_eq(decide(&s, &f, 0, &s.inner), DROGUE_OK);
+    ck_assert(s.result.orientation_resolved);
+    moved = s.inner; /* across the line on which both poses have it, so that no tilt explains it */
+    moved.x_px_q16 += q16_of(0.3 * s.outline_px);
+    moved.y_px_q16 += q16_of(0.75 * s.outline_px);
+    ck_assert_int_eq(decide(&s, &f, 1, &moved), DROGUE_OK);
+    ck_assert(!s.result.orientation_resolved);
+    ck_assert(same(&s.result.pose, &s.poses[1]));
+    ck_assert_mem_eq(&s.result.alternative, &s.poses[0], sizeof s.result.alternative);
+}
+END_TEST
+
+/* Head-on the two poses are one: nothing to choose, and so nothing open. */
+START_TEST(head_on)
+{
+    const field f = usual_field();
+    pose_real p;
+    uint64_t rng = 14;
+    seen s;
+    standing(&p, 6, 0, 0);
+    ck_assert(look_at(&s, &f, &p, &rng));
+    ck_assert_int_eq(decide(&s, &f, 0, &s.inner), DROGUE_OK);
+    ck_assert(s.result.orientation_resolved);
+}
+END_TEST
+
+/* A support of too few bins says nothing about the outline's errors. */
+START_TEST(no_covariance)
+{
+    const field f = usual_field();
+    pose_real p;
+    uint64_t rng = 15;
+    seen s;
+    standing(&p, 6, 0.25, -0.1);
+    ck_assert(look_at(&s, &f, &p, &rng));
+    memset(&s.support, 0, sizeof s.support);
+    ck_assert_int_eq(decide(&s, &f, 0, &s.inner), DROGUE_E_DOMAIN);
+}
+END_TEST
+
+SUITE_MAIN("decide", the_right_pose_from_both_sides, outline_alone, contradiction, head_on, no_covariance)
