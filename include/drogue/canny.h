@@ -78,6 +78,39 @@ static inline int drogue_canny_is_maximum(drogue_sector sector, int32_t before, 
  */
 int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after);
 
+/* The division that gives the offset, begun; then a step for each bit of the quotient, 4 down to 0; then the offset. */
+typedef struct drogue_canny_vertex {
+    int32_t curvature;
+    int32_t slope;
+    int32_t rest;
+    int32_t quotient;
+} drogue_canny_vertex;
+
+static inline drogue_canny_vertex drogue_canny_vertex_begin(int32_t before, int32_t m, int32_t after)
+{
+    drogue_canny_vertex v;
+    v.curvature = 2 * m - before - after;
+    v.slope = after - before;
+    v.rest = 32 * v.slope + 33 * v.curvature; /* floor(rest / (2 curvature)) - 16 rounds 16 slope / curvature */
+    v.quotient = 0;
+    return v;
+}
+
+static inline void drogue_canny_vertex_step(drogue_canny_vertex *v, int32_t bit)
+{
+    const int32_t part = v->curvature * (2 << bit);
+    const int32_t fits = v->rest >= part;
+    v->rest -= fits ? part : 0;
+    v->quotient += fits ? 1 << bit : 0;
+}
+
+static inline int32_t drogue_canny_vertex_offset(const drogue_canny_vertex *v)
+{
+    const int32_t offset = v->quotient - 16; /* where |slope| < curvature: quotient in [0, 32) */
+    const int32_t within = offset < -15 || v->slope <= -v->curvature ? -15 : v->slope >= v->curvature ? 15 : offset;
+    return v->curvature <= 0 ? 0 : within;
+}
+
 /* Direction class by the signs of the gradient, gy counted upward as in (2): 0..3 for I..IV.
  * (0, 0) has no direction and cannot be an edge; it gives 3. */
 static inline uint32_t drogue_direction_class(int16_t gx, int16_t gy_down)
