@@ -4,8 +4,6 @@
 
 #include "stages.h"
 
-enum { LAG_PX = 11, LAG_ROWS = 4 }; /* ticks a pixel needs through the stages; rows */
-
 static uint64_t
     points[DROGUE_HLS_EDGES + 1]; /* candidates in the ring, packed; the last word takes what does not fit */
 static uint32_t point_arc[DROGUE_HLS_EDGES + 1]; /* and their arcs' labels */
@@ -18,17 +16,11 @@ typedef struct point_list {
     uint32_t full;
 } point_list;
 
-/* Append the pixel in the windows when it has an arc. */
-static void append(point_list *list, const drogue_hls_windows *w, int32_t x, int32_t y, uint32_t arc)
+/* Append a point when it has an arc. */
+static void append(point_list *list, uint64_t point, uint32_t arc)
 {
     const uint32_t room = list->count < DROGUE_HLS_EDGES;
-    drogue_edge e;
-    e.x_q5 = (uint16_t)(32 * x + (int8_t)(uint8_t)(w->code >> 8 & 0xFFu));
-    e.y_q5 = (uint16_t)(32 * y + (int8_t)(uint8_t)(w->code >> 16 & 0xFFu));
-    e.gx = (int16_t)(uint16_t)(w->gradients[1] & 0xFFFFu);
-    e.gy = (int16_t)(uint16_t)(w->gradients[1] >> 16);
-    e.arc = arc;
-    points[list->count] = drogue_hls_pack_edge(&e);
+    points[list->count] = point;
     point_arc[list->count] = arc;
     list->count += (arc != 0) & room;
     list->full |= (arc != 0) & (room ^ 1u);
@@ -117,16 +109,13 @@ static drogue_status check(int32_t width_px, int32_t height_px, int32_t canny_lo
 
 static uint16_t threshold(int32_t magnitude) { return (uint16_t)(magnitude < 2040 ? magnitude : 2040); }
 
-static void prepare_row(drogue_hls_row *row, const drogue_mask *ring, int32_t y)
+/* A row of labels begins: the ring in it, from the column that comes to AT_LABEL in the second tick. */
+static void begin_row(drogue_hls_windows *w, drogue_hls_frame *frame, const drogue_mask *ring, int32_t y)
 {
-    int k;
-    row->y = y;
-    row->ring = drogue_mask_ring_row(ring, y - 4);
-    for (k = 0; k < 5; k++) {
-        const int32_t to = y - 2; /* row smoothed */
-        row->tap[k] =
-            (uint8_t)(to >= 0 && to < row->height_px ? drogue_reflect_101(to + k - 2, row->height_px) - to + 2 : 2);
-    }
+    const int32_t dx = 2 * -2 - ring->centre2_x;
+    frame->ring = drogue_mask_ring_row(ring, y);
+    w->ring_dx = dx;
+    w->ring_square = (int64_t)dx * dx;
 }
 
 void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], uint64_t edges[DROGUE_HLS_EDGES],
@@ -157,11 +146,11 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
 #endif
     const drogue_mask ring = {centre2_x, centre2_y, longest_px};
     const drogue_status refused = check(width_px, height_px, canny_low, canny_high, use_ring, &ring);
-    drogue_hls_row row;
+    drogue_hls_frame frame;
+    drogue_hls_windows w;
     drogue_hls_labels labels;
     point_list list = {0, 0};
     uint32_t taken = 0;
-    uint8_t pixel = 0;
     uint32_t arcs_full;
     uint32_t arcs_listed;
     uint32_t left;
@@ -174,36 +163,37 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
         results[DROGUE_HLS_FRONTEND_STATUS] = (uint32_t)refused;
         return;
     }
-    row.width_px = width_px;
-    row.height_px = height_px;
-    row.smooth = smooth;
-    row.low = threshold(canny_low);
-    row.high = threshold(canny_high);
-    row.use_ring = use_ring;
+    frame.width_px = width_px;
+    frame.height_px = height_px;
+    frame.period = width_px + IDLE_PX > LEAST_PERIOD ? width_px + IDLE_PX : LEAST_PERIOD;
+    frame.smooth = smooth;
+    frame.low = threshold(canny_low);
+    frame.high = threshold(canny_high);
+    frame.use_ring = use_ring;
+    drogue_hls_pixels_begin(&w);
     drogue_hls_labels_begin(&labels);
     for (y = 0; y < height_px + LAG_ROWS; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT + LAG_ROWS
-        drogue_hls_windows w = {{0}, {0}, 0, {{0}}, 0, {0}, 0, {{0}}, 0, 0, {0}, 0};
-        prepare_row(&row, &ring, y);
+        begin_row(&w, &frame, &ring, y - LAG_ROWS);
         drogue_hls_labels_row(&labels);
-        for (x = 0; x < width_px + LAG_PX; x++) {
-#pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH + LAG_PX
+        for (x = 0; x < frame.period; x++) {
+#pragma HLS loop_tripcount max = DROGUE_HLS_PERIOD
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 #endif
-            const uint32_t arc = drogue_hls_label_stage(&labels, &row, x - LAG_PX, w.code);
-            append(&list, &w, x - LAG_PX, y - LAG_ROWS, arc);
-            drogue_hls_locate_stage(&w);
-            drogue_hls_suppress_stage(&w, &row, x - 8);
-            drogue_hls_column_stage(&w, &row, x - 7);
-            drogue_hls_gradient_stage(&w, &row, x - 5);
-            drogue_hls_smooth_horizontally(&w, &row, x - 2);
-            drogue_hls_smooth_vertically(&w, &row, x - 1, pixel);
-            if ((x < width_px) & (y < height_px)) { /* for the next tick */
+            const drogue_hls_lines lines = drogue_hls_lines_read(&w);
+            const drogue_hls_known known = drogue_hls_known_read(&labels, &w);
+            const uint32_t code = w.code[AT_LABEL] & (0x1Fu & ~(0x1Cu & ~drogue_hls_when((int)w.in_ring)));
+            uint8_t pixel = 0;
+            if (w.take) {
                 pixel = pixels[taken++];
             }
+            append(&list, w.point[AT_LIST], labels.arc);
+            drogue_hls_labels_tick(&labels, &w, &known, code);
+            drogue_hls_pixels_tick(&w, &frame, &lines);
+            w.pixel = pixel;
         }
-        drogue_hls_labels_settle();
+        drogue_hls_labels_settle(&labels);
     }
     drogue_hls_labels_flatten(&labels);
     left = drop_weak(list.count, labels.arc_count);
