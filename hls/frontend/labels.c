@@ -7,6 +7,11 @@
 
 enum { CANDIDATE = 1, STRONG = 2, KEY_SHIFT = 2, MERGES = DROGUE_HLS_WIDTH / 2 + 1 };
 
+/* n rounded up to a power of 2: the place of an entry in one of several tables is found without an addition. */
+#define SMEAR(n, by) ((n) | (n) >> (by))
+#define POWER_OF_2(n) (SMEAR(SMEAR(SMEAR(SMEAR(SMEAR((n)-1, 1), 2), 4), 8), 16) + 1)
+enum { TABLE = POWER_OF_2(DROGUE_HLS_LABELS), LIST = POWER_OF_2(MERGES) };
+
 static uint32_t component_row[DROGUE_HLS_PERIOD]; /* labels of the row above, and arcs' with their key */
 static uint32_t arc_row[DROGUE_HLS_PERIOD];
 static uint8_t key_row[DROGUE_HLS_PERIOD];
@@ -14,10 +19,10 @@ static uint32_t
     component_parent[DROGUE_HLS_LABELS]; /* entry 0 takes what is not to be kept: writes need no condition */
 static uint8_t component_strong[DROGUE_HLS_LABELS];
 static drogue_merge component_merges[MERGES];
-static uint32_t arc_parent[DROGUE_HLS_KEYS][DROGUE_HLS_LABELS]; /* a label is used in the table of its key alone */
+static uint32_t arc_parent[DROGUE_HLS_KEYS][TABLE]; /* a label is used in the table of its key alone */
 static uint32_t arc_component[DROGUE_HLS_LABELS];
 static uint8_t arc_key[DROGUE_HLS_LABELS];
-static drogue_merge arc_merges[DROGUE_HLS_KEYS][MERGES];
+static drogue_merge arc_merges[DROGUE_HLS_KEYS][LIST];
 
 void drogue_hls_labels_begin(drogue_hls_labels *l)
 {
@@ -51,7 +56,7 @@ drogue_hls_known drogue_hls_known_read(const drogue_hls_labels *l, const drogue_
     known.arc = arc_row[w->x[AT_LABEL + 1 - 3]];
     known.key = key_row[w->x[AT_LABEL + 1 - 3]];
     known.component_root = component_parent[l->component_next];
-    known.arc_root = arc_parent[table(l->key_next)][l->arc_next];
+    known.arc_root = arc_parent[l->table_next][l->arc_next];
     return known;
 }
 
@@ -105,12 +110,16 @@ static void label_arc(drogue_hls_labels *l, uint32_t x, const drogue_hls_known *
     const uint32_t room = l->arc_count < DROGUE_HLS_LABELS;
     const uint32_t label = drogue_hls_when((int)keyed) & (near | (l->arc_count & drogue_hls_when((int)(new &room))));
     const uint32_t merges = keyed & (merge_with != 0);
-    drogue_merge *merge = &arc_merges[in][l->arc_merges[0]];
-    uint32_t k;
-    for (k = 0; k < DROGUE_HLS_KEYS; k++) {
-        merge = in == k ? &arc_merges[k][l->arc_merges[k]] : merge;
-        l->arc_merges[k] += merges & (in == k);
-    }
+    const uint32_t is0 = drogue_hls_when(in == 0);
+    const uint32_t is1 = drogue_hls_when(in == 1);
+    const uint32_t is2 = drogue_hls_when(in == 2);
+    const uint32_t is3 = drogue_hls_when(in == 3);
+    drogue_merge *merge = &arc_merges[in][(l->arc_merges[0] & is0) | (l->arc_merges[1] & is1) |
+                                          (l->arc_merges[2] & is2) | (l->arc_merges[3] & is3)];
+    l->arc_merges[0] += merges & is0;
+    l->arc_merges[1] += merges & is1;
+    l->arc_merges[2] += merges & is2;
+    l->arc_merges[3] += merges & is3;
     merge->a = near;
     merge->b = merge_with;
     arc_parent[in][label & fresh] = label & fresh;
@@ -130,6 +139,7 @@ static void label_arc(drogue_hls_labels *l, uint32_t x, const drogue_hls_known *
     l->key_above[2] = l->key_next;
     l->arc_next = known->arc;
     l->key_next = known->key;
+    l->table_next = table(known->key);
     l->arc = label;
 }
 

@@ -19,8 +19,11 @@ uint32_t drogue_hls_gradient(uint8_t t0, uint8_t t1, uint8_t t2, uint8_t c0, uin
 /* L1 magnitude of a gradient word. */
 uint16_t drogue_hls_magnitude(uint32_t gradient);
 
-/* Bits 0-1 sector of a gradient word, bits 2-4 its direction class + 1. */
-uint32_t drogue_hls_sector(uint32_t gradient);
+/* drogue_canny_tangent() of a gradient word. */
+uint32_t drogue_hls_tangent(uint32_t gradient);
+
+/* Bits 0-1 sector of a gradient word by its tangent, bits 2-4 its direction class + 1. */
+uint32_t drogue_hls_sector(uint32_t gradient, uint32_t tangent);
 
 /* Magnitudes of a 3x3 window before, at and after its middle, across the edge of the sector: bits 0-15, 16-31, 32-47. */
 uint64_t drogue_hls_neighbours(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2,

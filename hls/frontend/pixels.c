@@ -12,9 +12,12 @@ static uint32_t magnitude_rows[DROGUE_HLS_PERIOD]; /* the two above the newest *
 void drogue_hls_pixels_begin(drogue_hls_windows *w)
 {
     static const drogue_hls_windows empty;
+    int k;
     *w = empty;
     w->x[0] = AT_LABEL - 3; /* a row of labels begins three columns early */
-    w->y[0] = 0xFFFF;       /* row -1 */
+    for (k = 0; k < PLACES; k++) {
+        w->y[k] = 0xFFFF; /* row -1 */
+    }
 }
 
 drogue_hls_lines drogue_hls_lines_read(const drogue_hls_windows *w)
@@ -32,12 +35,20 @@ static int is_inside(const drogue_hls_frame *frame, const drogue_hls_windows *w,
     return w->x[at] < frame->width_px;
 }
 
-/* The five indices about i, border reflected. */
-static void reflect(int16_t near[5], int32_t i, int32_t n)
+/* The five indices about i; then with the border reflected. */
+static void about(int16_t indices[5], int32_t i)
 {
     int32_t k;
     for (k = 0; k < 5; k++) {
-        near[k] = (int16_t)drogue_reflect_101(i + k - 2, n);
+        indices[k] = (int16_t)(i + k - 2);
+    }
+}
+
+static void reflect(int16_t near[5], const int16_t indices[5], int32_t n)
+{
+    int32_t k;
+    for (k = 0; k < 5; k++) {
+        near[k] = (int16_t)drogue_reflect_101(indices[k], n);
     }
 }
 
@@ -134,7 +145,7 @@ static void stack_magnitudes(drogue_hls_windows *w, const drogue_hls_frame *fram
     w->column[0] = (uint16_t)(lines->magnitudes & 0xFFFFu & drogue_hls_when(inside & (y >= 1)));
     w->column[1] = (uint16_t)(lines->magnitudes >> 16 & drogue_hls_when(inside));
     w->column[2] = (uint16_t)(w->magnitude & drogue_hls_when(inside & (y + 1 < frame->height_px)));
-    w->middle_gradient[AT_SECTOR] = lines->gradient;
+    w->middle_gradient[AT_TANGENT] = lines->gradient;
 }
 
 static void shift_magnitudes(drogue_hls_windows *w)
@@ -191,7 +202,7 @@ static void advance(drogue_hls_windows *w, const drogue_hls_frame *frame)
 {
     const int last = w->x[0] == frame->period - 1;
     int k;
-    w->take = (w->x[0] < frame->width_px) & (w->y[0] < frame->height_px);
+    w->take = (w->x[AT_TAKE - 1] < frame->width_px) & (w->y[AT_TAKE - 1] < frame->height_px);
     for (k = PLACES - 1; k > 0; k--) {
         w->x[k] = w->x[k - 1];
         w->y[k] = w->y[k - 1];
@@ -209,9 +220,12 @@ void drogue_hls_pixels_tick(drogue_hls_windows *w, const drogue_hls_frame *frame
     shift_magnitudes(w);
     for (k = AT_PLACE; k > AT_SECTOR; k--) {
         w->sector[k] = w->sector[k - 1];
+    }
+    w->sector[AT_SECTOR + 1] = drogue_hls_sector(w->middle_gradient[AT_SECTOR], w->tangent);
+    w->tangent = drogue_hls_tangent(w->middle_gradient[AT_TANGENT]);
+    for (k = AT_PLACE; k > AT_TANGENT; k--) {
         w->middle_gradient[k] = w->middle_gradient[k - 1];
     }
-    w->sector[AT_SECTOR + 1] = drogue_hls_sector(w->middle_gradient[AT_SECTOR]);
     stack_magnitudes(w, frame, lines);
     w->magnitude = drogue_hls_magnitude(w->gradient[0]);
     w->gradient[1] = w->gradient[0];
@@ -220,11 +234,13 @@ void drogue_hls_pixels_tick(drogue_hls_windows *w, const drogue_hls_frame *frame
     stack_levels(w, frame, lines->smooth);
     sum_columns(w, frame);
     pick_columns(w);
-    tap(w->column_tap, w->near_column, w->x[AT_REFLECT + 1]);
-    reflect(w->near_column, w->x[AT_REFLECT], frame->width_px);
+    tap(w->column_tap, w->near_column, w->x[AT_REFLECT_COLUMNS + 1]);
+    reflect(w->near_column, w->column_about, frame->width_px);
+    about(w->column_about, w->x[AT_REFLECT_COLUMNS - 1]);
     sum_rows(w);
     pick_rows(w, lines->raw);
-    tap(w->row_tap, w->near_row, w->y[1] - 2);
-    reflect(w->near_row, w->y[0] - 2, frame->height_px);
+    tap(w->row_tap, w->near_row, w->y[AT_REFLECT_ROWS + 1] - 2);
+    reflect(w->near_row, w->row_about, frame->height_px);
+    about(w->row_about, w->y[AT_REFLECT_ROWS - 1] - 2);
     advance(w, frame);
 }

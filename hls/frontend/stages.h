@@ -10,25 +10,27 @@
 /* Ticks between the moment when a place is counted off and the stages; where two are named, the second is of the place
  * that a window has in its middle. */
 enum {
-    AT_TAKE = 1,      /* the pixel is taken from the stream */
-    AT_PICK_ROWS = 2, /* which rows smoothing sums */
-    AT_SUM_ROWS = 3,  /* its vertical sum */
-    AT_REFLECT = 4,   /* border of the columns; of the rows it is at 0 */
-    AT_PICK_COLUMNS = 6,
-    AT_SUM_COLUMNS = 7, /* its horizontal sum: a smoothed pixel */
-    AT_LEVELS = 8,      /* three of them, one above the other */
-    AT_WINDOW = 9,      /* nine */
-    AT_GRADIENT = 11,
-    AT_MAGNITUDE = 12,
-    AT_MAGNITUDES = 13, /* three, one above the other */
-    AT_SECTOR = 14,     /* nine enter their window */
-    AT_NEIGHBOURS = 16,
-    AT_SUPPRESS = 17,
-    AT_DIVIDE = 18, /* three ticks */
-    AT_PLACE = 21,
-    AT_LABEL = 22, /* of the component; that of the arc a tick later, then the list */
-    AT_LIST = 24,
-    PLACES = 25
+    AT_REFLECT_ROWS = 1,
+    AT_TAKE = 2,      /* the pixel is taken from the stream */
+    AT_PICK_ROWS = 3, /* which rows smoothing sums */
+    AT_SUM_ROWS = 4,  /* its vertical sum */
+    AT_REFLECT_COLUMNS = 5,
+    AT_PICK_COLUMNS = 7,
+    AT_SUM_COLUMNS = 8, /* its horizontal sum: a smoothed pixel */
+    AT_LEVELS = 9,      /* three of them, one above the other */
+    AT_WINDOW = 10,     /* nine */
+    AT_GRADIENT = 12,
+    AT_MAGNITUDE = 13,
+    AT_MAGNITUDES = 14, /* three, one above the other */
+    AT_TANGENT = 15,    /* nine enter their window */
+    AT_SECTOR = 16,
+    AT_NEIGHBOURS = 17,
+    AT_SUPPRESS = 18,
+    AT_DIVIDE = 19, /* three ticks */
+    AT_PLACE = 22,
+    AT_LABEL = 23, /* of the component; that of the arc a tick later, then the list */
+    AT_LIST = 25,
+    PLACES = 26
 };
 
 /* A row of ticks is as long as the region is wide and this; and a word of a line buffer is not met again before so many
@@ -54,12 +56,14 @@ typedef struct drogue_hls_windows {
     uint16_t y[PLACES]; /* smoothed, y - 3 has its gradient taken, y - 4 is suppressed and labelled */
     uint32_t take;      /* is there a pixel at x[AT_TAKE]? */
     uint8_t pixel;
-    int16_t near_row[5];    /* border reflected */
-    uint8_t row_tap[5];     /* which of rows y - 4 .. y are the five of smoothing */
-    uint8_t rows[5];        /* those */
-    uint16_t sum[5];        /* vertical sums of the newest five columns */
-    uint8_t middle[6];      /* and their middle pixels */
-    int16_t near_column[5]; /* border reflected */
+    int16_t row_about[5]; /* indices about it */
+    int16_t near_row[5];  /* border reflected */
+    uint8_t row_tap[5];   /* which of rows y - 4 .. y are the five of smoothing */
+    uint8_t rows[5];      /* those */
+    uint16_t sum[5];      /* vertical sums of the newest five columns */
+    uint8_t middle[6];    /* and their middle pixels */
+    int16_t column_about[5];
+    int16_t near_column[5];
     uint8_t column_tap[5];
     uint16_t columns[5];
     uint8_t level; /* smoothed pixel */
@@ -70,7 +74,8 @@ typedef struct drogue_hls_windows {
     uint16_t column[3]; /* magnitudes of a column, top to bottom */
     uint16_t magnitudes[3][3];
     uint32_t middle_gradient[AT_PLACE + 1]; /* gradient of the middle row, by tick */
-    uint32_t sector[AT_PLACE + 1];          /* sector and direction class, by tick */
+    uint32_t tangent;
+    uint32_t sector[AT_PLACE + 1]; /* sector and direction class, by tick */
     uint64_t neighbours;
     uint32_t code[AT_LABEL + 1]; /* drogue_hls_suppress()'s, by tick */
     uint64_t vertex[AT_PLACE + 1];
@@ -111,7 +116,8 @@ typedef struct drogue_hls_labels {
     uint32_t arc_next;
     uint32_t arc_above[3];
     uint32_t arc_left;
-    uint32_t key_next; /* direction class + 1; 0: in no arc */
+    uint32_t table_next; /* the table of the key */
+    uint32_t key_next;   /* direction class + 1; 0: in no arc */
     uint32_t key_above[3];
     uint32_t key_left;
     uint32_t arc; /* of the pixel that may be listed */

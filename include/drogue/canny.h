@@ -23,15 +23,26 @@ typedef enum drogue_sector {
 /* Verdict of suppression and thresholds. */
 enum { DROGUE_CANNY_NONE = 0, DROGUE_CANNY_WEAK = 1, DROGUE_CANNY_STRONG = 2 };
 
-static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
+/* |gx| tan(22.5 degrees), * 2^15 */
+static inline uint32_t drogue_canny_tangent(int16_t gx)
+{
+    return (uint32_t)(gx < 0 ? -gx : gx) * (uint32_t)DROGUE_CANNY_TG22;
+}
+
+/* Sector of a gradient whose tangent is tg22. */
+static inline drogue_sector drogue_canny_sector_by(int16_t gx, int16_t gy, uint32_t tg22)
 {
     const uint32_t ax = (uint32_t)(gx < 0 ? -gx : gx);
     const uint32_t ay = (uint32_t)(gy < 0 ? -gy : gy) << 15;
-    const uint32_t tg22 = ax * (uint32_t)DROGUE_CANNY_TG22;
     const int flat = ay < tg22;
     const int steep = ay > tg22 + (ax << 16);
     const drogue_sector slanted = (gx ^ gy) < 0 ? DROGUE_SECTOR_ANTIDIAGONAL : DROGUE_SECTOR_DIAGONAL;
     return flat ? DROGUE_SECTOR_HORIZONTAL : steep ? DROGUE_SECTOR_VERTICAL : slanted;
+}
+
+static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
+{
+    return drogue_canny_sector_by(gx, gy, drogue_canny_tangent(gx));
 }
 
 /* Step from a pixel to the neighbour 'after' it across the edge: x and y component in {-1, 0, 1}. */
