@@ -26,8 +26,9 @@ static void append(point_list *list, uint64_t point, uint32_t arc)
     list->full |= (arc != 0) & (room ^ 1u);
 }
 
-/* Keep the points whose component is strong; count those of each arc. Returns their number. */
-static uint32_t drop_weak(uint32_t count, uint32_t arc_count)
+/* Give each point the root of its arc, 0 when its component is weak; count those of each arc. Returns the number of points
+ * in strong components. */
+static uint32_t count_points(uint32_t count, uint32_t arc_count)
 {
     uint32_t left = 0;
     uint32_t i;
@@ -38,12 +39,9 @@ static uint32_t drop_weak(uint32_t count, uint32_t arc_count)
     for (i = 0; i < count; i++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
         const uint32_t root = drogue_hls_arc_root(point_arc[i]);
-        if (drogue_hls_arc_alive(root)) {
-            points[left] = points[i];
-            point_arc[left] = root;
-            arc_points[root]++;
-            left++;
-        }
+        point_arc[i] = root;
+        arc_points[root]++; /* of 0: for nobody */
+        left += root != 0;
     }
     return left;
 }
@@ -56,6 +54,7 @@ static uint32_t place_arcs(uint64_t arcs[DROGUE_HLS_ARCS], uint32_t *arc_count, 
     uint32_t n = 0;
     uint32_t i;
     *full = 0;
+    arc_place[0] = DROGUE_NO_ARC;
     for (i = 1; i < labels; i++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_LABELS
         arc.count = arc_points[i];
@@ -76,7 +75,7 @@ static uint32_t place_arcs(uint64_t arcs[DROGUE_HLS_ARCS], uint32_t *arc_count, 
     return arc.first;
 }
 
-/* Write the points sorted by arc, those of no arc in the table last. */
+/* Write the points of strong components sorted by arc, those of no arc in the table last. */
 static void sort_points(uint64_t edges[DROGUE_HLS_EDGES], uint32_t count, uint32_t in_arcs)
 {
     uint32_t last = in_arcs;
@@ -84,12 +83,13 @@ static void sort_points(uint64_t edges[DROGUE_HLS_EDGES], uint32_t count, uint32
     for (i = 0; i < count; i++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
         const uint32_t arc = point_arc[i];
-        const uint32_t place = arc_place[arc];
-        if (place == DROGUE_NO_ARC) {
-            edges[last++] = points[i];
-        } else {
+        const uint32_t next = arc_place[arc];
+        const uint32_t listed = next != DROGUE_NO_ARC;
+        const uint32_t place = listed ? next : last;
+        arc_place[arc] = next + listed;
+        if (arc != 0) {
+            last += listed ^ 1u;
             edges[place] = points[i];
-            arc_place[arc] = place + 1u;
         }
     }
 }
@@ -196,9 +196,9 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
         drogue_hls_labels_settle(&labels);
     }
     drogue_hls_labels_flatten(&labels);
-    left = drop_weak(list.count, labels.arc_count);
+    left = count_points(list.count, labels.arc_count);
     in_arcs = place_arcs(arcs, &arcs_listed, &arcs_full, labels.arc_count, min_arc_px);
-    sort_points(edges, left, in_arcs);
+    sort_points(edges, list.count, in_arcs);
     results[DROGUE_HLS_FRONTEND_EDGE_COUNT] = left;
     results[DROGUE_HLS_FRONTEND_ARC_COUNT] = arcs_listed;
     results[DROGUE_HLS_FRONTEND_STATUS] = (labels.components_full ? DROGUE_HLS_COMPONENTS_FULL : 0u) |

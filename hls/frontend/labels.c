@@ -22,6 +22,7 @@ static drogue_merge component_merges[MERGES];
 static uint32_t arc_parent[DROGUE_HLS_KEYS][TABLE]; /* a label is used in the table of its key alone */
 static uint32_t arc_component[DROGUE_HLS_LABELS];
 static uint8_t arc_key[DROGUE_HLS_LABELS];
+static uint32_t arc_root[DROGUE_HLS_LABELS]; /* when the frame is complete; 0 in a component without a strong point */
 static drogue_merge arc_merges[DROGUE_HLS_KEYS][LIST];
 
 void drogue_hls_labels_begin(drogue_hls_labels *l)
@@ -176,20 +177,22 @@ void drogue_hls_labels_flatten(const drogue_hls_labels *l)
     uint32_t i;
     for (i = 1; i < components; i++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_LABELS
-        component_parent[i] = component_parent[component_parent[i]];
-        if (component_strong[i]) { /* of a smaller label, met before */
-            component_strong[component_parent[i]] = 1;
-        }
+        const uint32_t root = component_parent[component_parent[i]]; /* a smaller label, met before, or its own */
+        const uint32_t strong = component_strong[i];
+        component_parent[i] = root;
+        component_strong[root] = (uint8_t)(component_strong[root] | strong);
     }
+    arc_root[0] = 0;
     for (i = 1; i < arcs; i++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_LABELS
-        uint32_t *parent = arc_parent[arc_key[i] - 1u];
-        parent[i] = parent[parent[i]];
+        const uint32_t in = table(arc_key[i]);
+        const uint32_t root = arc_parent[in][arc_parent[in][i]];
+        const uint32_t strong = component_strong[component_parent[arc_component[i]]];
+        arc_parent[in][i] = root;
+        arc_root[i] = root & drogue_hls_when((int)strong);
     }
 }
 
-uint32_t drogue_hls_arc_root(uint32_t arc) { return arc_parent[arc_key[arc] - 1u][arc]; }
+uint32_t drogue_hls_arc_root(uint32_t arc) { return arc_root[arc]; }
 
 uint32_t drogue_hls_arc_key(uint32_t arc) { return arc_key[arc]; }
-
-uint32_t drogue_hls_arc_alive(uint32_t root) { return component_strong[component_parent[arc_component[root]]]; }

@@ -143,10 +143,11 @@ void drogue_hls_labels_tick(drogue_hls_labels *l, const drogue_hls_windows *w, c
 /* The row is complete: resolve its merges. */
 void drogue_hls_labels_settle(const drogue_hls_labels *l);
 
-/* The frame is complete: every label's parent is its root; does a root's component hold a strong point? */
+/* The frame is complete: find the root of every label, and which components hold a strong point. */
 void drogue_hls_labels_flatten(const drogue_hls_labels *l);
+
+/* Root of an arc, 0 when its component holds no strong point; direction class + 1 of an arc. */
 uint32_t drogue_hls_arc_root(uint32_t arc);
 uint32_t drogue_hls_arc_key(uint32_t arc);
-uint32_t drogue_hls_arc_alive(uint32_t root);
 
 #endif
