@@ -93,6 +93,13 @@ static void label_component(drogue_hls_labels *l, uint32_t x, const drogue_hls_k
     l->code = code;
 }
 
+/* Merges of the row in a table of arcs. */
+static uint32_t merges_of(const drogue_hls_labels *l, uint32_t in)
+{
+    return (l->arc_merges[0] & drogue_hls_when(in == 0)) | (l->arc_merges[1] & drogue_hls_when(in == 1)) |
+           (l->arc_merges[2] & drogue_hls_when(in == 2)) | (l->arc_merges[3] & drogue_hls_when(in == 3));
+}
+
 static uint32_t same(uint32_t arc, uint32_t its_key, uint32_t key) { return arc & drogue_hls_when(its_key == key); }
 
 /* The arc of the pixel whose component is known; 0 when it is in none, or the table is full. */
@@ -111,16 +118,11 @@ static void label_arc(drogue_hls_labels *l, uint32_t x, const drogue_hls_known *
     const uint32_t room = l->arc_count < DROGUE_HLS_LABELS;
     const uint32_t label = drogue_hls_when((int)keyed) & (near | (l->arc_count & drogue_hls_when((int)(new &room))));
     const uint32_t merges = keyed & (merge_with != 0);
-    const uint32_t is0 = drogue_hls_when(in == 0);
-    const uint32_t is1 = drogue_hls_when(in == 1);
-    const uint32_t is2 = drogue_hls_when(in == 2);
-    const uint32_t is3 = drogue_hls_when(in == 3);
-    drogue_merge *merge = &arc_merges[in][(l->arc_merges[0] & is0) | (l->arc_merges[1] & is1) |
-                                          (l->arc_merges[2] & is2) | (l->arc_merges[3] & is3)];
-    l->arc_merges[0] += merges & is0;
-    l->arc_merges[1] += merges & is1;
-    l->arc_merges[2] += merges & is2;
-    l->arc_merges[3] += merges & is3;
+    drogue_merge *merge = &arc_merges[in][merges_of(l, in)];
+    l->arc_merges[0] += merges & (in == 0);
+    l->arc_merges[1] += merges & (in == 1);
+    l->arc_merges[2] += merges & (in == 2);
+    l->arc_merges[3] += merges & (in == 3);
     merge->a = near;
     merge->b = merge_with;
     arc_parent[in][label & fresh] = label & fresh;
@@ -160,13 +162,13 @@ void drogue_hls_labels_tick(drogue_hls_labels *l, const drogue_hls_windows *w, c
 
 void drogue_hls_labels_settle(const drogue_hls_labels *l)
 {
-    int k;
+    uint32_t k;
     drogue_labels_resolve(component_parent, component_merges, l->component_merges);
     for (k = 0; k < DROGUE_HLS_KEYS; k++) {
 #ifndef __BAMBU__
 #pragma HLS unroll
 #endif
-        drogue_labels_resolve(arc_parent[k], arc_merges[k], l->arc_merges[k]);
+        drogue_labels_resolve(arc_parent[k], arc_merges[k], merges_of(l, k));
     }
 }
 

@@ -99,22 +99,21 @@ static void pick_columns(drogue_hls_windows *w)
     }
 }
 
-static void sum_columns(drogue_hls_windows *w, const drogue_hls_frame *frame)
+static void sum_columns(drogue_hls_windows *w)
 {
-    const uint8_t smooth =
-        drogue_hls_smooth_row(w->columns[0], w->columns[1], w->columns[2], w->columns[3], w->columns[4]);
-    w->level = frame->smooth ? smooth : w->middle[2];
+    w->smoothed = drogue_hls_smooth_row(w->columns[0], w->columns[1], w->columns[2], w->columns[3], w->columns[4]);
 }
 
-/* The smoothed pixel and the two above it, border replicated. */
+/* The smoothed pixel, or the pixel itself, and the two above it, border replicated. */
 static void stack_levels(drogue_hls_windows *w, const drogue_hls_frame *frame, uint32_t older)
 {
     const int32_t y = w->y[AT_LEVELS] - 3; /* row of the gradient */
+    const uint8_t level = frame->smooth ? w->smoothed : w->middle[1];
     const uint8_t middle = (uint8_t)(older >> 8);
-    smooth_rows[w->x[AT_LEVELS]] = (uint16_t)(older >> 8 | (uint32_t)w->level << 8);
+    smooth_rows[w->x[AT_LEVELS]] = (uint16_t)(older >> 8 | (uint32_t)level << 8);
     w->level_column[0] = y == 0 ? middle : (uint8_t)(older & 0xFFu);
     w->level_column[1] = middle;
-    w->level_column[2] = y == frame->height_px - 1 ? middle : w->level;
+    w->level_column[2] = y == frame->height_px - 1 ? middle : level;
 }
 
 static void shift_levels(drogue_hls_windows *w, const drogue_hls_frame *frame)
@@ -232,7 +231,7 @@ void drogue_hls_pixels_tick(drogue_hls_windows *w, const drogue_hls_frame *frame
     w->gradient[0] = gradient_of(w->levels);
     shift_levels(w, frame);
     stack_levels(w, frame, lines->smooth);
-    sum_columns(w, frame);
+    sum_columns(w);
     pick_columns(w);
     tap(w->column_tap, w->near_column, w->x[AT_REFLECT_COLUMNS + 1]);
     reflect(w->near_column, w->column_about, frame->width_px);

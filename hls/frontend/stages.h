@@ -66,7 +66,7 @@ typedef struct drogue_hls_windows {
     int16_t near_column[5];
     uint8_t column_tap[5];
     uint16_t columns[5];
-    uint8_t level; /* smoothed pixel */
+    uint8_t smoothed;
     uint8_t level_column[3];
     uint8_t levels[3][3]; /* window of smoothed pixels, [row][column] */
     uint32_t gradient[2]; /* of a pixel; and of the one whose magnitude this is */

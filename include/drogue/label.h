@@ -53,8 +53,9 @@ typedef struct drogue_recent_parents {
 
 static inline uint32_t drogue_parent_of(const uint32_t *parent, const drogue_recent_parents *recent, uint32_t label)
 {
-    const uint32_t stored = parent[label];
-    return label == recent->label[0] ? recent->parent[0] : label == recent->label[1] ? recent->parent[1] : stored;
+    return label == recent->label[0]   ? recent->parent[0]
+           : label == recent->label[1] ? recent->parent[1]
+                                       : parent[label];
 }
 
 static inline void drogue_set_parent(uint32_t *parent, drogue_recent_parents *recent, uint32_t label, uint32_t to)
