@@ -109,6 +109,18 @@ static drogue_status check(int32_t width_px, int32_t height_px, int32_t canny_lo
 
 static uint16_t threshold(int32_t magnitude) { return (uint16_t)(magnitude < 2040 ? magnitude : 2040); }
 
+static uint32_t status_of(const drogue_hls_labels *labels, uint32_t edges_full, uint32_t arcs_full)
+{
+    const uint32_t which = (labels->components_full ? DROGUE_HLS_COMPONENTS_FULL : 0u) |
+                           (labels->arcs_full ? DROGUE_HLS_ARC_LABELS_FULL : 0u) |
+                           (edges_full ? DROGUE_HLS_EDGES_FULL : 0u) | (arcs_full ? DROGUE_HLS_ARCS_FULL : 0u);
+    const drogue_status status = labels->components_full || labels->arcs_full ? DROGUE_E_LABELS_FULL
+                                 : edges_full                                 ? DROGUE_E_EDGES_FULL
+                                 : arcs_full                                  ? DROGUE_E_ARCS_FULL
+                                                                              : DROGUE_OK;
+    return which | (uint32_t)status;
+}
+
 /* A row of labels begins: the ring in it, from the column that comes to AT_LABEL in the second tick. */
 static void begin_row(drogue_hls_windows *w, drogue_hls_frame *frame, const drogue_mask *ring, int32_t y)
 {
@@ -144,7 +156,7 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
 #pragma HLS interface mode = s_axilite port = results
 #pragma HLS interface mode = s_axilite port = return
 #endif
-    const drogue_mask ring = {centre2_x, centre2_y, longest_px};
+    const drogue_mask ring = {use_ring ? centre2_x : 0, use_ring ? centre2_y : 0, use_ring ? longest_px : 1};
     const drogue_status refused = check(width_px, height_px, canny_low, canny_high, use_ring, &ring);
     drogue_hls_frame frame;
     drogue_hls_windows w;
@@ -155,6 +167,7 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
     uint32_t arcs_listed;
     uint32_t left;
     uint32_t in_arcs;
+    int32_t period;
     int32_t x;
     int32_t y;
     if (refused != DROGUE_OK) {
@@ -163,9 +176,10 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
         results[DROGUE_HLS_FRONTEND_STATUS] = (uint32_t)refused;
         return;
     }
+    period = width_px + IDLE_PX > LEAST_PERIOD ? width_px + IDLE_PX : LEAST_PERIOD;
     frame.width_px = width_px;
     frame.height_px = height_px;
-    frame.period = width_px + IDLE_PX > LEAST_PERIOD ? width_px + IDLE_PX : LEAST_PERIOD;
+    frame.period = period;
     frame.smooth = smooth;
     frame.low = threshold(canny_low);
     frame.high = threshold(canny_high);
@@ -176,14 +190,14 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT + LAG_ROWS
         begin_row(&w, &frame, &ring, y - LAG_ROWS);
         drogue_hls_labels_row(&labels);
-        for (x = 0; x < frame.period; x++) {
+        for (x = 0; x < period; x++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_PERIOD
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 #endif
             const drogue_hls_lines lines = drogue_hls_lines_read(&w);
             const drogue_hls_known known = drogue_hls_known_read(&labels, &w);
-            const uint32_t code = w.code[AT_LABEL] & (0x1Fu & ~(0x1Cu & ~drogue_hls_when((int)w.in_ring)));
+            const uint32_t code = w.code[AT_LABEL] & (w.in_ring ? 0x1Fu : 3u); /* no arc outside the ring */
             uint8_t pixel = 0;
             if (w.take) {
                 pixel = pixels[taken++];
@@ -201,12 +215,5 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
     sort_points(edges, list.count, in_arcs);
     results[DROGUE_HLS_FRONTEND_EDGE_COUNT] = left;
     results[DROGUE_HLS_FRONTEND_ARC_COUNT] = arcs_listed;
-    results[DROGUE_HLS_FRONTEND_STATUS] = (labels.components_full ? DROGUE_HLS_COMPONENTS_FULL : 0u) |
-                                          (labels.arcs_full ? DROGUE_HLS_ARC_LABELS_FULL : 0u) |
-                                          (list.full ? DROGUE_HLS_EDGES_FULL : 0u) |
-                                          (arcs_full ? DROGUE_HLS_ARCS_FULL : 0u) |
-                                          (uint32_t)(labels.components_full || labels.arcs_full ? DROGUE_E_LABELS_FULL
-                                                     : list.full                                ? DROGUE_E_EDGES_FULL
-                                                     : arcs_full                                ? DROGUE_E_ARCS_FULL
-                                                                                                : DROGUE_OK);
+    results[DROGUE_HLS_FRONTEND_STATUS] = status_of(&labels, list.full, arcs_full);
 }

@@ -20,7 +20,6 @@ foreach file {
     ../../hls/frontend/labels.c
     ../../hls/frontend/operators.c
     ../../hls/frontend/pixels.c
-    ../../src/canny.c
 } {
     add_files $file -cflags $flags
 }
@@ -30,6 +29,7 @@ foreach file {
     ../../build/hls/frontend/cases_0.c
     ../../build/hls/frontend/cases_index.c
     ../../src/acquire.c
+    ../../src/canny.c
     ../../src/centroid.c
     ../../src/cholesky.c
     ../../src/cluster.c
