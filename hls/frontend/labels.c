@@ -156,6 +156,11 @@ void drogue_hls_labels_tick(drogue_hls_labels *l, const drogue_hls_windows *w, c
 /* Read: labels of the rows above. Written: new ones. */
 #pragma HLS dependence variable = component_parent type = inter false
 #pragma HLS dependence variable = arc_parent type = inter false
+#ifndef __BAMBU__ /* LEAST_PERIOD less the three columns that a row is read ahead */
+#pragma HLS dependence variable = component_row type = inter direction = RAW distance = 22 dependent = true
+#pragma HLS dependence variable = arc_row type = inter direction = RAW distance = 22 dependent = true
+#pragma HLS dependence variable = key_row type = inter direction = RAW distance = 22 dependent = true
+#endif
     label_arc(l, w->x[AT_LABEL + 1], known);
     label_component(l, w->x[AT_LABEL], known, code);
 }

@@ -212,6 +212,12 @@ static void advance(drogue_hls_windows *w, const drogue_hls_frame *frame)
 
 void drogue_hls_pixels_tick(drogue_hls_windows *w, const drogue_hls_frame *frame, const drogue_hls_lines *lines)
 {
+#ifndef __BAMBU__ /* LEAST_PERIOD */
+#pragma HLS dependence variable = raw_rows type = inter direction = RAW distance = 25 dependent = true
+#pragma HLS dependence variable = smooth_rows type = inter direction = RAW distance = 25 dependent = true
+#pragma HLS dependence variable = gradient_row type = inter direction = RAW distance = 25 dependent = true
+#pragma HLS dependence variable = magnitude_rows type = inter direction = RAW distance = 25 dependent = true
+#endif
     int k;
     test_ring(w, frame);
     locate(w, frame);
