@@ -34,13 +34,21 @@ uint16_t drogue_hls_magnitude(uint32_t gradient)
 /* A derivative of a gradient word: 11 bits and a sign, which keeps what follows narrow. */
 static int16_t derivative(uint32_t half) { return (int16_t)((int32_t)(half << 20) >> 20); }
 
-uint32_t drogue_hls_tangent(uint32_t gradient) { return drogue_canny_tangent(derivative(gradient & 0xFFFu)); }
+/* |gx| of a gradient word. */
+static uint32_t abs_gx(uint32_t gradient)
+{
+    const int16_t gx = derivative(gradient & 0xFFFu);
+    return (uint32_t)(gx < 0 ? -gx : gx);
+}
+
+uint32_t drogue_hls_tangent(uint32_t gradient) { return abs_gx(gradient) * (uint32_t)DROGUE_CANNY_TG22; }
 
 uint32_t drogue_hls_sector(uint32_t gradient, uint32_t tangent)
 {
     const int16_t gx = derivative(gradient & 0xFFFu);
     const int16_t gy = derivative(gradient >> 16);
-    return (uint32_t)drogue_canny_sector_by(gx, gy, tangent & 0x1FFFFFFu) | (drogue_direction_class(gx, gy) + 1u) << 2;
+    return (uint32_t)drogue_canny_sector_by(gx, gy, abs_gx(gradient), tangent & 0x1FFFFFFu) |
+           (drogue_direction_class(gx, gy) + 1u) << 2;
 }
 
 uint64_t drogue_hls_neighbours(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2,

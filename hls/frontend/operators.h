@@ -19,7 +19,7 @@ uint32_t drogue_hls_gradient(uint8_t t0, uint8_t t1, uint8_t t2, uint8_t c0, uin
 /* L1 magnitude of a gradient word. */
 uint16_t drogue_hls_magnitude(uint32_t gradient);
 
-/* drogue_canny_tangent() of a gradient word. */
+/* |gx| tan(22.5 degrees) * 2^15 of a gradient word. */
 uint32_t drogue_hls_tangent(uint32_t gradient);
 
 /* Bits 0-1 sector of a gradient word by its tangent, bits 2-4 its direction class + 1. */

@@ -7,34 +7,35 @@
 
 #include "../drogue_hls.h"
 
-/* Ticks between the moment when a place is counted off and the stages; where two are named, the second is of the place
- * that a window has in its middle. */
+/* Ticks between a place's being counted off and the stage that it then is in; in a window, the place in its middle, but
+ * where something enters it. */
 enum {
-    AT_REFLECT_ROWS = 1,
-    AT_TAKE = 2,      /* the pixel is taken from the stream */
-    AT_PICK_ROWS = 3, /* which rows smoothing sums */
-    AT_SUM_ROWS = 4,  /* its vertical sum */
-    AT_REFLECT_COLUMNS = 5,
+    AT_REFLECT_ROWS = 1,    /* the indices about it come a tick before, which of five lines they are a tick after */
+    AT_TAKE = 2,            /* the pixel is taken from the stream */
+    AT_PICK_ROWS = 3,       /* which rows smoothing sums */
+    AT_SUM_ROWS = 4,        /* its vertical sum */
+    AT_REFLECT_COLUMNS = 5, /* the same */
     AT_PICK_COLUMNS = 7,
     AT_SUM_COLUMNS = 8, /* its horizontal sum: a smoothed pixel */
     AT_LEVELS = 9,      /* three of them, one above the other */
-    AT_WINDOW = 10,     /* nine */
+    AT_WINDOW = 10,     /* they enter their window */
     AT_GRADIENT = 12,
     AT_MAGNITUDE = 13,
     AT_MAGNITUDES = 14, /* three, one above the other */
-    AT_TANGENT = 15,    /* nine enter their window */
+    AT_TANGENT = 15,    /* they enter their window */
     AT_SECTOR = 16,
     AT_NEIGHBOURS = 17,
     AT_SUPPRESS = 18,
     AT_DIVIDE = 19, /* three ticks */
-    AT_PLACE = 22,
-    AT_LABEL = 23, /* of the component; that of the arc a tick later, then the list */
+    AT_PLACE = 22,  /* the word of the edge list */
+    AT_LABEL = 23,  /* the component's; the arc's a tick later */
     AT_LIST = 25,
     PLACES = 26
 };
 
-/* A row of ticks is as long as the region is wide and this; and a word of a line buffer is not met again before so many
- * ticks. */
+/* A row of ticks is IDLE_PX longer than the region is wide: labels are read three columns ahead, arcs and points follow two
+ * ticks behind. It is LEAST_PERIOD at least: before so many ticks no word of a line buffer is met again. Labels of row 0
+ * come LAG_ROWS rows of ticks after the start. */
 enum { IDLE_PX = 5, LEAST_PERIOD = PLACES - 1, LAG_ROWS = 5 };
 #define DROGUE_HLS_PERIOD (DROGUE_HLS_WIDTH + LEAST_PERIOD)
 
@@ -56,13 +57,13 @@ typedef struct drogue_hls_windows {
     uint16_t y[PLACES]; /* smoothed, y - 3 has its gradient taken, y - 4 is suppressed and labelled */
     uint32_t take;      /* is there a pixel at x[AT_TAKE]? */
     uint8_t pixel;
-    int16_t row_about[5]; /* indices about it */
-    int16_t near_row[5];  /* border reflected */
-    uint8_t row_tap[5];   /* which of rows y - 4 .. y are the five of smoothing */
-    uint8_t rows[5];      /* those */
-    uint16_t sum[5];      /* vertical sums of the newest five columns */
-    uint8_t middle[6];    /* and their middle pixels */
-    int16_t column_about[5];
+    int16_t row_about[5];    /* indices of the five rows about the one smoothed */
+    int16_t near_row[5];     /* the same, border reflected */
+    uint8_t row_tap[5];      /* which of rows y - 4 .. y are the five of smoothing */
+    uint8_t rows[5];         /* those */
+    uint16_t sum[5];         /* vertical sums of the newest five columns */
+    uint8_t middle[6];       /* and their middle pixels */
+    int16_t column_about[5]; /* and so the columns */
     int16_t near_column[5];
     uint8_t column_tap[5];
     uint16_t columns[5];

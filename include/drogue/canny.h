@@ -23,16 +23,9 @@ typedef enum drogue_sector {
 /* Verdict of suppression and thresholds. */
 enum { DROGUE_CANNY_NONE = 0, DROGUE_CANNY_WEAK = 1, DROGUE_CANNY_STRONG = 2 };
 
-/* |gx| tan(22.5 degrees), * 2^15 */
-static inline uint32_t drogue_canny_tangent(int16_t gx)
+/* Sector of a gradient; ax |gx|, tg22 ax tan(22.5 degrees) * 2^15. */
+static inline drogue_sector drogue_canny_sector_by(int16_t gx, int16_t gy, uint32_t ax, uint32_t tg22)
 {
-    return (uint32_t)(gx < 0 ? -gx : gx) * (uint32_t)DROGUE_CANNY_TG22;
-}
-
-/* Sector of a gradient whose tangent is tg22. */
-static inline drogue_sector drogue_canny_sector_by(int16_t gx, int16_t gy, uint32_t tg22)
-{
-    const uint32_t ax = (uint32_t)(gx < 0 ? -gx : gx);
     const uint32_t ay = (uint32_t)(gy < 0 ? -gy : gy) << 15;
     const int flat = ay < tg22;
     const int steep = ay > tg22 + (ax << 16);
@@ -42,7 +35,8 @@ static inline drogue_sector drogue_canny_sector_by(int16_t gx, int16_t gy, uint3
 
 static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
 {
-    return drogue_canny_sector_by(gx, gy, drogue_canny_tangent(gx));
+    const uint32_t ax = (uint32_t)(gx < 0 ? -gx : gx);
+    return drogue_canny_sector_by(gx, gy, ax, ax * (uint32_t)DROGUE_CANNY_TG22);
 }
 
 /* Step from a pixel to the neighbour 'after' it across the edge: x and y component in {-1, 0, 1}. */
