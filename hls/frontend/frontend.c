@@ -79,18 +79,23 @@ static uint32_t place_arcs(uint64_t arcs[DROGUE_HLS_ARCS], uint32_t *arc_count, 
 static void sort_points(uint64_t edges[DROGUE_HLS_EDGES], uint32_t count, uint32_t in_arcs)
 {
     uint32_t last = in_arcs;
+    uint32_t arc = point_arc[0];
+    uint64_t point = points[0];
     uint32_t i;
     for (i = 0; i < count; i++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
-        const uint32_t arc = point_arc[i];
+        const uint32_t following_arc = point_arc[i + 1u]; /* read ahead; the last word is no point */
+        const uint64_t following = points[i + 1u];
         const uint32_t next = arc_place[arc];
         const uint32_t listed = next != DROGUE_NO_ARC;
         const uint32_t place = listed ? next : last;
         arc_place[arc] = next + listed;
         if (arc != 0) {
             last += listed ^ 1u;
-            edges[place] = points[i];
+            edges[place] = point;
         }
+        arc = following_arc;
+        point = following;
     }
 }
 
