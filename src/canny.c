@@ -4,20 +4,13 @@
 
 int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after)
 {
-    int32_t curvature = 2 * m - before - after;
-    int32_t slope = after - before;
-    int32_t rest = 32 * slope + 33 * curvature; /* floor(rest / (2 curvature)) - 16 rounds 16 slope / curvature */
-    int32_t offset = -16;
+    drogue_canny_vertex v = drogue_canny_vertex_begin(before, m, after);
     int32_t bit;
-    DROGUE_NOTE("canny: offset numerator", rest, 18);
-    for (bit = 4; bit >= 0; bit--) { /* a division whose quotient is in [0, 32) */
-        const int32_t part = curvature * (2 << bit);
-        const int32_t fits = rest >= part;
-        rest -= fits ? part : 0;
-        offset += fits ? 1 << bit : 0;
+    DROGUE_NOTE("canny: offset numerator", v.rest, 18);
+    for (bit = 4; bit >= 0; bit--) {
+        drogue_canny_vertex_step(&v, bit);
     }
-    offset = offset < -15 || slope <= -curvature ? -15 : slope >= curvature ? 15 : offset; /* 16 and more */
-    return curvature <= 0 ? 0 : offset;
+    return drogue_canny_vertex_offset(&v);
 }
 
 void drogue_canny_row(uint8_t *out, const uint16_t *const magnitude[3], const int16_t *gx, const int16_t *gy,

@@ -4,8 +4,6 @@
 
 #include "stages.h"
 
-enum { LAG_PX = 11, LAG_ROWS = 4 }; /* ticks a pixel needs through the stages; rows */
-
 static uint64_t
     points[DROGUE_HLS_EDGES + 1]; /* candidates in the ring, packed; the last word takes what does not fit */
 static uint32_t point_arc[DROGUE_HLS_EDGES + 1]; /* and their arcs' labels */
@@ -18,24 +16,19 @@ typedef struct point_list {
     uint32_t full;
 } point_list;
 
-/* Append the pixel in the windows when it has an arc. */
-static void append(point_list *list, const drogue_hls_windows *w, int32_t x, int32_t y, uint32_t arc)
+/* Append a point when it has an arc. */
+static void append(point_list *list, uint64_t point, uint32_t arc)
 {
     const uint32_t room = list->count < DROGUE_HLS_EDGES;
-    drogue_edge e;
-    e.x_q5 = (uint16_t)(32 * x + (int8_t)(uint8_t)(w->code >> 8 & 0xFFu));
-    e.y_q5 = (uint16_t)(32 * y + (int8_t)(uint8_t)(w->code >> 16 & 0xFFu));
-    e.gx = (int16_t)(uint16_t)(w->gradients[1] & 0xFFFFu);
-    e.gy = (int16_t)(uint16_t)(w->gradients[1] >> 16);
-    e.arc = arc;
-    points[list->count] = drogue_hls_pack_edge(&e);
+    points[list->count] = point;
     point_arc[list->count] = arc;
     list->count += (arc != 0) & room;
     list->full |= (arc != 0) & (room ^ 1u);
 }
 
-/* Keep the points whose component is strong; count those of each arc. Returns their number. */
-static uint32_t drop_weak(uint32_t count, uint32_t arc_count)
+/* Give each point the root of its arc, 0 when its component is weak; count those of each arc. Returns the number of points
+ * in strong components. */
+static uint32_t count_points(uint32_t count, uint32_t arc_count)
 {
     uint32_t left = 0;
     uint32_t i;
@@ -46,12 +39,9 @@ static uint32_t drop_weak(uint32_t count, uint32_t arc_count)
     for (i = 0; i < count; i++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
         const uint32_t root = drogue_hls_arc_root(point_arc[i]);
-        if (drogue_hls_arc_alive(root)) {
-            points[left] = points[i];
-            point_arc[left] = root;
-            arc_points[root]++;
-            left++;
-        }
+        point_arc[i] = root;
+        arc_points[root]++; /* of 0: for nobody */
+        left += root != 0;
     }
     return left;
 }
@@ -64,6 +54,7 @@ static uint32_t place_arcs(uint64_t arcs[DROGUE_HLS_ARCS], uint32_t *arc_count, 
     uint32_t n = 0;
     uint32_t i;
     *full = 0;
+    arc_place[0] = DROGUE_NO_ARC;
     for (i = 1; i < labels; i++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_LABELS
         arc.count = arc_points[i];
@@ -84,21 +75,27 @@ static uint32_t place_arcs(uint64_t arcs[DROGUE_HLS_ARCS], uint32_t *arc_count, 
     return arc.first;
 }
 
-/* Write the points sorted by arc, those of no arc in the table last. */
+/* Write the points of strong components sorted by arc, those of no arc in the table last. */
 static void sort_points(uint64_t edges[DROGUE_HLS_EDGES], uint32_t count, uint32_t in_arcs)
 {
     uint32_t last = in_arcs;
+    uint32_t arc = point_arc[0];
+    uint64_t point = points[0];
     uint32_t i;
     for (i = 0; i < count; i++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
-        const uint32_t arc = point_arc[i];
-        const uint32_t place = arc_place[arc];
-        if (place == DROGUE_NO_ARC) {
-            edges[last++] = points[i];
-        } else {
-            edges[place] = points[i];
-            arc_place[arc] = place + 1u;
+        const uint32_t following_arc = point_arc[i + 1u]; /* read ahead; the last word is no point */
+        const uint64_t following = points[i + 1u];
+        const uint32_t next = arc_place[arc];
+        const uint32_t listed = next != DROGUE_NO_ARC;
+        const uint32_t place = listed ? next : last;
+        arc_place[arc] = next + listed;
+        if (arc != 0) {
+            last += listed ^ 1u;
+            edges[place] = point;
         }
+        arc = following_arc;
+        point = following;
     }
 }
 
@@ -117,16 +114,25 @@ static drogue_status check(int32_t width_px, int32_t height_px, int32_t canny_lo
 
 static uint16_t threshold(int32_t magnitude) { return (uint16_t)(magnitude < 2040 ? magnitude : 2040); }
 
-static void prepare_row(drogue_hls_row *row, const drogue_mask *ring, int32_t y)
+static uint32_t status_of(const drogue_hls_labels *labels, uint32_t edges_full, uint32_t arcs_full)
 {
-    int k;
-    row->y = y;
-    row->ring = drogue_mask_ring_row(ring, y - 4);
-    for (k = 0; k < 5; k++) {
-        const int32_t to = y - 2; /* row smoothed */
-        row->tap[k] =
-            (uint8_t)(to >= 0 && to < row->height_px ? drogue_reflect_101(to + k - 2, row->height_px) - to + 2 : 2);
-    }
+    const uint32_t which = (labels->components_full ? DROGUE_HLS_COMPONENTS_FULL : 0u) |
+                           (labels->arcs_full ? DROGUE_HLS_ARC_LABELS_FULL : 0u) |
+                           (edges_full ? DROGUE_HLS_EDGES_FULL : 0u) | (arcs_full ? DROGUE_HLS_ARCS_FULL : 0u);
+    const drogue_status status = labels->components_full || labels->arcs_full ? DROGUE_E_LABELS_FULL
+                                 : edges_full                                 ? DROGUE_E_EDGES_FULL
+                                 : arcs_full                                  ? DROGUE_E_ARCS_FULL
+                                                                              : DROGUE_OK;
+    return which | (uint32_t)status;
+}
+
+/* A row of labels begins: the ring in it, from the column that comes to AT_LABEL in the second tick. */
+static void begin_row(drogue_hls_windows *w, drogue_hls_frame *frame, const drogue_mask *ring, int32_t y)
+{
+    const int32_t dx = 2 * -2 - ring->centre2_x;
+    frame->ring = drogue_mask_ring_row(ring, y);
+    w->ring_dx = dx;
+    w->ring_square = (int64_t)dx * dx;
 }
 
 void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], uint64_t edges[DROGUE_HLS_EDGES],
@@ -155,17 +161,18 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
 #pragma HLS interface mode = s_axilite port = results
 #pragma HLS interface mode = s_axilite port = return
 #endif
-    const drogue_mask ring = {centre2_x, centre2_y, longest_px};
+    const drogue_mask ring = {use_ring ? centre2_x : 0, use_ring ? centre2_y : 0, use_ring ? longest_px : 1};
     const drogue_status refused = check(width_px, height_px, canny_low, canny_high, use_ring, &ring);
-    drogue_hls_row row;
+    drogue_hls_frame frame;
+    drogue_hls_windows w;
     drogue_hls_labels labels;
     point_list list = {0, 0};
     uint32_t taken = 0;
-    uint8_t pixel = 0;
     uint32_t arcs_full;
     uint32_t arcs_listed;
     uint32_t left;
     uint32_t in_arcs;
+    int32_t period;
     int32_t x;
     int32_t y;
     if (refused != DROGUE_OK) {
@@ -174,49 +181,44 @@ void drogue_hls_frontend(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIG
         results[DROGUE_HLS_FRONTEND_STATUS] = (uint32_t)refused;
         return;
     }
-    row.width_px = width_px;
-    row.height_px = height_px;
-    row.smooth = smooth;
-    row.low = threshold(canny_low);
-    row.high = threshold(canny_high);
-    row.use_ring = use_ring;
+    period = width_px + IDLE_PX > LEAST_PERIOD ? width_px + IDLE_PX : LEAST_PERIOD;
+    frame.width_px = width_px;
+    frame.height_px = height_px;
+    frame.period = period;
+    frame.smooth = smooth;
+    frame.low = threshold(canny_low);
+    frame.high = threshold(canny_high);
+    frame.use_ring = use_ring;
+    drogue_hls_pixels_begin(&w);
     drogue_hls_labels_begin(&labels);
     for (y = 0; y < height_px + LAG_ROWS; y++) {
 #pragma HLS loop_tripcount max = DROGUE_HLS_HEIGHT + LAG_ROWS
-        drogue_hls_windows w = {{0}, {0}, 0, {{0}}, 0, {0}, 0, {{0}}, 0, 0, {0}, 0};
-        prepare_row(&row, &ring, y);
+        begin_row(&w, &frame, &ring, y - LAG_ROWS);
         drogue_hls_labels_row(&labels);
-        for (x = 0; x < width_px + LAG_PX; x++) {
-#pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH + LAG_PX
+        for (x = 0; x < period; x++) {
+#pragma HLS loop_tripcount max = DROGUE_HLS_PERIOD
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
 #endif
-            const uint32_t arc = drogue_hls_label_stage(&labels, &row, x - LAG_PX, w.code);
-            append(&list, &w, x - LAG_PX, y - LAG_ROWS, arc);
-            drogue_hls_locate_stage(&w);
-            drogue_hls_suppress_stage(&w, &row, x - 8);
-            drogue_hls_column_stage(&w, &row, x - 7);
-            drogue_hls_gradient_stage(&w, &row, x - 5);
-            drogue_hls_smooth_horizontally(&w, &row, x - 2);
-            drogue_hls_smooth_vertically(&w, &row, x - 1, pixel);
-            if ((x < width_px) & (y < height_px)) { /* for the next tick */
+            const drogue_hls_lines lines = drogue_hls_lines_read(&w);
+            const drogue_hls_known known = drogue_hls_known_read(&labels, &w);
+            const uint32_t code = w.code[AT_LABEL] & (w.in_ring ? 0x1Fu : 3u); /* no arc outside the ring */
+            uint8_t pixel = 0;
+            if (w.take) {
                 pixel = pixels[taken++];
             }
+            append(&list, w.point[AT_LIST], labels.arc);
+            drogue_hls_labels_tick(&labels, &w, &known, code);
+            drogue_hls_pixels_tick(&w, &frame, &lines);
+            w.pixel = pixel;
         }
-        drogue_hls_labels_settle();
+        drogue_hls_labels_settle(&labels);
     }
     drogue_hls_labels_flatten(&labels);
-    left = drop_weak(list.count, labels.arc_count);
+    left = count_points(list.count, labels.arc_count);
     in_arcs = place_arcs(arcs, &arcs_listed, &arcs_full, labels.arc_count, min_arc_px);
-    sort_points(edges, left, in_arcs);
+    sort_points(edges, list.count, in_arcs);
     results[DROGUE_HLS_FRONTEND_EDGE_COUNT] = left;
     results[DROGUE_HLS_FRONTEND_ARC_COUNT] = arcs_listed;
-    results[DROGUE_HLS_FRONTEND_STATUS] = (labels.components_full ? DROGUE_HLS_COMPONENTS_FULL : 0u) |
-                                          (labels.arcs_full ? DROGUE_HLS_ARC_LABELS_FULL : 0u) |
-                                          (list.full ? DROGUE_HLS_EDGES_FULL : 0u) |
-                                          (arcs_full ? DROGUE_HLS_ARCS_FULL : 0u) |
-                                          (uint32_t)(labels.components_full || labels.arcs_full ? DROGUE_E_LABELS_FULL
-                                                     : list.full                                ? DROGUE_E_EDGES_FULL
-                                                     : arcs_full                                ? DROGUE_E_ARCS_FULL
-                                                                                                : DROGUE_OK);
+    results[DROGUE_HLS_FRONTEND_STATUS] = status_of(&labels, list.full, arcs_full);
 }

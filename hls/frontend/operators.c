@@ -31,41 +31,100 @@ uint16_t drogue_hls_magnitude(uint32_t gradient)
     return drogue_magnitude_l1((int16_t)(uint16_t)(gradient & 0xFFFFu), (int16_t)(uint16_t)(gradient >> 16));
 }
 
-uint64_t drogue_hls_suppress(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2, uint16_t b0,
-                             uint16_t b1, uint16_t b2, uint32_t gradient, uint16_t low, uint16_t high)
+/* A derivative of a gradient word: 11 bits and a sign, which keeps what follows narrow. */
+static int16_t derivative(uint32_t half) { return (int16_t)((int32_t)(half << 20) >> 20); }
+
+/* |gx| of a gradient word. */
+static uint32_t abs_gx(uint32_t gradient)
 {
-    const int16_t gx = (int16_t)(uint16_t)(gradient & 0xFFFFu);
-    const int16_t gy = (int16_t)(uint16_t)(gradient >> 16);
-    const drogue_sector sector = drogue_canny_sector(gx, gy);
-    const uint32_t horizontal = drogue_hls_when(sector == DROGUE_SECTOR_HORIZONTAL);
-    const uint32_t vertical = drogue_hls_when(sector == DROGUE_SECTOR_VERTICAL);
-    const uint32_t diagonal = drogue_hls_when(sector == DROGUE_SECTOR_DIAGONAL);
-    const uint32_t antidiagonal = drogue_hls_when(sector == DROGUE_SECTOR_ANTIDIAGONAL);
+    const int16_t gx = derivative(gradient & 0xFFFu);
+    return (uint32_t)(gx < 0 ? -gx : gx);
+}
+
+uint32_t drogue_hls_tangent(uint32_t gradient) { return abs_gx(gradient) * (uint32_t)DROGUE_CANNY_TG22; }
+
+uint32_t drogue_hls_sector(uint32_t gradient, uint32_t tangent)
+{
+    const int16_t gx = derivative(gradient & 0xFFFu);
+    const int16_t gy = derivative(gradient >> 16);
+    return (uint32_t)drogue_canny_sector_by(gx, gy, abs_gx(gradient), tangent & 0x1FFFFFFu) |
+           (drogue_direction_class(gx, gy) + 1u) << 2;
+}
+
+uint64_t drogue_hls_neighbours(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2,
+                               uint16_t b0, uint16_t b1, uint16_t b2, uint32_t sector)
+{
+    const uint32_t is = sector & 3u;
+    const uint32_t horizontal = drogue_hls_when(is == DROGUE_SECTOR_HORIZONTAL);
+    const uint32_t vertical = drogue_hls_when(is == DROGUE_SECTOR_VERTICAL);
+    const uint32_t diagonal = drogue_hls_when(is == DROGUE_SECTOR_DIAGONAL);
+    const uint32_t antidiagonal = drogue_hls_when(is == DROGUE_SECTOR_ANTIDIAGONAL);
     const uint32_t before = (c0 & horizontal) | (t1 & vertical) | (t0 & diagonal) | (t2 & antidiagonal);
     const uint32_t after = (c2 & horizontal) | (b1 & vertical) | (b2 & diagonal) | (b0 & antidiagonal);
-    const uint32_t code = 1u | (uint32_t)(c1 > high) << 1 | (drogue_direction_class(gx, gy) + 1u) << 2;
-    const int kept = (c1 > low) & drogue_canny_is_maximum(sector, (int32_t)before, c1, (int32_t)after);
-    return (code & drogue_hls_when(kept)) | (uint32_t)sector << 6 | (uint64_t)before << 16 | (uint64_t)c1 << 32 |
-           (uint64_t)after << 48;
+    return before | (uint64_t)c1 << 16 | (uint64_t)after << 32;
 }
 
-uint32_t drogue_hls_locate(uint64_t suppressed)
+/* Magnitudes of a neighbours word: 11 bits each. */
+static int32_t magnitude(uint64_t neighbours, int32_t at) { return (int32_t)(neighbours >> (16 * at) & 0x7FFu); }
+
+uint32_t drogue_hls_suppress(uint64_t neighbours, uint32_t sector, uint16_t low, uint16_t high)
 {
-    const drogue_sector sector = (drogue_sector)(suppressed >> 6 & 3u);
-    const int32_t offset_q5 = drogue_canny_offset_q5(
-        (int32_t)(suppressed >> 16 & 0xFFFFu), (int32_t)(suppressed >> 32 & 0xFFFFu), (int32_t)(suppressed >> 48));
-    /* drogue_canny_step_x(), _y() times the offset, without a multiplier at the end of the chain */
-    const int32_t sideways = sector == DROGUE_SECTOR_ANTIDIAGONAL ? -offset_q5 : offset_q5;
-    const uint32_t dx = (uint8_t)(sector == DROGUE_SECTOR_VERTICAL ? 0 : sideways);
-    const uint32_t dy = (uint8_t)(sector == DROGUE_SECTOR_HORIZONTAL ? 0 : offset_q5);
-    return (uint32_t)(suppressed & 0x1Fu) | dx << 8 | dy << 16;
+    const int32_t m = magnitude(neighbours, 1);
+    const uint32_t code = 1u | (uint32_t)(m > high) << 1 | (sector & 0x1Cu);
+    const int is_maximum =
+        drogue_canny_is_maximum((drogue_sector)(sector & 3u), magnitude(neighbours, 0), m, magnitude(neighbours, 2));
+    return code & drogue_hls_when((m > low) & is_maximum);
 }
 
-uint32_t drogue_hls_in_ring(int32_t x, int32_t centre2_x, int64_t least_x9, int64_t most)
+/* Bits 0-19 rest, 20-24 quotient, 32-47 slope, 48-63 curvature. */
+static uint64_t pack_vertex(const drogue_canny_vertex *v)
+{
+    return ((uint32_t)v->rest & 0xFFFFFu) | (uint32_t)v->quotient << 20 |
+           (uint64_t)((uint32_t)v->slope & 0xFFFFu) << 32 | (uint64_t)((uint32_t)v->curvature & 0xFFFFu) << 48;
+}
+
+static drogue_canny_vertex unpack_vertex(uint64_t word)
+{
+    const uint32_t low = (uint32_t)(word & 0xFFFFFFFFu);
+    drogue_canny_vertex v;
+    v.rest = (int32_t)(low << 12) >> 12;
+    v.quotient = (int32_t)(low >> 20 & 31u);
+    v.slope = (int16_t)(uint16_t)(word >> 32 & 0xFFFFu);
+    v.curvature = (int16_t)(uint16_t)(word >> 48);
+    return v;
+}
+
+uint64_t drogue_hls_vertex(uint64_t neighbours)
+{
+    const drogue_canny_vertex v =
+        drogue_canny_vertex_begin(magnitude(neighbours, 0), magnitude(neighbours, 1), magnitude(neighbours, 2));
+    return pack_vertex(&v);
+}
+
+uint64_t drogue_hls_vertex_step(uint64_t vertex, int32_t bit)
+{
+    drogue_canny_vertex v = unpack_vertex(vertex);
+    drogue_canny_vertex_step(&v, bit);
+    return pack_vertex(&v);
+}
+
+uint32_t drogue_hls_offset(uint64_t vertex, uint32_t sector)
+{
+    const drogue_canny_vertex v = unpack_vertex(vertex);
+    const int32_t offset_q5 = drogue_canny_vertex_offset(&v);
+    const uint32_t is = sector & 3u;
+    /* drogue_canny_step_x(), _y() times the offset, without a multiplier */
+    const int32_t sideways = is == DROGUE_SECTOR_ANTIDIAGONAL ? -offset_q5 : offset_q5;
+    const uint32_t dx = (uint8_t)(is == DROGUE_SECTOR_VERTICAL ? 0 : sideways);
+    const uint32_t dy = (uint8_t)(is == DROGUE_SECTOR_HORIZONTAL ? 0 : offset_q5);
+    return dx | dy << 8;
+}
+
+uint32_t drogue_hls_in_ring(int64_t square, int64_t least_x9, int64_t most)
 {
     drogue_ring_row row;
     row.least_x9 = least_x9;
     row.most = most;
-    row.centre2_x = centre2_x;
-    return (uint32_t)drogue_ring_row_holds(&row, x);
+    row.centre2_x = 0;
+    return (uint32_t)drogue_ring_row_holds_square(&row, square);
 }

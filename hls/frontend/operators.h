@@ -19,17 +19,27 @@ uint32_t drogue_hls_gradient(uint8_t t0, uint8_t t1, uint8_t t2, uint8_t c0, uin
 /* L1 magnitude of a gradient word. */
 uint16_t drogue_hls_magnitude(uint32_t gradient);
 
+/* |gx| tan(22.5 degrees) * 2^15 of a gradient word. */
+uint32_t drogue_hls_tangent(uint32_t gradient);
+
+/* Bits 0-1 sector of a gradient word by its tangent, bits 2-4 its direction class + 1. */
+uint32_t drogue_hls_sector(uint32_t gradient, uint32_t tangent);
+
+/* Magnitudes of a 3x3 window before, at and after its middle, across the edge of the sector: bits 0-15, 16-31, 32-47. */
+uint64_t drogue_hls_neighbours(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2,
+                               uint16_t b0, uint16_t b1, uint16_t b2, uint32_t sector);
+
 /* Non-maximum suppression and thresholds: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1, all 0 when the
- * pixel is no candidate; bits 6-7 sector of the gradient; bits 16-31, 32-47, 48-63 the magnitudes before, at and after it,
- * across the edge. */
-uint64_t drogue_hls_suppress(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2, uint16_t b0,
-                             uint16_t b1, uint16_t b2, uint32_t gradient, uint16_t low, uint16_t high);
+ * pixel is no candidate. */
+uint32_t drogue_hls_suppress(uint64_t neighbours, uint32_t sector, uint16_t low, uint16_t high);
 
-/* Code of a candidate by what drogue_hls_suppress() says of it: bits 0-4 as there, bits 8-15 and 16-23 the subpixel offset
- * in x and y, Q5. */
-uint32_t drogue_hls_locate(uint64_t suppressed);
+/* Subpixel offset across the edge: drogue_canny_vertex in a word. Begun, a step, and the offset, Q5: that in x in bits
+ * 0-7, that in y in bits 8-15. */
+uint64_t drogue_hls_vertex(uint64_t neighbours);
+uint64_t drogue_hls_vertex_step(uint64_t vertex, int32_t bit);
+uint32_t drogue_hls_offset(uint64_t vertex, uint32_t sector);
 
-/* Ring mask: is column x of a row within it? The bounds are those of drogue_mask_ring_row(). */
-uint32_t drogue_hls_in_ring(int32_t x, int32_t centre2_x, int64_t least_x9, int64_t most);
+/* Ring mask: is the column whose (2x - centre2_x)^2 this is within it? The bounds are those of drogue_mask_ring_row(). */
+uint32_t drogue_hls_in_ring(int64_t square, int64_t least_x9, int64_t most);
 
 #endif

@@ -1,117 +1,251 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Smoothing, gradient and suppression over a stream, each with its line buffers. A line buffer's word is read and written
- * once in a tick, at the same column, and not again before the next row. */
+/* Smoothing, gradient, suppression and subpixel place over a stream, each with its line buffers. A line buffer's word is
+ * read and written once in a tick, at the same column, and not again before the next row. */
 #include "operators.h"
 #include "stages.h"
 
-/* A line and a word for what lies outside: reads and writes need no condition. */
-enum { OUTSIDE = DROGUE_HLS_WIDTH, WORDS = DROGUE_HLS_WIDTH + 1 };
+static uint32_t raw_rows[DROGUE_HLS_PERIOD];       /* rows y - 4 .. y - 1, the oldest lowest */
+static uint16_t smooth_rows[DROGUE_HLS_PERIOD];    /* the two above the newest */
+static uint32_t gradient_row[DROGUE_HLS_PERIOD];   /* the one above the newest */
+static uint32_t magnitude_rows[DROGUE_HLS_PERIOD]; /* the two above the newest */
 
-static uint32_t raw_rows[WORDS];      /* rows y - 4 .. y - 1, the oldest lowest */
-static uint16_t smooth_rows[WORDS];   /* the two above the newest */
-static uint32_t gradient_row[WORDS];  /* the one above the newest */
-static uint16_t magnitude_row[WORDS]; /* and the one above that */
-
-static int is_inside(const drogue_hls_row *row, int32_t x) { return (x >= 0) & (x < row->width_px); }
-
-static uint8_t pick(uint32_t tap, uint32_t older, uint8_t newest)
+void drogue_hls_pixels_begin(drogue_hls_windows *w)
 {
-    return (uint8_t)(tap == 4 ? newest : older >> (8u * tap) & 0xFFu);
-}
-
-void drogue_hls_smooth_vertically(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x, uint8_t pixel)
-{
-    const int32_t word = is_inside(row, x) ? x : OUTSIDE;
-    const uint32_t older = raw_rows[word];
+    static const drogue_hls_windows empty;
     int k;
-    raw_rows[word] = older >> 8 | (uint32_t)pixel << 24;
-    for (k = 0; k < 4; k++) {
-        w->sum[k] = w->sum[k + 1];
-        w->middle[k] = w->middle[k + 1];
+    *w = empty;
+    w->x[0] = AT_LABEL - 3; /* a row of labels begins three columns early */
+    for (k = 0; k < PLACES; k++) {
+        w->y[k] = 0xFFFF; /* row -1 */
     }
-    w->middle[4] = pick(2, older, pixel);
-    w->sum[4] = drogue_hls_smooth_column(pick(row->tap[0], older, pixel), pick(row->tap[1], older, pixel), w->middle[4],
-                                         pick(row->tap[3], older, pixel), pick(row->tap[4], older, pixel));
 }
 
-static uint16_t pick_sum(int32_t tap, const uint16_t c[5])
+drogue_hls_lines drogue_hls_lines_read(const drogue_hls_windows *w)
+{
+    drogue_hls_lines lines;
+    lines.raw = raw_rows[w->x[AT_PICK_ROWS]];
+    lines.smooth = smooth_rows[w->x[AT_LEVELS]];
+    lines.gradient = gradient_row[w->x[AT_MAGNITUDES]];
+    lines.magnitudes = magnitude_rows[w->x[AT_MAGNITUDES]];
+    return lines;
+}
+
+static int is_inside(const drogue_hls_frame *frame, const drogue_hls_windows *w, int32_t at)
+{
+    return w->x[at] < frame->width_px;
+}
+
+/* The five indices about i; then with the border reflected. */
+static void about(int16_t indices[5], int32_t i)
+{
+    int32_t k;
+    for (k = 0; k < 5; k++) {
+        indices[k] = (int16_t)(i + k - 2);
+    }
+}
+
+static void reflect(int16_t near[5], const int16_t indices[5], int32_t n)
+{
+    int32_t k;
+    for (k = 0; k < 5; k++) {
+        near[k] = (int16_t)drogue_reflect_101(indices[k], n);
+    }
+}
+
+/* Which of the five values about i they are. */
+static void tap(uint8_t taps[5], const int16_t near[5], int32_t i)
+{
+    int32_t k;
+    for (k = 0; k < 5; k++) {
+        taps[k] = (uint8_t)((near[k] - i + 2) & 7);
+    }
+}
+
+static uint16_t pick(uint32_t tap, const uint16_t c[5])
 {
     return tap == 0 ? c[0] : tap == 1 ? c[1] : tap == 2 ? c[2] : tap == 3 ? c[3] : c[4];
 }
 
-void drogue_hls_smooth_horizontally(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x)
+/* The pixel that has come, the four above it and the border: what the vertical sum adds up. */
+static void pick_rows(drogue_hls_windows *w, uint32_t older)
 {
-    const int32_t to = x - 2; /* column smoothed; sum[2] is its own */
-    const int32_t n = row->width_px;
-    const uint8_t smooth = drogue_hls_smooth_row(pick_sum(drogue_reflect_101(to - 2, n) - to + 2, w->sum),
-                                                 pick_sum(drogue_reflect_101(to - 1, n) - to + 2, w->sum), w->sum[2],
-                                                 pick_sum(drogue_reflect_101(to + 1, n) - to + 2, w->sum),
-                                                 pick_sum(drogue_reflect_101(to + 2, n) - to + 2, w->sum));
-    w->level = row->smooth ? smooth : w->middle[2];
+    const uint16_t of[5] = {(uint16_t)(older & 0xFFu), (uint16_t)(older >> 8 & 0xFFu), (uint16_t)(older >> 16 & 0xFFu),
+                            (uint16_t)(older >> 24), w->pixel};
+    int k;
+    raw_rows[w->x[AT_PICK_ROWS]] = older >> 8 | (uint32_t)w->pixel << 24;
+    for (k = 0; k < 5; k++) {
+        w->rows[k] = (uint8_t)(k == 2 ? of[2] : pick(w->row_tap[k], of));
+    }
 }
 
-void drogue_hls_gradient_stage(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x)
+static void sum_rows(drogue_hls_windows *w)
 {
-    const int32_t at = row->y - 3; /* row of the gradient */
-    const int inside = is_inside(row, x);
-    const int32_t word = inside ? x : OUTSIDE;
-    const uint32_t older = smooth_rows[word];
-    uint8_t column[3];
     int k;
-    smooth_rows[word] = (uint16_t)(older >> 8 | (uint32_t)w->level << 8);
-    column[1] = (uint8_t)(older >> 8);
-    column[0] = (uint8_t)(at == 0 ? older >> 8 : older & 0xFFu);
-    column[2] = at == row->height_px - 1 ? column[1] : w->level;
+    for (k = 0; k < 4; k++) {
+        w->sum[k] = w->sum[k + 1];
+    }
+    for (k = 0; k < 5; k++) {
+        w->middle[k] = w->middle[k + 1];
+    }
+    w->sum[4] = drogue_hls_smooth_column(w->rows[0], w->rows[1], w->rows[2], w->rows[3], w->rows[4]);
+    w->middle[5] = w->rows[2];
+}
+
+static void pick_columns(drogue_hls_windows *w)
+{
+    int k;
+    for (k = 0; k < 5; k++) {
+        w->columns[k] = k == 2 ? w->sum[2] : pick(w->column_tap[k], w->sum);
+    }
+}
+
+static void sum_columns(drogue_hls_windows *w)
+{
+    w->smoothed = drogue_hls_smooth_row(w->columns[0], w->columns[1], w->columns[2], w->columns[3], w->columns[4]);
+}
+
+/* The smoothed pixel, or the pixel itself, and the two above it, border replicated. */
+static void stack_levels(drogue_hls_windows *w, const drogue_hls_frame *frame, uint32_t older)
+{
+    const int32_t y = w->y[AT_LEVELS] - 3; /* row of the gradient */
+    const uint8_t level = frame->smooth ? w->smoothed : w->middle[1];
+    const uint8_t middle = (uint8_t)(older >> 8);
+    smooth_rows[w->x[AT_LEVELS]] = (uint16_t)(older >> 8 | (uint32_t)level << 8);
+    w->level_column[0] = y == 0 ? middle : (uint8_t)(older & 0xFFu);
+    w->level_column[1] = middle;
+    w->level_column[2] = y == frame->height_px - 1 ? middle : level;
+}
+
+static void shift_levels(drogue_hls_windows *w, const drogue_hls_frame *frame)
+{
+    const int first = w->x[AT_WINDOW] == 0;
+    const int inside = is_inside(frame, w, AT_WINDOW);
+    int k;
     for (k = 0; k < 3; k++) {
         w->levels[k][0] = w->levels[k][1];
-        w->levels[k][1] = x == 0 ? column[k] : w->levels[k][2]; /* the first its own left one */
-        w->levels[k][2] = inside ? column[k] : w->levels[k][2]; /* the last column is its own right neighbour */
+        w->levels[k][1] = first ? w->level_column[k] : w->levels[k][2];  /* the first its own left one */
+        w->levels[k][2] = inside ? w->level_column[k] : w->levels[k][2]; /* the last column its own right one */
     }
-    w->gradient = drogue_hls_gradient(w->levels[0][0], w->levels[0][1], w->levels[0][2], w->levels[1][0],
-                                      w->levels[1][2], w->levels[2][0], w->levels[2][1], w->levels[2][2]);
 }
 
-void drogue_hls_column_stage(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x)
+static uint32_t gradient_of(uint8_t window[3][3])
 {
-    const int32_t at = row->y - 4; /* row suppressed */
-    const int inside = is_inside(row, x);
-    const int32_t word = inside ? x : OUTSIDE;
-    const uint32_t middle = gradient_row[word];
-    const uint16_t above = magnitude_row[word];
-    const uint16_t magnitude = drogue_hls_magnitude(middle);
-    const uint16_t below = drogue_hls_magnitude(w->gradient);
-    gradient_row[word] = w->gradient;
-    magnitude_row[word] = magnitude;
-    w->column[0] = (uint16_t)(above & drogue_hls_when(inside & (at >= 1)));
-    w->column[1] = (uint16_t)(magnitude & drogue_hls_when(inside));
-    w->column[2] = (uint16_t)(below & drogue_hls_when(inside & (at + 1 < row->height_px)));
-    w->column_gradient = middle;
+    return drogue_hls_gradient(window[0][0], window[0][1], window[0][2], window[1][0], window[1][2], window[2][0],
+                               window[2][1], window[2][2]);
 }
 
-void drogue_hls_suppress_stage(drogue_hls_windows *w, const drogue_hls_row *row, int32_t x)
+/* The magnitude and the two above it, 0 outside. */
+static void stack_magnitudes(drogue_hls_windows *w, const drogue_hls_frame *frame, const drogue_hls_lines *lines)
 {
-    const uint32_t begun = drogue_hls_when(x > 0);
-    const int inside = (x >= 1) & (x <= row->width_px) & (row->y >= 4);
-    uint32_t in_ring;
-    uint32_t kept;
+    const int32_t y = w->y[AT_MAGNITUDES] - 4; /* row suppressed */
+    const int inside = is_inside(frame, w, AT_MAGNITUDES);
+    gradient_row[w->x[AT_MAGNITUDES]] = w->gradient[1];
+    magnitude_rows[w->x[AT_MAGNITUDES]] = lines->magnitudes >> 16 | (uint32_t)w->magnitude << 16;
+    w->column[0] = (uint16_t)(lines->magnitudes & 0xFFFFu & drogue_hls_when(inside & (y >= 1)));
+    w->column[1] = (uint16_t)(lines->magnitudes >> 16 & drogue_hls_when(inside));
+    w->column[2] = (uint16_t)(w->magnitude & drogue_hls_when(inside & (y + 1 < frame->height_px)));
+    w->middle_gradient[AT_TANGENT] = lines->gradient;
+}
+
+static void shift_magnitudes(drogue_hls_windows *w)
+{
     int k;
     for (k = 0; k < 3; k++) {
-        w->magnitude[k][0] = (uint16_t)(w->magnitude[k][1] & begun);
-        w->magnitude[k][1] = (uint16_t)(w->magnitude[k][2] & begun);
-        w->magnitude[k][2] = w->column[k];
+        w->magnitudes[k][0] = w->magnitudes[k][1];
+        w->magnitudes[k][1] = w->magnitudes[k][2];
+        w->magnitudes[k][2] = w->column[k];
     }
-    w->gradients[0] = w->middle_gradient;
-    w->middle_gradient = w->column_gradient;
-    in_ring = drogue_hls_in_ring(x - 1, row->ring.centre2_x, row->ring.least_x9, row->ring.most);
-    kept = (0x1Fu & ~(drogue_hls_when((row->use_ring != 0) & (in_ring == 0)) & 0x1Cu)) & drogue_hls_when(inside);
-    w->suppressed = drogue_hls_suppress(w->magnitude[0][0], w->magnitude[0][1], w->magnitude[0][2], w->magnitude[1][0],
-                                        w->magnitude[1][1], w->magnitude[1][2], w->magnitude[2][0], w->magnitude[2][1],
-                                        w->magnitude[2][2], w->gradients[0], row->low, row->high) &
-                    ~(uint64_t)(0x1Fu & ~kept);
 }
 
-void drogue_hls_locate_stage(drogue_hls_windows *w)
+static uint64_t neighbours_of(uint16_t m[3][3], uint32_t sector)
 {
-    w->code = drogue_hls_locate(w->suppressed);
-    w->gradients[1] = w->gradients[0];
+    return drogue_hls_neighbours(m[0][0], m[0][1], m[0][2], m[1][0], m[1][1], m[1][2], m[2][0], m[2][1], m[2][2],
+                                 sector);
+}
+
+/* From suppression to the word of the edge list. */
+static void locate(drogue_hls_windows *w, const drogue_hls_frame *frame)
+{
+    const int32_t y = w->y[AT_SUPPRESS] - 4;
+    const int inside = is_inside(frame, w, AT_SUPPRESS) & (y >= 0) & (y < frame->height_px);
+    drogue_edge e;
+    int k;
+    e.x_q5 = (uint16_t)(32 * w->x[AT_PLACE] + (int8_t)(uint8_t)(w->offset & 0xFFu));
+    e.y_q5 = (uint16_t)(32 * (w->y[AT_PLACE] - 4) + (int8_t)(uint8_t)(w->offset >> 8));
+    e.gx = (int16_t)(uint16_t)(w->middle_gradient[AT_PLACE] & 0xFFFFu);
+    e.gy = (int16_t)(uint16_t)(w->middle_gradient[AT_PLACE] >> 16);
+    for (k = AT_LIST; k > AT_LABEL; k--) {
+        w->point[k] = w->point[k - 1];
+    }
+    w->point[AT_LABEL] = drogue_hls_pack_edge(&e);
+    w->offset = drogue_hls_offset(drogue_hls_vertex_step(w->vertex[AT_DIVIDE + 2], 0), w->sector[AT_DIVIDE + 2]);
+    w->vertex[AT_DIVIDE + 2] = drogue_hls_vertex_step(drogue_hls_vertex_step(w->vertex[AT_DIVIDE + 1], 2), 1);
+    w->vertex[AT_DIVIDE + 1] = drogue_hls_vertex_step(drogue_hls_vertex_step(w->vertex[AT_DIVIDE], 4), 3);
+    w->vertex[AT_DIVIDE] = drogue_hls_vertex(w->neighbours);
+    for (k = AT_LABEL; k > AT_SUPPRESS + 1; k--) {
+        w->code[k] = w->code[k - 1];
+    }
+    w->code[AT_SUPPRESS + 1] =
+        drogue_hls_suppress(w->neighbours, w->sector[AT_SUPPRESS], frame->low, frame->high) & drogue_hls_when(inside);
+}
+
+static void test_ring(drogue_hls_windows *w, const drogue_hls_frame *frame)
+{
+    w->in_ring = (frame->use_ring == 0) | drogue_hls_in_ring(w->ring_square, frame->ring.least_x9, frame->ring.most);
+    w->ring_square += 4 * (int64_t)w->ring_dx + 4; /* (v + 2)^2 = v^2 + 4 v + 4 */
+    w->ring_dx += 2;
+}
+
+/* Count off the next place; the others move on. */
+static void advance(drogue_hls_windows *w, const drogue_hls_frame *frame)
+{
+    const int last = w->x[0] == frame->period - 1;
+    int k;
+    w->take = (w->x[AT_TAKE - 1] < frame->width_px) & (w->y[AT_TAKE - 1] < frame->height_px);
+    for (k = PLACES - 1; k > 0; k--) {
+        w->x[k] = w->x[k - 1];
+        w->y[k] = w->y[k - 1];
+    }
+    w->x[0] = (uint16_t)(last ? 0 : w->x[1] + 1);
+    w->y[0] = (uint16_t)(w->y[1] + last);
+}
+
+void drogue_hls_pixels_tick(drogue_hls_windows *w, const drogue_hls_frame *frame, const drogue_hls_lines *lines)
+{
+#ifndef __BAMBU__ /* LEAST_PERIOD */
+#pragma HLS dependence variable = raw_rows type = inter direction = RAW distance = 25 dependent = true
+#pragma HLS dependence variable = smooth_rows type = inter direction = RAW distance = 25 dependent = true
+#pragma HLS dependence variable = gradient_row type = inter direction = RAW distance = 25 dependent = true
+#pragma HLS dependence variable = magnitude_rows type = inter direction = RAW distance = 25 dependent = true
+#endif
+    int k;
+    test_ring(w, frame);
+    locate(w, frame);
+    w->neighbours = neighbours_of(w->magnitudes, w->sector[AT_NEIGHBOURS]);
+    shift_magnitudes(w);
+    for (k = AT_PLACE; k > AT_SECTOR; k--) {
+        w->sector[k] = w->sector[k - 1];
+    }
+    w->sector[AT_SECTOR + 1] = drogue_hls_sector(w->middle_gradient[AT_SECTOR], w->tangent);
+    w->tangent = drogue_hls_tangent(w->middle_gradient[AT_TANGENT]);
+    for (k = AT_PLACE; k > AT_TANGENT; k--) {
+        w->middle_gradient[k] = w->middle_gradient[k - 1];
+    }
+    stack_magnitudes(w, frame, lines);
+    w->magnitude = drogue_hls_magnitude(w->gradient[0]);
+    w->gradient[1] = w->gradient[0];
+    w->gradient[0] = gradient_of(w->levels);
+    shift_levels(w, frame);
+    stack_levels(w, frame, lines->smooth);
+    sum_columns(w);
+    pick_columns(w);
+    tap(w->column_tap, w->near_column, w->x[AT_REFLECT_COLUMNS + 1]);
+    reflect(w->near_column, w->column_about, frame->width_px);
+    about(w->column_about, w->x[AT_REFLECT_COLUMNS - 1]);
+    sum_rows(w);
+    pick_rows(w, lines->raw);
+    tap(w->row_tap, w->near_row, w->y[AT_REFLECT_ROWS + 1] - 2);
+    reflect(w->near_row, w->row_about, frame->height_px);
+    about(w->row_about, w->y[AT_REFLECT_ROWS - 1] - 2);
+    advance(w, frame);
 }

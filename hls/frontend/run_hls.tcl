@@ -9,7 +9,6 @@ set sources {
     hls/frontend/labels.c
     hls/frontend/operators.c
     hls/frontend/pixels.c
-    src/canny.c
 }
 set bench {
     hls/frontend/testbench.c

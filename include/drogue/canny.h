@@ -23,15 +23,20 @@ typedef enum drogue_sector {
 /* Verdict of suppression and thresholds. */
 enum { DROGUE_CANNY_NONE = 0, DROGUE_CANNY_WEAK = 1, DROGUE_CANNY_STRONG = 2 };
 
-static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
+/* Sector of a gradient; ax |gx|, tg22 ax tan(22.5 degrees) * 2^15. */
+static inline drogue_sector drogue_canny_sector_by(int16_t gx, int16_t gy, uint32_t ax, uint32_t tg22)
 {
-    const uint32_t ax = (uint32_t)(gx < 0 ? -gx : gx);
     const uint32_t ay = (uint32_t)(gy < 0 ? -gy : gy) << 15;
-    const uint32_t tg22 = ax * (uint32_t)DROGUE_CANNY_TG22;
     const int flat = ay < tg22;
     const int steep = ay > tg22 + (ax << 16);
     const drogue_sector slanted = (gx ^ gy) < 0 ? DROGUE_SECTOR_ANTIDIAGONAL : DROGUE_SECTOR_DIAGONAL;
     return flat ? DROGUE_SECTOR_HORIZONTAL : steep ? DROGUE_SECTOR_VERTICAL : slanted;
+}
+
+static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
+{
+    const uint32_t ax = (uint32_t)(gx < 0 ? -gx : gx);
+    return drogue_canny_sector_by(gx, gy, ax, ax * (uint32_t)DROGUE_CANNY_TG22);
 }
 
 /* Step from a pixel to the neighbour 'after' it across the edge: x and y component in {-1, 0, 1}. */
@@ -77,6 +82,39 @@ static inline int drogue_canny_is_maximum(drogue_sector sector, int32_t before, 
  *  return  offset Q5 in [-15, 15], rounded to nearest, towards 'after' positive; 0 when all three are equal
  */
 int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after);
+
+/* The division that gives the offset, begun; then a step for each bit of the quotient, 4 down to 0; then the offset. */
+typedef struct drogue_canny_vertex {
+    int32_t curvature;
+    int32_t slope;
+    int32_t rest;
+    int32_t quotient;
+} drogue_canny_vertex;
+
+static inline drogue_canny_vertex drogue_canny_vertex_begin(int32_t before, int32_t m, int32_t after)
+{
+    drogue_canny_vertex v;
+    v.curvature = 2 * m - before - after;
+    v.slope = after - before;
+    v.rest = 32 * v.slope + 33 * v.curvature; /* floor(rest / (2 curvature)) - 16 rounds 16 slope / curvature */
+    v.quotient = 0;
+    return v;
+}
+
+static inline void drogue_canny_vertex_step(drogue_canny_vertex *v, int32_t bit)
+{
+    const int32_t part = v->curvature * (2 << bit);
+    const int32_t fits = v->rest >= part;
+    v->rest -= fits ? part : 0;
+    v->quotient += fits ? 1 << bit : 0;
+}
+
+static inline int32_t drogue_canny_vertex_offset(const drogue_canny_vertex *v)
+{
+    const int32_t offset = v->quotient - 16; /* where |slope| < curvature: quotient in [0, 32) */
+    const int32_t within = offset < -15 || v->slope <= -v->curvature ? -15 : v->slope >= v->curvature ? 15 : offset;
+    return v->curvature <= 0 ? 0 : within;
+}
 
 /* Direction class by the signs of the gradient, gy counted upward as in (2): 0..3 for I..IV.
  * (0, 0) has no direction and cannot be an edge; it gives 3. */

@@ -53,9 +53,9 @@ typedef struct drogue_recent_parents {
 
 static inline uint32_t drogue_parent_of(const uint32_t *parent, const drogue_recent_parents *recent, uint32_t label)
 {
-    return label == recent->label[0]   ? recent->parent[0]
-           : label == recent->label[1] ? recent->parent[1]
-                                       : parent[label];
+    const uint32_t last = 0u - (uint32_t)(label == recent->label[0]); /* masks: no branch about the look */
+    const uint32_t before = 0u - (uint32_t)(label == recent->label[1]);
+    return (recent->parent[0] & last) | (((recent->parent[1] & before) | (parent[label] & ~before)) & ~last);
 }
 
 static inline void drogue_set_parent(uint32_t *parent, drogue_recent_parents *recent, uint32_t label, uint32_t to)

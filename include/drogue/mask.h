@@ -42,11 +42,16 @@ static inline drogue_ring_row drogue_mask_ring_row(const drogue_mask *mask, int3
     return row;
 }
 
+/* Is the column whose (2x - centre2_x)^2 is d in the ring? */
+static inline int drogue_ring_row_holds_square(const drogue_ring_row *row, int64_t d)
+{
+    return (9 * d >= row->least_x9) & (d <= row->most);
+}
+
 static inline int drogue_ring_row_holds(const drogue_ring_row *row, int32_t x)
 {
     const int64_t dx = 2 * (int64_t)x - row->centre2_x;
-    const int64_t d = dx * dx;
-    return (9 * d >= row->least_x9) & (d <= row->most);
+    return drogue_ring_row_holds_square(row, dx * dx);
 }
 
 static inline int drogue_mask_in_ring(const drogue_mask *mask, int32_t x, int32_t y)
