@@ -4,7 +4,7 @@
 
 #include "drogue/wide.h"
 
-static drogue_point pixel_of(const drogue_edge *e)
+static inline drogue_point pixel_of(const drogue_edge *e)
 {
     drogue_point p;
     p.x = drogue_edge_x_px(e);
@@ -12,13 +12,13 @@ static drogue_point pixel_of(const drogue_edge *e)
     return p;
 }
 
-static int32_t cross(drogue_point o, drogue_point a, drogue_point b)
+static inline int32_t cross(drogue_point o, drogue_point a, drogue_point b)
 {
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
 /* Drop points of the chain above 'base' that p makes concave or straight, then push p. */
-static uint32_t chain_push(drogue_point *hull, uint32_t size, uint32_t base, drogue_point p)
+static inline uint32_t chain_push(drogue_point *hull, uint32_t size, uint32_t base, drogue_point p)
 {
     if (size > 0 && hull[size - 1].x == p.x && hull[size - 1].y == p.y) {
         return size;
@@ -48,7 +48,7 @@ static uint32_t convex_hull(drogue_point *hull, const drogue_edge *edges, uint32
     return size > 1 ? size - 1 : size; /* the last point is the first again */
 }
 
-static int64_t dot(int32_t dx, int32_t dy, drogue_point p) { return (int64_t)dx * p.x + (int64_t)dy * p.y; }
+static inline int64_t dot(int32_t dx, int32_t dy, drogue_point p) { return (int64_t)dx * p.x + (int64_t)dy * p.y; }
 
 /* Advance a caliper from hull[at] to the farthest vertex along (dx, dy). */
 static uint32_t caliper(const drogue_point *hull, uint32_t size, uint32_t at, int32_t dx, int32_t dy)

@@ -12,7 +12,7 @@
 #define FARTHEST (DROGUE_JOINT_ONE << 16) /* radii; an outline of 1 px is nearer with any focal length in Q16 */
 #define WIDEST (DROGUE_JOINT_ONE << 6)    /* focal lengths off the axis */
 
-drogue_s128 drogue_joint_products(const int64_t *a, const int64_t *b, int n)
+inline drogue_s128 drogue_joint_products(const int64_t *a, const int64_t *b, int n)
 {
     drogue_s128 sum = {0, 0};
     int k;

@@ -5,10 +5,10 @@
 #include "drogue/cholesky.h"
 #include "drogue/ellipse.h"
 
-void drogue_moments_clear(drogue_moments *m) { memset(m, 0, sizeof *m); }
+inline void drogue_moments_clear(drogue_moments *m) { memset(m, 0, sizeof *m); }
 
 /* Add a product of four coordinates. */
-static void accumulate(drogue_s128 *sum, int64_t product)
+static inline void accumulate(drogue_s128 *sum, int64_t product)
 {
     const uint64_t low = sum->lo + (uint64_t)product;
     const int32_t change = (int32_t)(low < (uint64_t)product) + (int32_t)(product >> 63);
@@ -18,7 +18,7 @@ static void accumulate(drogue_s128 *sum, int64_t product)
     }
 }
 
-void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
+inline void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
 {
     const int32_t xx = x * x; /* at most 2^30 */
     const int32_t xy = x * y;
@@ -112,7 +112,8 @@ int drogue_moments_scatter(drogue_wide scatter[21], int64_t centre[2], const dro
         for (j = 0; j <= i; j++) {
             int p = power_x[i] + power_x[j];
             int q = power_y[i] + power_y[j];
-            scatter[DROGUE_PACKED(i, j)] = drogue_wide_from_s128(s[swap ? moment(q, p) : moment(p, q)], 0);
+            const drogue_s128 *sum = &s[swap ? moment(q, p) : moment(p, q)];
+            drogue_wide_set_s128(&scatter[DROGUE_PACKED(i, j)], sum->hi, sum->lo, 0);
         }
     }
     return swap;

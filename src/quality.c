@@ -34,7 +34,7 @@ drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_el
 }
 
 /* a - b, saturated, with 32-bit operations alone. */
-static int32_t away(int32_t a, int32_t b)
+static inline int32_t away(int32_t a, int32_t b)
 {
     const int32_t d = (int32_t)((uint32_t)a - (uint32_t)b);
     const int overflows = ((a ^ b) & (a ^ d)) < 0;
@@ -42,7 +42,7 @@ static int32_t away(int32_t a, int32_t b)
 }
 
 /* Offsets from the centre along the axes, in semi-axes. */
-static void offsets(int64_t *u_q46, int64_t *v_q46, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
+static inline void offsets(int64_t *u_q46, int64_t *v_q46, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
                     drogue_q16 y_px_q16)
 {
     const int32_t dx = away(x_px_q16, frame->xc_px_q16);
@@ -52,16 +52,16 @@ static void offsets(int64_t *u_q46, int64_t *v_q46, const drogue_ellipse_frame *
 }
 
 /* drogue_shr_round_s64() for what is done to every point; 1 <= n <= 63 */
-static int64_t shr_round(int64_t v, int n) { return (v >> n) + ((v >> (n - 1)) & 1); }
+static inline int64_t shr_round(int64_t v, int n) { return (v >> n) + ((v >> (n - 1)) & 1); }
 
-static int32_t clamp_q24(int64_t v_q46)
+static inline int32_t clamp_q24(int64_t v_q46)
 {
     const int64_t most = INT64_C(16) << 24;
     int64_t v = shr_round(v_q46, 22);
     return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
-void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
+inline void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
                                 drogue_q16 y_px_q16)
 {
     int64_t u_q46;
@@ -74,12 +74,12 @@ void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ell
 }
 
 /* u^2 + v^2 - 1, Q48 */
-static int64_t conic_q48(int32_t u_q24, int32_t v_q24)
+static inline int64_t conic_q48(int32_t u_q24, int32_t v_q24)
 {
     return (int64_t)u_q24 * u_q24 + (int64_t)v_q24 * v_q24 - (INT64_C(1) << 48);
 }
 
-drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+inline drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
     int32_t u_q24;
     int32_t v_q24;
@@ -99,19 +99,19 @@ drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16)
 }
 
 /* Bits n and up of v, rounded as drogue_shr_round_s64() does, where the result fits 32 bits; 1 <= n <= 31. */
-static int32_t low_shr_round(int64_t v, int n)
+static inline int32_t low_shr_round(int64_t v, int n)
 {
     return (int32_t)((uint32_t)((uint64_t)v >> n) + ((uint32_t)v >> (n - 1) & 1u));
 }
 
 /* Is an offset Q46 at least 1.5 semi-axes? By its upper word. */
-static int far_off(int64_t v_q46)
+static inline int far_off(int64_t v_q46)
 {
     const uint32_t most_q14 = 3u << 13;
     return (uint32_t)((uint64_t)v_q46 >> 32) + most_q14 > 2 * most_q14;
 }
 
-int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
+inline int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
                               drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy)
 {
     int64_t u_q46;

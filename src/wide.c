@@ -4,23 +4,7 @@
 
 #define WIDE_TOP (INT64_C(1) << 62) /* mantissas stay below */
 
-drogue_s128 drogue_s128_mul(int64_t a, int64_t b)
-{
-    const uint32_t a0 = (uint32_t)a;
-    const uint32_t b0 = (uint32_t)b;
-    const uint32_t a1 = (uint32_t)((uint64_t)a >> 32);
-    const uint32_t b1 = (uint32_t)((uint64_t)b >> 32);
-    uint64_t low = (uint64_t)a0 * b0;
-    uint64_t mid = (uint64_t)a1 * b0 + (low >> 32);
-    uint64_t mid_low = (uint64_t)a0 * b1 + (uint32_t)mid;
-    uint64_t high = (uint64_t)a1 * b1 + (mid >> 32) + (mid_low >> 32);
-    drogue_s128 r;
-    high -= a < 0 ? (uint64_t)b : 0; /* a as an unsigned number is 2^64 more */
-    high -= b < 0 ? (uint64_t)a : 0;
-    r.hi = (int64_t)high;
-    r.lo = (mid_low << 32) | (uint32_t)low;
-    return r;
-}
+extern inline drogue_s128 drogue_s128_mul(int64_t a, int64_t b);
 
 int64_t drogue_mul_shr_round_s64(int64_t a, int64_t b, int n)
 {
@@ -28,7 +12,7 @@ int64_t drogue_mul_shr_round_s64(int64_t a, int64_t b, int n)
 }
 
 /* v / 2, rounded, times 2^exponent; v has 63 bits and a sign, or is 0. */
-static void put_rounded(drogue_wide *out, int64_t v, int32_t exponent)
+static inline void put_rounded(drogue_wide *out, int64_t v, int32_t exponent)
 {
     int64_t mantissa = (v >> 1) + (v & 1);
     if (mantissa == WIDE_TOP || mantissa == -WIDE_TOP) {
@@ -42,7 +26,7 @@ static void put_rounded(drogue_wide *out, int64_t v, int32_t exponent)
 }
 
 /* (high + low / 2^64) 2^exponent, rounded. */
-static void put_s128(drogue_wide *out, int64_t high, uint64_t low, int32_t exponent)
+static inline void put_s128(drogue_wide *out, int64_t high, uint64_t low, int32_t exponent)
 {
     const uint64_t magnitude = (uint64_t)(high ^ (high >> 63)); /* one too small for negative numbers */
     /* a sum of two mantissas seldom needs to be counted */
@@ -75,7 +59,7 @@ int64_t drogue_scale_round_s64(int64_t v, int shift)
 }
 
 /* a + b, numbers with a sign of their own for b's mantissa */
-static void put_sum(drogue_wide *out, const drogue_wide *a, int64_t b_mantissa, int32_t b_exponent)
+static inline void put_sum(drogue_wide *out, const drogue_wide *a, int64_t b_mantissa, int32_t b_exponent)
 {
     int64_t high = a->mantissa; /* of the number with the larger exponent */
     int64_t low = b_mantissa;
@@ -113,7 +97,7 @@ void drogue_wide_product(drogue_wide *out, const drogue_wide *a, const drogue_wi
 }
 
 /* About 2^91 / d for 2^61 <= d < 2^62, to 26 bits: Newton from a line that is right to 4. */
-static int32_t reciprocal(uint64_t d)
+static inline int32_t reciprocal(uint64_t d)
 {
     const uint32_t high = (uint32_t)(d >> 30);
     uint32_t r = 1515870810u - (uint32_t)((uint64_t)high * 1010580540u >> 32); /* (48 - 32 d) / 17, Q29 */

@@ -27,7 +27,23 @@ typedef struct drogue_wide {
 } drogue_wide;
 
 /* Exact product. */
-drogue_s128 drogue_s128_mul(int64_t a, int64_t b);
+inline drogue_s128 drogue_s128_mul(int64_t a, int64_t b)
+{
+    const uint32_t a0 = (uint32_t)a;
+    const uint32_t b0 = (uint32_t)b;
+    const uint32_t a1 = (uint32_t)((uint64_t)a >> 32);
+    const uint32_t b1 = (uint32_t)((uint64_t)b >> 32);
+    uint64_t low = (uint64_t)a0 * b0;
+    uint64_t mid = (uint64_t)a1 * b0 + (low >> 32);
+    uint64_t mid_low = (uint64_t)a0 * b1 + (uint32_t)mid;
+    uint64_t high = (uint64_t)a1 * b1 + (mid >> 32) + (mid_low >> 32);
+    drogue_s128 r;
+    high -= a < 0 ? (uint64_t)b : 0; /* a as an unsigned number is 2^64 more */
+    high -= b < 0 ? (uint64_t)a : 0;
+    r.hi = (int64_t)high;
+    r.lo = (mid_low << 32) | (uint32_t)low;
+    return r;
+}
 
 /* Sum modulo 2^128. */
 static inline drogue_s128 drogue_s128_add(drogue_s128 a, drogue_s128 b)
