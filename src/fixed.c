@@ -49,7 +49,7 @@ int drogue_clz_u64(uint64_t v)
     return n;
 }
 
-extern inline int64_t drogue_shr_round_s64(int64_t v, int n);
+int64_t drogue_shr_round_s64(int64_t v, int n) { return n == 0 ? v : (v >> n) + ((v >> (n - 1)) & 1); }
 
 drogue_q16 drogue_q16_from_int(int32_t v) { return drogue_sat_s32((int64_t)v * DROGUE_Q16_ONE); }
 

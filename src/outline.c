@@ -251,8 +251,25 @@ static void undo_blur(drogue_ellipse *e, const drogue_config *config)
     e->b_px_q16 = drogue_wide_to_q16(grown[1]);
 }
 
+/* A lens, and the region's first pixel in the image that it distorts. */
+typedef struct lens {
+    const drogue_camera *camera;
+    drogue_q16 x_px_q16;
+    drogue_q16 y_px_q16;
+} lens;
+
+static inline void collect_undistorted(collection *c, const drogue_edge *e, const lens *l)
+{
+    drogue_q16 x = drogue_q16_add(drogue_edge_x_q16(e), l->x_px_q16);
+    drogue_q16 y = drogue_q16_add(drogue_edge_y_q16(e), l->y_px_q16);
+    if (drogue_undistort_point(&x, &y, l->camera) == DROGUE_OK) {
+        collect_point(c, x, y);
+    }
+}
+
+/* Collect the edge points within a band, without the distortion of a lens where one is given. */
 static void collect_edges(collection *c, drogue_support *support, const drogue_ellipse_frame *frame,
-                          const drogue_band *band, const drogue_edge *edges, uint32_t count)
+                          const drogue_band *band, const drogue_edge *edges, uint32_t count, const lens *l)
 {
     const drogue_ellipse_frame f = *frame; /* apart: hardware keeps these in registers */
     const drogue_band b = *band;
@@ -263,7 +280,11 @@ static void collect_edges(collection *c, drogue_support *support, const drogue_e
         drogue_band_point p;
         if (drogue_ellipse_band_holds(&p, &f, &b, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy) &&
             drogue_support_add(support, &p, e)) {
-            collect_point(&part, drogue_edge_x_q16(e), drogue_edge_y_q16(e));
+            if (l != NULL) {
+                collect_undistorted(&part, e, l);
+            } else {
+                collect_point(&part, drogue_edge_x_q16(e), drogue_edge_y_q16(e));
+            }
         }
     }
     *c = part;
@@ -283,7 +304,7 @@ static drogue_status collect_outline(collection *c, drogue_support *support, con
     memset(support, 0, sizeof *support);
     support->bright_bins = bright_bins;
     collection_begin(c, ellipse, (int64_t)ellipse->a_px_q16 + 16 * DROGUE_Q16_ONE);
-    collect_edges(c, support, &frame, band, x->workspace->edges, x->list->edge_count);
+    collect_edges(c, support, &frame, band, x->workspace->edges, x->list->edge_count, NULL);
     return DROGUE_OK;
 }
 
@@ -444,33 +465,22 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     drogue_ellipse centre = outline->fitted;
     collection c;
     drogue_status status;
-    uint32_t members;
-    uint32_t i;
+    lens l;
     memset(out, 0, sizeof *out);
-    centre.xc_px_q16 = drogue_q16_add(centre.xc_px_q16, drogue_q16_from_int(x_px));
-    centre.yc_px_q16 = drogue_q16_add(centre.yc_px_q16, drogue_q16_from_int(y_px));
+    l.camera = camera;
+    l.x_px_q16 = drogue_q16_from_int(x_px);
+    l.y_px_q16 = drogue_q16_from_int(y_px);
+    centre.xc_px_q16 = drogue_q16_add(centre.xc_px_q16, l.x_px_q16);
+    centre.yc_px_q16 = drogue_q16_add(centre.yc_px_q16, l.y_px_q16);
     if (drogue_ellipse_frame_of(&frame, &outline->fitted) != DROGUE_OK ||
         drogue_undistort_point(&centre.xc_px_q16, &centre.yc_px_q16, camera) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
     collection_begin(&c, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
-    for (i = 0, members = 0; i < list->edge_count; i++) {        /* bound: edge points */
-        const drogue_edge *e = &workspace->edges[i];
-        drogue_q16 x = drogue_edge_x_q16(e);
-        drogue_q16 y = drogue_edge_y_q16(e);
-        drogue_band_point p;
-        if (drogue_ellipse_band_holds(&p, &frame, &band, x, y, e->gx, e->gy) && drogue_support_add(&support, &p, e)) {
-            members++;
-            x = drogue_q16_add(x, drogue_q16_from_int(x_px));
-            y = drogue_q16_add(y, drogue_q16_from_int(y_px));
-            if (drogue_undistort_point(&x, &y, camera) == DROGUE_OK) {
-                collect_point(&c, x, y);
-            }
-        }
-    }
+    collect_edges(&c, &support, &frame, &band, workspace->edges, list->edge_count, &l);
     status = collection_fit(out, &c);
     if (status == DROGUE_OK &&
-        (c.moments.n * 4 < (int64_t)members * 3 || !round_enough(out, config) || out->b_px_q16 < DROGUE_Q16_ONE)) {
+        (c.moments.n * 4 < (int64_t)(support.points - outline->support.points) * 3 || !round_enough(out, config) || out->b_px_q16 < DROGUE_Q16_ONE)) {
         status = DROGUE_E_DEGENERATE; /* most of the outline lies beyond what the lens model can undo */
     }
     if (status == DROGUE_OK) {
