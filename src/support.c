@@ -82,22 +82,19 @@ static uint32_t popcount(uint32_t v)
     return (v * 0x01010101u) >> 24;
 }
 
+static uint32_t turned(uint32_t v, int n) { return v << n | v >> (32 - n); }
+
 /* Changes of polarity between one covered bin and the next, round the outline. */
 static uint32_t changes(uint32_t bright, uint32_t covered)
 {
-    uint32_t count = 0;
-    uint32_t first = 2;
-    uint32_t last = 2;
-    uint32_t k;
-    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        if ((covered >> k) & 1u) {
-            uint32_t own = (bright >> k) & 1u;
-            count += last != 2 && own != last;
-            first = first == 2 ? own : first;
-            last = own;
-        }
+    uint32_t known = covered;
+    uint32_t own = bright & covered;
+    int n;
+    for (n = 1; n < 32; n *= 2) { /* bins that are not covered take the polarity of the covered one before them */
+        own |= turned(own, n) & ~known;
+        known |= turned(known, n);
     }
-    return count + (first != last);
+    return popcount(own ^ turned(own, 1));
 }
 
 /* Bins that hold enough points of each polarity. */
