@@ -5,7 +5,10 @@
 #define MAX_SWEEPS 8
 #define ONE_Q60 (INT64_C(1) << DROGUE_EIGEN_FRAC)
 
-static inline int64_t mul_q60(int64_t a, int64_t b) { return drogue_s128_shr_round(drogue_s128_mul(a, b), DROGUE_EIGEN_FRAC); }
+static inline int64_t mul_q60(int64_t a, int64_t b)
+{
+    return drogue_s128_shr_round(drogue_s128_mul(a, b), DROGUE_EIGEN_FRAC);
+}
 
 /* sqrt(a2 + b^2) */
 static void hypotenuse(drogue_wide *out, const drogue_wide *a2, const drogue_wide *b)

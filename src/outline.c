@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "band.h"
 #include "drogue/ellipse.h"
 #include "drogue/undistort.h"
 
@@ -18,7 +19,7 @@
 static void add_arc(drogue_moments *sum, const drogue_edge *edges, const drogue_arc *arc)
 {
     const int32_t origin_q5 = (DROGUE_MAX_SIDE / 2) << EDGE_FRAC; /* makes the coordinates 16-bit for every region */
-    drogue_moments m = *sum; /* apart: hardware keeps it in registers */
+    drogue_moments m = *sum;                                      /* apart: hardware keeps it in registers */
     uint32_t i;
     for (i = arc->first; i < arc->first + arc->count; i++) { /* bound: points of the arc */
         drogue_moments_add_point(&m, edges[i].x_q5 - origin_q5, edges[i].y_q5 - origin_q5);
@@ -278,7 +279,7 @@ static void collect_edges(collection *c, drogue_support *support, const drogue_e
     for (i = 0; i < count; i++) { /* bound: edge points */
         const drogue_edge *e = &edges[i];
         drogue_band_point p;
-        if (drogue_ellipse_band_holds(&p, &f, &b, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy) &&
+        if (band_holds(&p, &f, &b, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy) &&
             drogue_support_add(support, &p, e)) {
             if (l != NULL) {
                 collect_undistorted(&part, e, l);
@@ -479,8 +480,8 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     collection_begin(&c, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
     collect_edges(&c, &support, &frame, &band, workspace->edges, list->edge_count, &l);
     status = collection_fit(out, &c);
-    if (status == DROGUE_OK &&
-        (c.moments.n * 4 < (int64_t)(support.points - outline->support.points) * 3 || !round_enough(out, config) || out->b_px_q16 < DROGUE_Q16_ONE)) {
+    if (status == DROGUE_OK && (c.moments.n * 4 < (int64_t)(support.points - outline->support.points) * 3 ||
+                                !round_enough(out, config) || out->b_px_q16 < DROGUE_Q16_ONE)) {
         status = DROGUE_E_DEGENERATE; /* most of the outline lies beyond what the lens model can undo */
     }
     if (status == DROGUE_OK) {

@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include "band.h"
+
 /* tan 11.25, 22.5, 33.75 degrees, Q16 */
 #define TAN_1 13036
 #define TAN_2 27146
@@ -32,8 +34,8 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
     memset(out, 0, sizeof *out);
     for (i = 0; i < edge_count; i += stride) { /* bound: edge_count / stride, stride >= 1 */
         drogue_band_point p;
-        if (drogue_ellipse_band_holds(&p, &f, &b, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
-                                      edges[i].gx, edges[i].gy)) {
+        if (band_holds(&p, &f, &b, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]), edges[i].gx,
+                       edges[i].gy)) {
             out->bin[drogue_support_bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
         }
     }
