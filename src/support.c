@@ -63,15 +63,13 @@ int drogue_support_add(drogue_support *support, const drogue_band_point *p, cons
     return 1;
 }
 
-/* Length of a bin, px Q16: (b + (a - b) sin^2) pi / 16, within 8 % for axis ratios from 0.4. */
-static int64_t bin_length_q16(const drogue_ellipse *e, uint32_t bin)
+/* Length of bin k of a quadrant, px Q16: (b + (a - b) sin^2) pi / 16, within 8 % for axis ratios from 0.4. */
+static int64_t bin_length_q16(const drogue_ellipse *e, uint32_t k)
 {
     /* sin^2 at the middles of the bins of a quadrant, Q16 */
     static const uint16_t sin2_q16[8] = {630, 5522, 14563, 26375, 39160, 50973, 60014, 64906};
-    const uint32_t within = bin & 15u;
     const int64_t mean_q16 =
-        e->b_px_q16 +
-        drogue_shr_round_s64(((int64_t)e->a_px_q16 - e->b_px_q16) * sin2_q16[within < 8 ? within : 15 - within], 16);
+        e->b_px_q16 + drogue_shr_round_s64(((int64_t)e->a_px_q16 - e->b_px_q16) * sin2_q16[k], 16);
     return drogue_shr_round_s64(mean_q16 * DROGUE_Q16_PI, 20);
 }
 
@@ -106,11 +104,15 @@ static void enough_points(uint32_t enough[2], const drogue_support *support, con
     uint32_t k;
     enough[0] = 0;
     enough[1] = 0;
-    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+    for (k = 0; k < DROGUE_SUPPORT_BINS / 4; k++) {
         const int64_t needed_q16 = drogue_shr_round_s64(bin_length_q16(ellipse, k) * DROGUE_Q16(35, 100), 16);
-        const uint32_t *count = support->bin[k].count;
-        enough[0] |= (uint32_t)((int64_t)count[0] * stride * DROGUE_Q16_ONE >= needed_q16) << k;
-        enough[1] |= (uint32_t)((int64_t)count[1] * stride * DROGUE_Q16_ONE >= needed_q16) << k;
+        const uint32_t alike[4] = {k, 15 - k, 16 + k, 31 - k};
+        uint32_t i;
+        for (i = 0; i < 4; i++) {
+            const uint32_t *count = support->bin[alike[i]].count;
+            enough[0] |= (uint32_t)((int64_t)count[0] * stride * DROGUE_Q16_ONE >= needed_q16) << alike[i];
+            enough[1] |= (uint32_t)((int64_t)count[1] * stride * DROGUE_Q16_ONE >= needed_q16) << alike[i];
+        }
     }
 }
 
