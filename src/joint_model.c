@@ -22,10 +22,10 @@ inline drogue_s128 drogue_joint_products(const int64_t *a, const int64_t *b, int
     return sum;
 }
 
-static inline int64_t limited(int64_t v, int64_t most) { return v > most ? most : v < -most ? -most : v; }
+static int64_t limited(int64_t v, int64_t most) { return v > most ? most : v < -most ? -most : v; }
 
 /* Q84 -> Q42 */
-static inline int64_t rounded(drogue_s128 v)
+static int64_t rounded(drogue_s128 v)
 {
     const int64_t most = LARGEST >> (64 - DROGUE_JOINT_FRAC);
     return v.hi >= most ? LARGEST : v.hi < -most ? -LARGEST : drogue_s128_shr_round(v, DROGUE_JOINT_FRAC);
@@ -33,10 +33,10 @@ static inline int64_t rounded(drogue_s128 v)
 
 static int64_t dot(const int64_t a[3], const int64_t b[3]) { return rounded(drogue_joint_products(a, b, 3)); }
 
-static inline int64_t mul(int64_t a, int64_t b) { return rounded(drogue_s128_mul(a, b)); }
+static int64_t mul(int64_t a, int64_t b) { return rounded(drogue_s128_mul(a, b)); }
 
 /* a b - c d */
-static inline int64_t difference(int64_t a, int64_t b, int64_t c, int64_t d)
+static int64_t difference(int64_t a, int64_t b, int64_t c, int64_t d)
 {
     return rounded(drogue_s128_sub(drogue_s128_mul(a, b), drogue_s128_mul(c, d)));
 }

@@ -28,6 +28,12 @@ done
 flags=("--top-fname=$function" --std=c99 -O2 --generate-interface=INFER
     "--device-name=${DROGUE_HLS_BAMBU_DEVICE:-xc7z020,-1,clg484,VVD}" "--clock-period=${DROGUE_HLS_CLOCK_NS:-5}"
     "-I$root/include" "-I$root/hls" "-I$root/hls/bench" "-I$root/tests/conformance")
+# The back end's many functions stay functions, one instance of each: all in one would not come to an end in an hour.
+case $sources in
+hls/backend/* | hls/filter/*)
+    flags+=(-finline-hint-functions --enable-function-proxy --range-analysis-mode=skip)
+    ;;
+esac
 design=()
 for file in $sources $core; do
     design+=("$root/$file")
