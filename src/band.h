@@ -32,6 +32,37 @@ static inline int64_t conic_q48(int32_t u_q24, int32_t v_q24)
     return (int64_t)u_q24 * u_q24 + (int64_t)v_q24 * v_q24 - (INT64_C(1) << 48);
 }
 
+static inline int32_t clamp_q24(int64_t v_q46)
+{
+    const int64_t most = INT64_C(16) << 24;
+    int64_t v = shr_round(v_q46, 22);
+    return (int32_t)(v > most ? most : v < -most ? -most : v);
+}
+
+/* drogue_ellipse_frame_point() */
+static inline void frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
+                               drogue_q16 y_px_q16)
+{
+    int64_t u_q46;
+    int64_t v_q46;
+    offsets(&u_q46, &v_q46, frame, x_px_q16, y_px_q16);
+    *u_q24 = clamp_q24(u_q46);
+    *v_q24 = clamp_q24(v_q46);
+    DROGUE_NOTE("quality: u, Q24", *u_q24, 29);
+    DROGUE_NOTE("quality: v, Q24", *v_q24, 29);
+}
+
+/* drogue_ellipse_deviation() */
+static inline drogue_q16 deviation(const drogue_ellipse_frame *frame, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+{
+    int32_t u_q24;
+    int32_t v_q24;
+    int64_t d_q48;
+    frame_point(&u_q24, &v_q24, frame, x_px_q16, y_px_q16);
+    d_q48 = conic_q48(u_q24, v_q24);
+    return drogue_sat_s32(shr_round(d_q48 < 0 ? -d_q48 : d_q48, 32));
+}
+
 /* Bits n and up of v, rounded as drogue_shr_round_s64() does, where the result fits 32 bits; 1 <= n <= 31. */
 static inline int32_t low_shr_round(int64_t v, int n)
 {

@@ -114,6 +114,14 @@ static box smallest_box(const drogue_point *hull, uint32_t size)
     return best;
 }
 
+static drogue_q16 over(int64_t v, const drogue_wide *length)
+{
+    drogue_wide t;
+    drogue_wide_set(&t, v, 0);
+    drogue_wide_quotient(&t, &t, length);
+    return drogue_wide_to_q16(t);
+}
+
 drogue_status drogue_min_area_rect(drogue_min_rect *out, drogue_point *hull, const drogue_edge *edges, uint32_t count)
 {
     uint32_t size;
@@ -131,11 +139,10 @@ drogue_status drogue_min_area_rect(drogue_min_rect *out, drogue_point *hull, con
         return DROGUE_OK;
     }
     b = smallest_box(hull, size);
-    length = drogue_wide_sqrt(drogue_wide_from_s64(b.length2, 0));
-    out->short_px_q16 =
-        drogue_wide_to_q16(drogue_wide_div(drogue_wide_from_s64(b.along < b.across ? b.along : b.across, 0), length));
-    out->long_px_q16 =
-        drogue_wide_to_q16(drogue_wide_div(drogue_wide_from_s64(b.along < b.across ? b.across : b.along, 0), length));
+    drogue_wide_set(&length, b.length2, 0);
+    drogue_wide_root(&length, &length);
+    out->short_px_q16 = over(b.along < b.across ? b.along : b.across, &length);
+    out->long_px_q16 = over(b.along < b.across ? b.across : b.along, &length);
     out->xc_px_q16 = drogue_sat_s32(
         drogue_div_round_s64((b.dx * b.centre2_along - b.dy * b.centre2_across) * (DROGUE_Q16_ONE / 2), b.length2));
     out->yc_px_q16 = drogue_sat_s32(

@@ -35,8 +35,7 @@ static uint32_t count_near(const drogue_ellipse_frame *frame, drogue_q16 thresho
     uint32_t near_count = 0;
     uint32_t i;
     for (i = arc->first; i < arc->first + arc->count; i++) { /* bound: points of the arc */
-        near_count +=
-            drogue_ellipse_deviation(&f, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i])) < threshold;
+        near_count += deviation(&f, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i])) < threshold;
     }
     return near_count;
 }

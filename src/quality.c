@@ -33,33 +33,15 @@ drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_el
     return DROGUE_OK;
 }
 
-static inline int32_t clamp_q24(int64_t v_q46)
+void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
+                                drogue_q16 y_px_q16)
 {
-    const int64_t most = INT64_C(16) << 24;
-    int64_t v = shr_round(v_q46, 22);
-    return (int32_t)(v > most ? most : v < -most ? -most : v);
+    frame_point(u_q24, v_q24, frame, x_px_q16, y_px_q16);
 }
 
-inline void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame,
-                                       drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
-    int64_t u_q46;
-    int64_t v_q46;
-    offsets(&u_q46, &v_q46, frame, x_px_q16, y_px_q16);
-    *u_q24 = clamp_q24(u_q46);
-    *v_q24 = clamp_q24(v_q46);
-    DROGUE_NOTE("quality: u, Q24", *u_q24, 29);
-    DROGUE_NOTE("quality: v, Q24", *v_q24, 29);
-}
-
-inline drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
-{
-    int32_t u_q24;
-    int32_t v_q24;
-    int64_t d_q48;
-    drogue_ellipse_frame_point(&u_q24, &v_q24, frame, x_px_q16, y_px_q16);
-    d_q48 = conic_q48(u_q24, v_q24);
-    return drogue_sat_s32(shr_round(d_q48 < 0 ? -d_q48 : d_q48, 32));
+    return deviation(frame, x_px_q16, y_px_q16);
 }
 
 drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16)

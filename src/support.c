@@ -68,8 +68,7 @@ static int64_t bin_length_q16(const drogue_ellipse *e, uint32_t k)
 {
     /* sin^2 at the middles of the bins of a quadrant, Q16 */
     static const uint16_t sin2_q16[8] = {630, 5522, 14563, 26375, 39160, 50973, 60014, 64906};
-    const int64_t mean_q16 =
-        e->b_px_q16 + drogue_shr_round_s64(((int64_t)e->a_px_q16 - e->b_px_q16) * sin2_q16[k], 16);
+    const int64_t mean_q16 = e->b_px_q16 + drogue_shr_round_s64(((int64_t)e->a_px_q16 - e->b_px_q16) * sin2_q16[k], 16);
     return drogue_shr_round_s64(mean_q16 * DROGUE_Q16_PI, 20);
 }
 
