@@ -109,6 +109,8 @@ static inline int32_t reciprocal(uint64_t d)
     return (int32_t)r;
 }
 
+void drogue_wide_negate(drogue_wide *v) { v->mantissa = -v->mantissa; }
+
 void drogue_wide_quotient(drogue_wide *out, const drogue_wide *a, const drogue_wide *b)
 {
     const int64_t divisor = b->mantissa < 0 ? -b->mantissa : b->mantissa;

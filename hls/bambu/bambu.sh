@@ -31,7 +31,7 @@ flags=("--top-fname=$function" --std=c99 -O2 --generate-interface=INFER
 # The back end's many functions stay functions, one instance of each: all in one would not come to an end in an hour.
 case $sources in
 hls/backend/* | hls/filter/*)
-    flags+=(-finline-hint-functions --enable-function-proxy --range-analysis-mode=skip)
+    flags+=(-finline-hint-functions --range-analysis-mode=skip)
     ;;
 esac
 design=()

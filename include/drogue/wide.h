@@ -125,7 +125,8 @@ static inline void drogue_wide_shift(drogue_wide *v, int n)
     }
 }
 
-static inline void drogue_wide_negate(drogue_wide *v) { v->mantissa = -v->mantissa; }
+/* -v; a function: Bambu loses a bare store beside calls */
+void drogue_wide_negate(drogue_wide *v);
 
 /* The same by value, for what is done seldom. */
 static inline drogue_wide drogue_wide_from_s64(int64_t v, int32_t exponent)
