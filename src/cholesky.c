@@ -13,15 +13,18 @@ drogue_status drogue_cholesky_factor(drogue_wide *a, int n)
     int k;
     for (j = 0; j < n; j++) {
         for (i = j; i < n; i++) {
-            drogue_wide sum = a[DROGUE_PACKED(i, j)];
+            drogue_wide sum;
+            drogue_wide_copy(&sum, &a[DROGUE_PACKED(i, j)]);
             for (k = 0; k < j; k++) {
                 drogue_wide_subtract_product(&sum, &a[DROGUE_PACKED(i, k)], &a[DROGUE_PACKED(j, k)]);
             }
             if (i > j) {
                 drogue_wide_quotient(&a[DROGUE_PACKED(i, j)], &sum, &a[DROGUE_PACKED(j, j)]);
-            } else if (drogue_wide_cmp(sum, drogue_wide_scale(a[DROGUE_PACKED(j, j)], -PIVOT_BITS)) <= 0) {
-                return DROGUE_E_DEGENERATE;
             } else {
+                drogue_wide_shift(&a[DROGUE_PACKED(j, j)], -PIVOT_BITS);
+                if (drogue_wide_order(&sum, &a[DROGUE_PACKED(j, j)]) <= 0) {
+                    return DROGUE_E_DEGENERATE;
+                }
                 drogue_wide_root(&a[DROGUE_PACKED(j, j)], &sum);
             }
         }
@@ -82,11 +85,11 @@ void drogue_cholesky_invert(drogue_wide *inverse, const drogue_wide *l, int n)
     int j;
     for (j = 0; j < n; j++) {
         memset(column, 0, sizeof column);
-        column[j] = drogue_wide_from_s64(1, 0);
+        drogue_wide_set(&column[j], 1, 0);
         forward(column, l, n, j);
         backward(column, l, n, j);
         for (i = j; i < n; i++) {
-            inverse[DROGUE_PACKED(i, j)] = column[i];
+            drogue_wide_copy(&inverse[DROGUE_PACKED(i, j)], &column[i]);
         }
     }
 }

@@ -16,7 +16,7 @@ static void minus_twice(drogue_wide *out, const drogue_wide *a, const drogue_wid
 {
     drogue_wide t;
     drogue_wide_product(&t, c, d);
-    t = drogue_wide_scale(t, 1);
+    drogue_wide_shift(&t, 1);
     drogue_wide_product(out, a, b);
     drogue_wide_difference(out, out, &t);
 }
@@ -38,7 +38,7 @@ static drogue_status describe(conic *out, const drogue_wide q[6])
     drogue_wide_difference(&out->difference, &q[5], &q[3]);
     drogue_wide_product(&b2, &q[4], &q[4]);
     drogue_wide_product(&out->det, &q[3], &q[5]);
-    out->det = drogue_wide_scale(out->det, 2);
+    drogue_wide_shift(&out->det, 2);
     drogue_wide_difference(&out->det, &out->det, &b2);
     if (out->det.mantissa <= 0 || trace.mantissa <= 0) {
         return DROGUE_E_DEGENERATE;
@@ -48,9 +48,10 @@ static drogue_status describe(conic *out, const drogue_wide q[6])
     drogue_wide_quotient(&out->centre[0], &out->centre[0], &out->det);
     drogue_wide_quotient(&out->centre[1], &out->centre[1], &out->det);
     drogue_wide_products(&out->larger, &q[1], &out->centre[0], &q[2], &out->centre[1]);
-    out->f = drogue_wide_scale(q[0], 1);
+    drogue_wide_copy(&out->f, &q[0]);
+    drogue_wide_shift(&out->f, 1);
     drogue_wide_sum(&out->f, &out->f, &out->larger);
-    out->f = drogue_wide_neg(out->f);
+    drogue_wide_negate(&out->f);
     drogue_wide_product(&out->larger, &out->difference, &out->difference);
     drogue_wide_sum(&out->larger, &out->larger, &b2);
     drogue_wide_root(&out->larger, &out->larger);

@@ -4,7 +4,7 @@
 
 #include "drogue/wide.h"
 
-static drogue_point pixel_of(const drogue_edge *e)
+static inline drogue_point pixel_of(const drogue_edge *e)
 {
     drogue_point p;
     p.x = drogue_edge_x_px(e);
@@ -12,13 +12,13 @@ static drogue_point pixel_of(const drogue_edge *e)
     return p;
 }
 
-static int32_t cross(drogue_point o, drogue_point a, drogue_point b)
+static inline int32_t cross(drogue_point o, drogue_point a, drogue_point b)
 {
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
 /* Drop points of the chain above 'base' that p makes concave or straight, then push p. */
-static uint32_t chain_push(drogue_point *hull, uint32_t size, uint32_t base, drogue_point p)
+static inline uint32_t chain_push(drogue_point *hull, uint32_t size, uint32_t base, drogue_point p)
 {
     if (size > 0 && hull[size - 1].x == p.x && hull[size - 1].y == p.y) {
         return size;
@@ -48,7 +48,7 @@ static uint32_t convex_hull(drogue_point *hull, const drogue_edge *edges, uint32
     return size > 1 ? size - 1 : size; /* the last point is the first again */
 }
 
-static int64_t dot(int32_t dx, int32_t dy, drogue_point p) { return (int64_t)dx * p.x + (int64_t)dy * p.y; }
+static inline int64_t dot(int32_t dx, int32_t dy, drogue_point p) { return (int64_t)dx * p.x + (int64_t)dy * p.y; }
 
 /* Advance a caliper from hull[at] to the farthest vertex along (dx, dy). */
 static uint32_t caliper(const drogue_point *hull, uint32_t size, uint32_t at, int32_t dx, int32_t dy)
@@ -114,6 +114,14 @@ static box smallest_box(const drogue_point *hull, uint32_t size)
     return best;
 }
 
+static drogue_q16 over(int64_t v, const drogue_wide *length)
+{
+    drogue_wide t;
+    drogue_wide_set(&t, v, 0);
+    drogue_wide_quotient(&t, &t, length);
+    return drogue_wide_to_q16(t);
+}
+
 drogue_status drogue_min_area_rect(drogue_min_rect *out, drogue_point *hull, const drogue_edge *edges, uint32_t count)
 {
     uint32_t size;
@@ -131,11 +139,10 @@ drogue_status drogue_min_area_rect(drogue_min_rect *out, drogue_point *hull, con
         return DROGUE_OK;
     }
     b = smallest_box(hull, size);
-    length = drogue_wide_sqrt(drogue_wide_from_s64(b.length2, 0));
-    out->short_px_q16 =
-        drogue_wide_to_q16(drogue_wide_div(drogue_wide_from_s64(b.along < b.across ? b.along : b.across, 0), length));
-    out->long_px_q16 =
-        drogue_wide_to_q16(drogue_wide_div(drogue_wide_from_s64(b.along < b.across ? b.across : b.along, 0), length));
+    drogue_wide_set(&length, b.length2, 0);
+    drogue_wide_root(&length, &length);
+    out->short_px_q16 = over(b.along < b.across ? b.along : b.across, &length);
+    out->long_px_q16 = over(b.along < b.across ? b.across : b.along, &length);
     out->xc_px_q16 = drogue_sat_s32(
         drogue_div_round_s64((b.dx * b.centre2_along - b.dy * b.centre2_across) * (DROGUE_Q16_ONE / 2), b.length2));
     out->yc_px_q16 = drogue_sat_s32(

@@ -5,7 +5,10 @@
 #define MAX_SWEEPS 8
 #define ONE_Q60 (INT64_C(1) << DROGUE_EIGEN_FRAC)
 
-static int64_t mul_q60(int64_t a, int64_t b) { return drogue_s128_shr_round(drogue_s128_mul(a, b), DROGUE_EIGEN_FRAC); }
+static inline int64_t mul_q60(int64_t a, int64_t b)
+{
+    return drogue_s128_shr_round(drogue_s128_mul(a, b), DROGUE_EIGEN_FRAC);
+}
 
 /* sqrt(a2 + b^2) */
 static void hypotenuse(drogue_wide *out, const drogue_wide *a2, const drogue_wide *b)
@@ -37,7 +40,7 @@ static void rotation(int64_t *t_q60, int64_t *s_q60, int64_t *r_q60, int64_t a_p
     drogue_wide_product(&c, &d, &d);
     hypotenuse(&c, &c, &t);
     if (d.mantissa < 0) {
-        c = drogue_wide_neg(c);
+        drogue_wide_negate(&c);
     }
     share(&t, &t, &d, &c);
     *t_q60 = drogue_wide_to_s64(t, DROGUE_EIGEN_FRAC);

@@ -18,14 +18,16 @@ static drogue_status eliminate_linear_part(drogue_wide scatter[21])
     int i;
     int j;
     for (k = 0; k < 3; k++) {
-        drogue_wide least = drogue_wide_scale(scatter[DROGUE_PACKED(1, 1)], -PIVOT_BITS); /* x has the larger spread */
-        drogue_wide pivot = scatter[DROGUE_PACKED(k, k)];
-        if (drogue_wide_cmp(pivot, least) <= 0 && k > 0) {
+        const drogue_wide *pivot = &scatter[DROGUE_PACKED(k, k)];
+        drogue_wide least;
+        drogue_wide_copy(&least, &scatter[DROGUE_PACKED(1, 1)]); /* x has the larger spread */
+        drogue_wide_shift(&least, -PIVOT_BITS);
+        if (k > 0 && drogue_wide_order(pivot, &least) <= 0) {
             return DROGUE_E_DEGENERATE;
         }
         for (i = k + 1; i < 6; i++) {
-            column[i] = scatter[DROGUE_PACKED(i, k)];
-            drogue_wide_quotient(&scatter[DROGUE_PACKED(i, k)], &column[i], &pivot);
+            drogue_wide_copy(&column[i], &scatter[DROGUE_PACKED(i, k)]);
+            drogue_wide_quotient(&scatter[DROGUE_PACKED(i, k)], &column[i], pivot);
             for (j = k + 1; j <= i; j++) {
                 drogue_wide_subtract_product(&scatter[DROGUE_PACKED(i, j)], &scatter[DROGUE_PACKED(i, k)], &column[j]);
             }
@@ -39,7 +41,7 @@ static void minus_product(drogue_wide *out, const drogue_wide *a, const drogue_w
 {
     drogue_wide_product(out, b, c);
     drogue_wide_product(out, a, out);
-    out->mantissa = -out->mantissa;
+    drogue_wide_negate(out);
 }
 
 /* a b 2^shift - c d */
@@ -49,7 +51,7 @@ static void difference(drogue_wide *out, const drogue_wide *a, const drogue_wide
     drogue_wide second;
     drogue_wide_product(&second, c, d);
     drogue_wide_product(out, a, b);
-    *out = drogue_wide_scale(*out, shift);
+    drogue_wide_shift(out, shift);
     drogue_wide_difference(out, out, &second);
 }
 
@@ -58,23 +60,29 @@ static void difference(drogue_wide *out, const drogue_wide *a, const drogue_wide
 static drogue_status inverse_cholesky(drogue_wide h[6], int *singular, const drogue_wide scatter[21],
                                       const drogue_wide spread[3])
 {
-    const drogue_wide one = drogue_wide_from_s64(1, 0);
+    drogue_wide one;
     drogue_wide g[6]; /* the factor below its diagonal */
     int i;
     int j;
     int k;
+    drogue_wide_set(&one, 1, 0);
     for (i = 0; i < 3; i++) {
         for (j = 0; j <= i; j++) {
-            drogue_wide sum = scatter[DROGUE_PACKED(3 + i, 3 + j)];
+            drogue_wide sum;
+            drogue_wide_copy(&sum, &scatter[DROGUE_PACKED(3 + i, 3 + j)]);
             for (k = 0; k < j; k++) {
                 drogue_wide_subtract_product(&sum, &g[DROGUE_PACKED(i, k)], &g[DROGUE_PACKED(j, k)]);
             }
             if (i == j) {
-                drogue_wide least = drogue_wide_scale(spread[i], i < 2 ? -PIVOT_BITS : -FLOOR_BITS);
-                if (least.mantissa <= 0 || (i < 2 && drogue_wide_cmp(sum, least) <= 0)) {
+                drogue_wide least;
+                int order;
+                drogue_wide_copy(&least, &spread[i]);
+                drogue_wide_shift(&least, i < 2 ? -PIVOT_BITS : -FLOOR_BITS);
+                order = drogue_wide_order(&sum, &least);
+                if (least.mantissa <= 0 || (i < 2 && order <= 0)) {
                     return DROGUE_E_DEGENERATE; /* more than one conic through the points, or one that is no ellipse */
                 }
-                *singular = drogue_wide_cmp(sum, least) < 0;
+                *singular = order < 0;
                 drogue_wide_root(&sum, *singular ? &least : &sum);
                 drogue_wide_quotient(&h[DROGUE_PACKED(i, i)], &one, &sum);
             } else {
@@ -99,7 +107,7 @@ static drogue_status reduce(drogue_wide h[6], int *singular, drogue_wide scatter
     drogue_status status;
     int k;
     for (k = 0; k < 3; k++) {
-        spread[k] = scatter[DROGUE_PACKED(3 + k, 3 + k)];
+        drogue_wide_copy(&spread[k], &scatter[DROGUE_PACKED(3 + k, 3 + k)]);
     }
     status = eliminate_linear_part(scatter);
     return status == DROGUE_OK ? inverse_cholesky(h, singular, scatter, spread) : status;
@@ -110,8 +118,8 @@ static void constraint_matrix(drogue_sym3 *matrix, const drogue_wide h[6])
 {
     const drogue_wide zero = {0, 0};
     drogue_wide n[6];
-    n[0] = zero;
-    n[1] = zero;
+    drogue_wide_copy(&n[0], &zero);
+    drogue_wide_copy(&n[1], &zero);
     difference(&n[2], &h[0], &h[5], 1, &zero, &zero);
     difference(&n[3], &zero, &zero, 0, &h[2], &h[2]);
     difference(&n[4], &h[1], &h[5], 1, &h[2], &h[4]);
@@ -133,14 +141,15 @@ static drogue_status solve_quadratic_part(drogue_wide h[6], int singular)
         return DROGUE_E_DEGENERATE; /* the conic that the points lie on is no ellipse */
     }
     for (i = 0; i < 3; i++) {
-        drogue_wide sum = {0, 0};
+        drogue_wide sum;
+        drogue_wide_set(&sum, 0, 0);
         for (k = 2; k >= i; k--) {
             drogue_wide v;
             drogue_wide_set(&v, eigen.vector_q60[0][k], -DROGUE_EIGEN_FRAC);
             drogue_wide_product(&v, &h[DROGUE_PACKED(k, i)], &v);
             drogue_wide_sum(&sum, &v, &sum);
         }
-        h[3 + i] = sum;
+        drogue_wide_copy(&h[3 + i], &sum);
     }
     return DROGUE_OK;
 }
@@ -148,6 +157,7 @@ static drogue_status solve_quadratic_part(drogue_wide h[6], int singular)
 /* The linear part follows from the quadratic one; the sign makes the quadratic part positive. */
 static void solve_linear_part(drogue_wide theta[6], const drogue_wide scatter[21])
 {
+    drogue_wide trace;
     int k;
     int i;
     for (k = 2; k >= 0; k--) {
@@ -156,18 +166,20 @@ static void solve_linear_part(drogue_wide theta[6], const drogue_wide scatter[21
             drogue_wide_subtract_product(&theta[k], &scatter[DROGUE_PACKED(i, k)], &theta[i]);
         }
     }
-    if (drogue_wide_add(theta[3], theta[5]).mantissa < 0) {
+    drogue_wide_sum(&trace, &theta[3], &theta[5]);
+    if (trace.mantissa < 0) {
         for (k = 0; k < 6; k++) {
-            theta[k] = drogue_wide_neg(theta[k]);
+            drogue_wide_negate(&theta[k]);
         }
     }
 }
 
 static void exchange(drogue_wide *a, drogue_wide *b)
 {
-    drogue_wide t = *a;
-    *a = *b;
-    *b = t;
+    drogue_wide t;
+    drogue_wide_copy(&t, a);
+    drogue_wide_copy(a, b);
+    drogue_wide_copy(b, &t);
 }
 
 drogue_status drogue_ellipse_fit(drogue_ellipse *out, const drogue_moments *m, int frac_bits)

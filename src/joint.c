@@ -36,11 +36,12 @@ static int measurable(const drogue_joint_rows *rows)
 static void normal_equations(drogue_wide normal[CHI2 + 1], const drogue_joint_rows *rows, const drogue_joint_weights *w)
 {
     const int drop = 50; /* columns below 2^52, weights below 2^58: sums of five, below 2^113, fit 63 bits */
-    const drogue_wide one = drogue_wide_from_s64(1, 0);
+    drogue_wide one;
     int64_t weighted[DROGUE_JOINT_ROWS];
     int i;
     int p;
     int q;
+    drogue_wide_set(&one, 1, 0);
     for (p = 0; p <= FIT; p++) {
         const int64_t *column = rows->column[p];
         for (i = 0; i < DROGUE_JOINT_ROWS; i++) {
@@ -50,8 +51,10 @@ static void normal_equations(drogue_wide normal[CHI2 + 1], const drogue_joint_ro
         }
         for (q = 0; q <= p; q++) {
             drogue_wide *sum = &normal[DROGUE_PACKED(p, q)];
-            *sum = drogue_wide_from_s128(drogue_joint_products(weighted, rows->column[q], DROGUE_JOINT_ROWS),
-                                         w->exponent + drop - 2 * DROGUE_JOINT_FRAC);
+            const int64_t *other = rows->column[q];
+            const drogue_s128 total = drogue_s128_add(drogue_joint_products(weighted, other, FIT),
+                                                      drogue_joint_products(weighted + FIT, other + FIT, 2));
+            drogue_wide_set_s128(sum, total.hi, total.lo, w->exponent + drop - 2 * DROGUE_JOINT_FRAC);
             if (p == q && (p == 3 || p == 4)) {
                 drogue_wide_sum(sum, sum, &one);
             }
@@ -87,9 +90,10 @@ static int move(drogue_joint_state *s, const drogue_wide step[FIT])
 /* Inverse of the normal equations; lengths from radii to metres. */
 static void put_covariance(drogue_wide out[DROGUE_PACKED_MAX], const drogue_wide *root, drogue_q16 radius_m_q16)
 {
-    const drogue_wide radius = drogue_wide_from_q16(radius_m_q16);
+    drogue_wide radius;
     int i;
     int j;
+    drogue_wide_set_q16(&radius, radius_m_q16);
     drogue_cholesky_invert(out, root, FIT);
     for (i = 0; i < FIT; i++) {
         for (j = 0; j < 3; j++) {
@@ -157,7 +161,7 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
             int k;
             drogue_cholesky_solve(down, normal, FIT);
             for (k = 0; k < FIT; k++) {
-                down[k] = drogue_wide_neg(down[k]);
+                drogue_wide_negate(&down[k]);
             }
             last = move(&s, down) || last;
         }

@@ -12,16 +12,6 @@
 #define FARTHEST (DROGUE_JOINT_ONE << 16) /* radii; an outline of 1 px is nearer with any focal length in Q16 */
 #define WIDEST (DROGUE_JOINT_ONE << 6)    /* focal lengths off the axis */
 
-drogue_s128 drogue_joint_products(const int64_t *a, const int64_t *b, int n)
-{
-    drogue_s128 sum = {0, 0};
-    int k;
-    for (k = 0; k < n; k++) {
-        sum = drogue_s128_add(sum, drogue_s128_mul(a[k], b[k]));
-    }
-    return sum;
-}
-
 static int64_t limited(int64_t v, int64_t most) { return v > most ? most : v < -most ? -most : v; }
 
 /* Q84 -> Q42 */

@@ -40,7 +40,15 @@ typedef struct drogue_joint_weights {
 } drogue_joint_weights;
 
 /* a . b of n terms, exact; |a|, |b| <= 2^62, n <= 7. */
-drogue_s128 drogue_joint_products(const int64_t *a, const int64_t *b, int n);
+static inline drogue_s128 drogue_joint_products(const int64_t *a, const int64_t *b, int n)
+{
+    drogue_s128 sum = {0, 0};
+    int k;
+    for (k = 0; k < n; k++) {
+        sum = drogue_s128_add(sum, drogue_s128_mul(a[k], b[k]));
+    }
+    return sum;
+}
 
 /* num / den, Q42, saturated at 2^60; 0 when den is. */
 int64_t drogue_joint_ratio(int64_t num, int64_t den);

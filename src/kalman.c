@@ -54,7 +54,7 @@ void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q
     drogue_wide_set(&dt, dt_us, 0);
     drogue_wide_quotient(&dt, &dt, &half_dt2);
     drogue_wide_product(&half_dt2, &dt, &dt);
-    half_dt2 = drogue_wide_scale(half_dt2, -1);
+    drogue_wide_shift(&half_dt2, -1);
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         drogue_kalman3 *f = &filter->parameter[p];
         drogue_wide g[3]; /* process noise is g g' */

@@ -7,41 +7,6 @@
 
 void drogue_moments_clear(drogue_moments *m) { memset(m, 0, sizeof *m); }
 
-/* Add a product of four coordinates. */
-static void accumulate(drogue_s128 *sum, int64_t product)
-{
-    const uint64_t low = sum->lo + (uint64_t)product;
-    const int32_t change = (int32_t)(low < (uint64_t)product) + (int32_t)(product >> 63);
-    sum->lo = low;
-    if (change != 0) { /* seldom */
-        sum->hi += change;
-    }
-}
-
-void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
-{
-    const int32_t xx = x * x; /* at most 2^30 */
-    const int32_t xy = x * y;
-    const int32_t yy = y * y;
-    DROGUE_NOTE("ellipse: x", x, 16);
-    DROGUE_NOTE("ellipse: y", y, 16);
-    m->n++;
-    m->m10 += x;
-    m->m01 += y;
-    m->m20 += xx;
-    m->m11 += xy;
-    m->m02 += yy;
-    m->m30 += (int64_t)xx * x;
-    m->m21 += (int64_t)xx * y;
-    m->m12 += (int64_t)yy * x;
-    m->m03 += (int64_t)yy * y;
-    accumulate(&m->m40, (int64_t)xx * xx);
-    accumulate(&m->m31, (int64_t)xx * xy);
-    accumulate(&m->m22, (int64_t)xx * yy);
-    accumulate(&m->m13, (int64_t)xy * yy);
-    accumulate(&m->m04, (int64_t)yy * yy);
-}
-
 /* v * c modulo 2^128 */
 static drogue_s128 s128_scale(drogue_s128 v, int64_t c)
 {
@@ -112,7 +77,8 @@ int drogue_moments_scatter(drogue_wide scatter[21], int64_t centre[2], const dro
         for (j = 0; j <= i; j++) {
             int p = power_x[i] + power_x[j];
             int q = power_y[i] + power_y[j];
-            scatter[DROGUE_PACKED(i, j)] = drogue_wide_from_s128(s[swap ? moment(q, p) : moment(p, q)], 0);
+            const drogue_s128 *sum = &s[swap ? moment(q, p) : moment(p, q)];
+            drogue_wide_set_s128(&scatter[DROGUE_PACKED(i, j)], sum->hi, sum->lo, 0);
         }
     }
     return swap;

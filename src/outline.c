@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "band.h"
 #include "drogue/ellipse.h"
 #include "drogue/undistort.h"
 
@@ -18,21 +19,23 @@
 static void add_arc(drogue_moments *sum, const drogue_edge *edges, const drogue_arc *arc)
 {
     const int32_t origin_q5 = (DROGUE_MAX_SIDE / 2) << EDGE_FRAC; /* makes the coordinates 16-bit for every region */
+    drogue_moments m = *sum;                                      /* apart: hardware keeps it in registers */
     uint32_t i;
     for (i = arc->first; i < arc->first + arc->count; i++) { /* bound: points of the arc */
-        drogue_moments_add_point(sum, edges[i].x_q5 - origin_q5, edges[i].y_q5 - origin_q5);
+        drogue_moments_add_point(&m, edges[i].x_q5 - origin_q5, edges[i].y_q5 - origin_q5);
     }
+    *sum = m;
 }
 
 /* Points of an arc within the threshold of (10). */
 static uint32_t count_near(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
                            const drogue_arc *arc)
 {
+    const drogue_ellipse_frame f = *frame; /* apart: hardware keeps it in registers */
     uint32_t near_count = 0;
     uint32_t i;
     for (i = arc->first; i < arc->first + arc->count; i++) { /* bound: points of the arc */
-        near_count +=
-            drogue_ellipse_deviation(frame, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i])) < threshold;
+        near_count += deviation(&f, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i])) < threshold;
     }
     return near_count;
 }
@@ -182,14 +185,14 @@ typedef struct collection {
 } collection;
 
 /* Offset in the fit's unit, rounded; beyond 16 bits where a - b leaves 32. */
-static int32_t in_unit(drogue_q16 a, drogue_q16 b, int frac_bits)
+static inline int32_t in_unit(drogue_q16 a, drogue_q16 b, int frac_bits)
 {
     const int64_t d = (int64_t)a - b;
     const int32_t low = (int32_t)d;
     return low == d ? (low >> (16 - frac_bits)) + ((low >> (15 - frac_bits)) & 1) : INT32_MAX;
 }
 
-static void collect_point(collection *c, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+static inline void collect_point(collection *c, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
     const int32_t x = in_unit(x_px_q16, c->x_px_q16, c->frac_bits);
     const int32_t y = in_unit(y_px_q16, c->y_px_q16, c->frac_bits);
@@ -234,7 +237,7 @@ static void undo_blur(drogue_ellipse *e, const drogue_config *config)
     drogue_wide_set_q16(&own, config->smooth ? DROGUE_Q16(82, 100) : DROGUE_Q16(32, 100));
     drogue_wide_set_q16(&half, config->optics_blur_px_q16);
     drogue_wide_product(&half, &half, &half);
-    half = drogue_wide_scale(half, -1);
+    drogue_wide_shift(&half, -1);
     drogue_wide_sum(&half, &own, &half);
     drogue_wide_set_q16(&axis[0], e->a_px_q16);
     drogue_wide_set_q16(&axis[1], e->b_px_q16);
@@ -248,6 +251,45 @@ static void undo_blur(drogue_ellipse *e, const drogue_config *config)
     e->b_px_q16 = drogue_wide_to_q16(grown[1]);
 }
 
+/* A lens, and the region's first pixel in the image that it distorts. */
+typedef struct lens {
+    const drogue_camera *camera;
+    drogue_q16 x_px_q16;
+    drogue_q16 y_px_q16;
+} lens;
+
+static inline void collect_undistorted(collection *c, const drogue_edge *e, const lens *l)
+{
+    drogue_q16 x = drogue_q16_add(drogue_edge_x_q16(e), l->x_px_q16);
+    drogue_q16 y = drogue_q16_add(drogue_edge_y_q16(e), l->y_px_q16);
+    if (drogue_undistort_point(&x, &y, l->camera) == DROGUE_OK) {
+        collect_point(c, x, y);
+    }
+}
+
+/* Collect the edge points within a band, without the distortion of a lens where one is given. */
+static void collect_edges(collection *c, drogue_support *support, const drogue_ellipse_frame *frame,
+                          const drogue_band *band, const drogue_edge *edges, uint32_t count, const lens *l)
+{
+    const drogue_ellipse_frame f = *frame; /* apart: hardware keeps these in registers */
+    const drogue_band b = *band;
+    collection part = *c;
+    uint32_t i;
+    for (i = 0; i < count; i++) { /* bound: edge points */
+        const drogue_edge *e = &edges[i];
+        drogue_band_point p;
+        if (band_holds(&p, &f, &b, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy) &&
+            drogue_support_add(support, &p, e)) {
+            if (l != NULL) {
+                collect_undistorted(&part, e, l);
+            } else {
+                collect_point(&part, drogue_edge_x_q16(e), drogue_edge_y_q16(e));
+            }
+        }
+    }
+    *c = part;
+}
+
 /* Collect the edge points that belong to an outline: counts by bin, residuals and moments. Bins have the polarity that
  * the collection before gave them. */
 static drogue_status collect_outline(collection *c, drogue_support *support, const drogue_ellipse *ellipse,
@@ -256,21 +298,13 @@ static drogue_status collect_outline(collection *c, drogue_support *support, con
     const uint32_t bright_bins = support->bright_bins;
     drogue_ellipse_frame frame;
     drogue_status status = drogue_ellipse_frame_of(&frame, ellipse);
-    uint32_t i;
     if (status != DROGUE_OK) {
         return status;
     }
     memset(support, 0, sizeof *support);
     support->bright_bins = bright_bins;
     collection_begin(c, ellipse, (int64_t)ellipse->a_px_q16 + 16 * DROGUE_Q16_ONE);
-    for (i = 0; i < x->list->edge_count; i++) { /* bound: edge points */
-        const drogue_edge *e = &x->workspace->edges[i];
-        drogue_band_point p;
-        if (drogue_ellipse_band_holds(&p, &frame, band, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy) &&
-            drogue_support_add(support, &p, e)) {
-            collect_point(c, drogue_edge_x_q16(e), drogue_edge_y_q16(e));
-        }
-    }
+    collect_edges(c, support, &frame, band, x->workspace->edges, x->list->edge_count, NULL);
     return DROGUE_OK;
 }
 
@@ -373,10 +407,12 @@ static drogue_status best_outline(drogue_outline *out, drogue_candidate candidat
             break;
         }
         chosen = candidates[best];
-        refine(&trial, &chosen, c);
-        trial.cluster_members = members;
-        if (tries == 0 || trial.cover_q16 > out->cover_q16) {
+        refine(tries == 0 ? out : &trial, &chosen, c);
+        if (tries == 0) {
+            out->cluster_members = members;
+        } else if (trial.cover_q16 > out->cover_q16) {
             *out = trial;
+            out->cluster_members = members;
         }
         for (i = 0; i < count; i++) {
             if (!drogue_same_ellipse(&candidates[i], &chosen, &c->config->cluster)) {
@@ -429,33 +465,22 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     drogue_ellipse centre = outline->fitted;
     collection c;
     drogue_status status;
-    uint32_t members;
-    uint32_t i;
+    lens l;
     memset(out, 0, sizeof *out);
-    centre.xc_px_q16 = drogue_q16_add(centre.xc_px_q16, drogue_q16_from_int(x_px));
-    centre.yc_px_q16 = drogue_q16_add(centre.yc_px_q16, drogue_q16_from_int(y_px));
+    l.camera = camera;
+    l.x_px_q16 = drogue_q16_from_int(x_px);
+    l.y_px_q16 = drogue_q16_from_int(y_px);
+    centre.xc_px_q16 = drogue_q16_add(centre.xc_px_q16, l.x_px_q16);
+    centre.yc_px_q16 = drogue_q16_add(centre.yc_px_q16, l.y_px_q16);
     if (drogue_ellipse_frame_of(&frame, &outline->fitted) != DROGUE_OK ||
         drogue_undistort_point(&centre.xc_px_q16, &centre.yc_px_q16, camera) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
     collection_begin(&c, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
-    for (i = 0, members = 0; i < list->edge_count; i++) {        /* bound: edge points */
-        const drogue_edge *e = &workspace->edges[i];
-        drogue_q16 x = drogue_edge_x_q16(e);
-        drogue_q16 y = drogue_edge_y_q16(e);
-        drogue_band_point p;
-        if (drogue_ellipse_band_holds(&p, &frame, &band, x, y, e->gx, e->gy) && drogue_support_add(&support, &p, e)) {
-            members++;
-            x = drogue_q16_add(x, drogue_q16_from_int(x_px));
-            y = drogue_q16_add(y, drogue_q16_from_int(y_px));
-            if (drogue_undistort_point(&x, &y, camera) == DROGUE_OK) {
-                collect_point(&c, x, y);
-            }
-        }
-    }
+    collect_edges(&c, &support, &frame, &band, workspace->edges, list->edge_count, &l);
     status = collection_fit(out, &c);
-    if (status == DROGUE_OK &&
-        (c.moments.n * 4 < (int64_t)members * 3 || !round_enough(out, config) || out->b_px_q16 < DROGUE_Q16_ONE)) {
+    if (status == DROGUE_OK && (c.moments.n * 4 < (int64_t)(support.points - outline->support.points) * 3 ||
+                                !round_enough(out, config) || out->b_px_q16 < DROGUE_Q16_ONE)) {
         status = DROGUE_E_DEGENERATE; /* most of the outline lies beyond what the lens model can undo */
     }
     if (status == DROGUE_OK) {

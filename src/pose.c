@@ -6,8 +6,6 @@
 
 #include "drogue/eigen.h"
 
-static void negate(drogue_wide *v) { v->mantissa = -v->mantissa; }
-
 /* Rays to pixels, and an ellipse about the principal point in both. */
 typedef struct view {
     drogue_wide fx;
@@ -44,20 +42,20 @@ static void cone_of_ellipse(drogue_wide m[6], const drogue_ellipse *ellipse, con
     drogue_wide_set(&turned[1], s_q30, -31);
     drogue_wide_product(&turned[0], &turned[0], &scale);
     drogue_wide_product(&m[1], &turned[1], &scale);
-    negate(&m[1]);
+    drogue_wide_negate(&m[1]);
     drogue_wide_sum(&scale, &w.a2, &w.b2);
-    scale = drogue_wide_scale(scale, -1);
+    drogue_wide_shift(&scale, -1);
     drogue_wide_difference(&m[0], &scale, &turned[0]);
     drogue_wide_sum(&m[3], &scale, &turned[0]);
     /* a x^2 + 2 b xy + c y^2 + 2 d x + 2 e y + f: moved from the centre to the principal point */
     drogue_wide_products(&m[2], &m[0], &w.u, &m[1], &w.v);
     drogue_wide_products(&m[4], &m[1], &w.u, &m[3], &w.v);
-    negate(&m[2]);
-    negate(&m[4]);
+    drogue_wide_negate(&m[2]);
+    drogue_wide_negate(&m[4]);
     drogue_wide_products(&m[5], &m[2], &w.u, &m[4], &w.v);
     drogue_wide_product(&scale, &w.a2, &w.b2);
     drogue_wide_sum(&m[5], &m[5], &scale);
-    negate(&m[5]);
+    drogue_wide_negate(&m[5]);
     drogue_wide_product(&scale, &w.fx, &w.fx);
     drogue_wide_product(&m[0], &m[0], &scale);
     drogue_wide_product(&scale, &w.fx, &w.fy);
@@ -68,7 +66,7 @@ static void cone_of_ellipse(drogue_wide m[6], const drogue_ellipse *ellipse, con
     drogue_wide_product(&m[4], &m[4], &w.fy);
 }
 
-/* Both circles of a radius on a cone in its own axes (27)-(30): centre (+-x, 0, z), axis (-+tilt, 0, upright). */
+/* Both circles of a radius on a cone in its own axes (27)-(30): centre (+-x, 0, z), axis (+-tilt, 0, upright). */
 typedef struct circle_pair {
     drogue_wide x;
     drogue_wide z;
@@ -101,6 +99,7 @@ static void circles_on_cone(circle_pair *out, const int64_t value[3], drogue_q16
     drogue_wide_root(&ratio, &ratio);
     drogue_wide_product(&out->z, &radius, &out->upright);
     drogue_wide_product(&out->z, &out->z, &ratio);
+    drogue_wide_negate(&out->tilt);
 }
 
 /* p * e1 + q * e3 */
@@ -158,7 +157,6 @@ drogue_status drogue_pose_from_ellipse(drogue_pose out[2], const drogue_ellipse 
         return DROGUE_E_DOMAIN; /* no cone: flat beyond the matrix's precision */
     }
     circles_on_cone(&pair, eigen.value, radius_m_q16);
-    negate(&pair.tilt);
     for (k = 0; k < 3; k++) { /* the cone's axis points away from the camera */
         e3[k] = eigen.vector_q60[2][2] < 0 ? -eigen.vector_q60[2][k] : eigen.vector_q60[2][k];
     }
@@ -169,8 +167,8 @@ drogue_status drogue_pose_from_ellipse(drogue_pose out[2], const drogue_ellipse 
         combine(position, &pair.x, &pair.z, eigen.vector_q60[0], e3);
         combine(axis, &pair.tilt, &pair.upright, eigen.vector_q60[0], e3);
         status = finish_pose(&out[i], position, axis);
-        negate(&pair.x); /* the other circle */
-        negate(&pair.tilt);
+        drogue_wide_negate(&pair.x); /* the other circle */
+        drogue_wide_negate(&pair.tilt);
         if (status != DROGUE_OK) {
             memset(out, 0, 2 * sizeof *out);
             return status;

@@ -4,12 +4,14 @@
 
 #include <string.h>
 
+#include "band.h"
+
 /* tan 11.25, 22.5, 33.75 degrees, Q16 */
 #define TAN_1 13036
 #define TAN_2 27146
 #define TAN_3 43790
 
-uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24)
+inline uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24)
 {
     const int32_t x = u_q24 < 0 ? -u_q24 : u_q24;
     const int32_t y = v_q24 < 0 ? -v_q24 : v_q24;
@@ -26,12 +28,14 @@ uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24)
 void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame, const drogue_band *band,
                           const drogue_edge *edges, uint32_t edge_count, uint32_t stride)
 {
+    const drogue_ellipse_frame f = *frame; /* apart: hardware keeps these in registers */
+    const drogue_band b = *band;
     uint32_t i;
     memset(out, 0, sizeof *out);
     for (i = 0; i < edge_count; i += stride) { /* bound: edge_count / stride, stride >= 1 */
         drogue_band_point p;
-        if (drogue_ellipse_band_holds(&p, frame, band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
-                                      edges[i].gx, edges[i].gy)) {
+        if (band_holds(&p, &f, &b, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]), edges[i].gx,
+                       edges[i].gy)) {
             out->bin[drogue_support_bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
         }
     }
@@ -59,15 +63,12 @@ int drogue_support_add(drogue_support *support, const drogue_band_point *p, cons
     return 1;
 }
 
-/* Length of a bin, px Q16: (b + (a - b) sin^2) pi / 16, within 8 % for axis ratios from 0.4. */
-static int64_t bin_length_q16(const drogue_ellipse *e, uint32_t bin)
+/* Length of bin k of a quadrant, px Q16: (b + (a - b) sin^2) pi / 16, within 8 % for axis ratios from 0.4. */
+static int64_t bin_length_q16(const drogue_ellipse *e, uint32_t k)
 {
     /* sin^2 at the middles of the bins of a quadrant, Q16 */
     static const uint16_t sin2_q16[8] = {630, 5522, 14563, 26375, 39160, 50973, 60014, 64906};
-    const uint32_t within = bin & 15u;
-    const int64_t mean_q16 =
-        e->b_px_q16 +
-        drogue_shr_round_s64(((int64_t)e->a_px_q16 - e->b_px_q16) * sin2_q16[within < 8 ? within : 15 - within], 16);
+    const int64_t mean_q16 = e->b_px_q16 + drogue_shr_round_s64(((int64_t)e->a_px_q16 - e->b_px_q16) * sin2_q16[k], 16);
     return drogue_shr_round_s64(mean_q16 * DROGUE_Q16_PI, 20);
 }
 
@@ -80,22 +81,19 @@ static uint32_t popcount(uint32_t v)
     return (v * 0x01010101u) >> 24;
 }
 
+static uint32_t turned(uint32_t v, int n) { return v << n | v >> (32 - n); }
+
 /* Changes of polarity between one covered bin and the next, round the outline. */
 static uint32_t changes(uint32_t bright, uint32_t covered)
 {
-    uint32_t count = 0;
-    uint32_t first = 2;
-    uint32_t last = 2;
-    uint32_t k;
-    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        if ((covered >> k) & 1u) {
-            uint32_t own = (bright >> k) & 1u;
-            count += last != 2 && own != last;
-            first = first == 2 ? own : first;
-            last = own;
-        }
+    uint32_t known = covered;
+    uint32_t own = bright & covered;
+    int n;
+    for (n = 1; n < 32; n *= 2) { /* bins that are not covered take the polarity of the covered one before them */
+        own |= turned(own, n) & ~known;
+        known |= turned(known, n);
     }
-    return count + (first != last);
+    return popcount(own ^ turned(own, 1));
 }
 
 /* Bins that hold enough points of each polarity. */
@@ -105,11 +103,15 @@ static void enough_points(uint32_t enough[2], const drogue_support *support, con
     uint32_t k;
     enough[0] = 0;
     enough[1] = 0;
-    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+    for (k = 0; k < DROGUE_SUPPORT_BINS / 4; k++) {
         const int64_t needed_q16 = drogue_shr_round_s64(bin_length_q16(ellipse, k) * DROGUE_Q16(35, 100), 16);
-        const uint32_t *count = support->bin[k].count;
-        enough[0] |= (uint32_t)((int64_t)count[0] * stride * DROGUE_Q16_ONE >= needed_q16) << k;
-        enough[1] |= (uint32_t)((int64_t)count[1] * stride * DROGUE_Q16_ONE >= needed_q16) << k;
+        const uint32_t alike[4] = {k, 15 - k, 16 + k, 31 - k};
+        uint32_t i;
+        for (i = 0; i < 4; i++) {
+            const uint32_t *count = support->bin[alike[i]].count;
+            enough[0] |= (uint32_t)((int64_t)count[0] * stride * DROGUE_Q16_ONE >= needed_q16) << alike[i];
+            enough[1] |= (uint32_t)((int64_t)count[1] * stride * DROGUE_Q16_ONE >= needed_q16) << alike[i];
+        }
     }
 }
 

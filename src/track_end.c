@@ -131,7 +131,7 @@ static void correct(drogue_kalman *filter, const measurement *m, const drogue_tr
         drogue_wide_product(&k2, &k, &k);
         drogue_wide_product(&t, &k2, zz);
         drogue_wide_difference(&t, &m->noise[DROGUE_PACKED(p, p)], &t);
-        if (drogue_wide_cmp(t, least) < 0) {
+        if (drogue_wide_order(&t, &least) < 0) {
             t = least;
         }
         drogue_wide_product(&k2, &k2, &variance);
@@ -195,7 +195,7 @@ static drogue_track_state end_unresolved(drogue_track *track, const measurement 
 {
     const drogue_wide d = drogue_kalman_distance2(&track->filter, pose->value_q16, pose->noise, DROGUE_PARAMETERS);
     const drogue_wide e = drogue_kalman_distance2(&track->filter, twin->value_q16, twin->noise, DROGUE_PARAMETERS);
-    const measurement *nearer = drogue_wide_cmp(e, d) < 0 ? twin : pose;
+    const measurement *nearer = drogue_wide_order(&e, &d) < 0 ? twin : pose;
     if (!passes(&track->filter, nearer, DROGUE_PARAMETERS, track->config.gate_q16)) {
         return refuse(track, nearer, 0);
     }

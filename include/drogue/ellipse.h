@@ -25,8 +25,41 @@ typedef struct drogue_moments {
 
 void drogue_moments_clear(drogue_moments *m);
 
+/* Add a product of four coordinates. */
+static inline void drogue_s128_accumulate(drogue_s128 *sum, int64_t product)
+{
+    const uint64_t low = sum->lo + (uint64_t)product;
+    const int32_t change = (int32_t)(low < (uint64_t)product) + (int32_t)(product >> 63);
+    sum->lo = low;
+    if (change != 0) { /* seldom */
+        sum->hi += change;
+    }
+}
+
 /* Add one point; x and y in [-32768, 32767], in units of the caller's choice. */
-void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y);
+static inline void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
+{
+    const int32_t xx = x * x; /* at most 2^30 */
+    const int32_t xy = x * y;
+    const int32_t yy = y * y;
+    DROGUE_NOTE("ellipse: x", x, 16);
+    DROGUE_NOTE("ellipse: y", y, 16);
+    m->n++;
+    m->m10 += x;
+    m->m01 += y;
+    m->m20 += xx;
+    m->m11 += xy;
+    m->m02 += yy;
+    m->m30 += (int64_t)xx * x;
+    m->m21 += (int64_t)xx * y;
+    m->m12 += (int64_t)yy * x;
+    m->m03 += (int64_t)yy * y;
+    drogue_s128_accumulate(&m->m40, (int64_t)xx * xx);
+    drogue_s128_accumulate(&m->m31, (int64_t)xx * xy);
+    drogue_s128_accumulate(&m->m22, (int64_t)xx * yy);
+    drogue_s128_accumulate(&m->m13, (int64_t)xy * yy);
+    drogue_s128_accumulate(&m->m04, (int64_t)yy * yy);
+}
 
 /* Scatter matrix of the monomials 1, x, y, x^2, xy, y^2 about the points' centre, packed by rows of its lower triangle
  * (cholesky.h); x and y have changed roles where the return value is 1, so that x has the larger spread.
