@@ -26,7 +26,7 @@ static int64_t dot(const int64_t a[3], const int64_t b[3]) { return rounded(drog
 static int64_t mul(int64_t a, int64_t b) { return rounded(drogue_s128_mul(a, b)); }
 
 /* a b - c d */
-static int64_t difference(int64_t a, int64_t b, int64_t c, int64_t d)
+static int64_t det(int64_t a, int64_t b, int64_t c, int64_t d)
 {
     return rounded(drogue_s128_sub(drogue_s128_mul(a, b), drogue_s128_mul(c, d)));
 }
@@ -109,7 +109,7 @@ static void lift_ray(lift *out, int64_t d, const int64_t p[3], int64_t m, const 
 {
     int k;
     for (k = 0; k < 3; k++) {
-        out->v[k] = difference(d, p[k], m, c[k]);
+        out->v[k] = det(d, p[k], m, c[k]);
     }
     out->v[3] = mul(r, m);
 }
@@ -229,12 +229,12 @@ static drogue_status see_disc(disc *out, const drogue_joint_state *s, const drog
         lift_ray(&at[k], out->facing, unit[k], s->axis[k], out->middle, out->radius);
     }
     conic_of(q, at, at);
-    determinant = difference(q[0], q[2], q[1], q[1]);
+    determinant = det(q[0], q[2], q[1], q[1]);
     if (!within(out->middle, WIDEST) || determinant <= 0) {
         return DROGUE_E_DOMAIN;
     }
-    out->image[0] = drogue_joint_ratio(difference(q[1], q[4], q[2], q[3]), determinant);
-    out->image[1] = drogue_joint_ratio(difference(q[1], q[3], q[0], q[4]), determinant);
+    out->image[0] = drogue_joint_ratio(det(q[1], q[4], q[2], q[3]), determinant);
+    out->image[1] = drogue_joint_ratio(det(q[1], q[3], q[0], q[4]), determinant);
     return DROGUE_OK;
 }
 
