@@ -73,15 +73,15 @@ static int move(drogue_joint_state *s, const drogue_wide step[FIT])
     const int64_t near = s->position[2] >> SETTLED_BITS;
     int is_small = 1;
     int k;
-    for (k = 0; k < FIT; k++) {
-        const int64_t v = limited(drogue_wide_to_s64(step[k], DROGUE_JOINT_FRAC), k < 3 ? half : DROGUE_JOINT_ONE);
-        const int64_t least = k < 3 ? near : DROGUE_JOINT_ONE >> SETTLED_BITS;
-        is_small = is_small && v <= least && v >= -least;
-        if (k < 3) {
-            s->position[k] += v;
-        } else {
-            s->angle[k - 3] = limited(s->angle[k - 3] + limited(v, DROGUE_JOINT_ONE / 2), right_angle);
-        }
+    for (k = 0; k < 3; k++) {
+        const int64_t v = limited(drogue_wide_to_s64(step[k], DROGUE_JOINT_FRAC), half);
+        is_small = is_small && v == limited(v, near);
+        s->position[k] += v;
+    }
+    for (k = 0; k < 2; k++) {
+        const int64_t v = limited(drogue_wide_to_s64(step[3 + k], DROGUE_JOINT_FRAC), DROGUE_JOINT_ONE);
+        is_small = is_small && v == limited(v, DROGUE_JOINT_ONE >> SETTLED_BITS);
+        s->angle[k] = limited(s->angle[k] + limited(v, DROGUE_JOINT_ONE / 2), right_angle);
     }
     drogue_joint_turn(s);
     return is_small;
