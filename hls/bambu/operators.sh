@@ -18,7 +18,7 @@ for header in hls/choose_label.h hls/frontend/operators.h hls/centroid/operators
         (cd "$work" && bambu "--top-fname=$operator" --std=c99 -O2 "--pipelining=$operator=1" \
             "--device-name=${DROGUE_HLS_BAMBU_DEVICE:-xc7z020,-1,clg484,VVD}" \
             "--clock-period=${DROGUE_HLS_CLOCK_NS:-5}" "-I$root/include" "-I$root/hls" "$root/${header%.h}.c" \
-            "$root/src/canny.c" >log 2>&1 </dev/null)
+            >log 2>&1 </dev/null)
         verdict=PASS
         if [ ! -s "$work/$operator.v" ] || ! grep -q 'Required pipelining with II=1' "$work/log"; then
             verdict=FAIL

@@ -64,12 +64,12 @@ static int same(const drogue_pose *p, const drogue_pose *q)
            apart(p->axis_q16, q->axis_q16) * 65536 <= 2;
 }
 
-static void standing(pose_real *p, double z, double yaw, double pitch)
+/* Straight ahead at 6 m. */
+static void look_ahead(seen *s, const field *f, double yaw, double pitch)
 {
-    memset(p, 0, sizeof *p);
-    p->v[2] = z;
-    p->v[3] = yaw;
-    p->v[4] = pitch;
+    const pose_real p = {{0, 0, 6, yaw, pitch}};
+    uint64_t rng = 12;
+    ck_assert(look_at(s, f, &p, &rng));
 }
 
 /* Whichever pose it is told to be the nearer one, the right one wins; told right, it hands on the other one. */
@@ -107,12 +107,9 @@ START_TEST(outline_alone)
 {
     const field f = usual_field();
     const drogue_joint_inner none = {0, 0, 0};
-    pose_real p;
-    uint64_t rng = 12;
     seen s;
     uint32_t nearer;
-    standing(&p, 6, 0.25, -0.1);
-    ck_assert(look_at(&s, &f, &p, &rng));
+    look_ahead(&s, &f, 0.25, -0.1);
     for (nearer = 0; nearer < 2; nearer++) {
         ck_assert_int_eq(decide(&s, &f, nearer, &none), DROGUE_OK);
         ck_assert(!s.result.orientation_resolved);
@@ -128,12 +125,9 @@ END_TEST
 START_TEST(contradiction)
 {
     const field f = usual_field();
-    pose_real p;
-    uint64_t rng = 13;
     seen s;
     drogue_joint_inner moved;
-    standing(&p, 6, 0.25, -0.1);
-    ck_assert(look_at(&s, &f, &p, &rng));
+    look_ahead(&s, &f, 0.25, -0.1);
     ck_assert_int_eq(decide(&s, &f, 0, &s.inner), DROGUE_OK);
     ck_assert(s.result.orientation_resolved);
     moved = s.inner; /* across the line on which both poses have it, so that no tilt explains it */
@@ -150,11 +144,8 @@ END_TEST
 START_TEST(head_on)
 {
     const field f = usual_field();
-    pose_real p;
-    uint64_t rng = 14;
     seen s;
-    standing(&p, 6, 0, 0);
-    ck_assert(look_at(&s, &f, &p, &rng));
+    look_ahead(&s, &f, 0, 0);
     ck_assert_int_eq(decide(&s, &f, 0, &s.inner), DROGUE_OK);
     ck_assert(s.result.orientation_resolved);
 }
@@ -164,11 +155,8 @@ END_TEST
 START_TEST(no_covariance)
 {
     const field f = usual_field();
-    pose_real p;
-    uint64_t rng = 15;
     seen s;
-    standing(&p, 6, 0.25, -0.1);
-    ck_assert(look_at(&s, &f, &p, &rng));
+    look_ahead(&s, &f, 0.25, -0.1);
     memset(&s.support, 0, sizeof s.support);
     ck_assert_int_eq(decide(&s, &f, 0, &s.inner), DROGUE_E_DOMAIN);
 }
