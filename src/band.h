@@ -3,7 +3,7 @@
 #ifndef DROGUE_BAND_H
 #define DROGUE_BAND_H
 
-#include "drogue/quality.h"
+#include "drogue/support.h"
 
 /* a - b, saturated, with 32-bit operations alone. */
 static inline int32_t away(int32_t a, int32_t b)
@@ -76,6 +76,50 @@ static inline int far_off(int64_t v_q46)
     return (uint32_t)((uint64_t)v_q46 >> 32) + most_q14 > 2 * most_q14;
 }
 
+/* F, and is it from inside half to outside 1.4 of the outline? */
+static inline int32_t form_q24(int32_t u_q24, int32_t v_q24) { return low_shr_round(conic_q48(u_q24, v_q24), 24); }
+
+static inline int far_form(int32_t f_q24) { return f_q24 > (1 << 24) || f_q24 < -(3 << 22); }
+
+/* |F b| */
+static inline int32_t form_px_q16(const drogue_ellipse_frame *frame, int32_t f_q24)
+{
+    const int32_t f_b_px_q16 = low_shr_round((int64_t)f_q24 * frame->b_px_q16, 24);
+    return f_b_px_q16 < 0 ? -f_b_px_q16 : f_b_px_q16;
+}
+
+/* Half the gradient of F times b: between b / a and about 1 in length. */
+static inline void normal_of(int32_t *nx_q14, int32_t *ny_q14, const drogue_ellipse_frame *frame, int32_t u_q24,
+                             int32_t v_q24)
+{
+    *nx_q14 = low_shr_round((int64_t)u_q24 * frame->cos_ratio_q14 - (int64_t)v_q24 * frame->sin_q14, 24);
+    *ny_q14 = low_shr_round((int64_t)u_q24 * frame->sin_ratio_q14 + (int64_t)v_q24 * frame->cos_q14, 24);
+}
+
+static inline int32_t square_sum(int32_t x, int32_t y) { return x * x + y * y; }
+
+/* |F| / |grad F| <= t  <=>  (F b)^2 <= 4 t^2 n^2 */
+static inline int within_band(const drogue_band *band, int32_t f_b_px_q16, int32_t n2_q28)
+{
+    const int32_t n2_q20 = (n2_q28 + 128) >> 8;
+    DROGUE_NOTE("quality: squared normal, Q28", n2_q28, 30);
+    return (int64_t)f_b_px_q16 * f_b_px_q16 <= shr_round((int64_t)band->width2_px2_q24 * n2_q20, 10);
+}
+
+/* Is a gradient, of which so much lies along the normal, near enough to it, either way? */
+static inline int aligned(const drogue_band *band, int32_t along, uint32_t g2, int32_t n2_q28)
+{
+    DROGUE_NOTE("quality: gradient along normal", along, 26);
+    DROGUE_NOTE("quality: squared gradient times squared cosine, Q10", band->cos2_q10 * g2, 32);
+    return (along != 0) &
+           ((uint64_t)((int64_t)along * along) * 1024 >= (uint64_t)(band->cos2_q10 * g2) * (uint32_t)n2_q28);
+}
+
+static inline drogue_polarity polarity_of(int32_t along)
+{
+    return along > 0 ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
+}
+
 /* drogue_ellipse_band_holds() */
 static inline int band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
                              drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy)
@@ -86,41 +130,93 @@ static inline int band_holds(drogue_band_point *out, const drogue_ellipse_frame 
     int32_t nx_q14;
     int32_t ny_q14;
     int32_t n2_q28;
-    int32_t n2_q20;
     int32_t along;
-    uint32_t g2;
     offsets(&u_q46, &v_q46, frame, x_px_q16, y_px_q16);
     if (far_off(u_q46) || far_off(v_q46)) {
         return 0;
     }
     out->u_q24 = low_shr_round(u_q46, 22);
     out->v_q24 = low_shr_round(v_q46, 22);
-    out->f_q24 = low_shr_round(conic_q48(out->u_q24, out->v_q24), 24);
-    if (out->f_q24 > (1 << 24) || out->f_q24 < -(3 << 22)) {
-        return 0; /* inside half or outside 1.4 of the outline */
+    out->f_q24 = form_q24(out->u_q24, out->v_q24);
+    if (far_form(out->f_q24)) {
+        return 0;
     }
-    f_b_px_q16 = low_shr_round((int64_t)out->f_q24 * frame->b_px_q16, 24);
-    f_b_px_q16 = f_b_px_q16 < 0 ? -f_b_px_q16 : f_b_px_q16;
+    f_b_px_q16 = form_px_q16(frame, out->f_q24);
     if (f_b_px_q16 > 4 * band->half_width_px_q16) {
         return 0;
     }
-    /* Half the gradient of F times b: between b / a and about 1 in length. */
-    nx_q14 = low_shr_round((int64_t)out->u_q24 * frame->cos_ratio_q14 - (int64_t)out->v_q24 * frame->sin_q14, 24);
-    ny_q14 = low_shr_round((int64_t)out->u_q24 * frame->sin_ratio_q14 + (int64_t)out->v_q24 * frame->cos_q14, 24);
-    n2_q28 = nx_q14 * nx_q14 + ny_q14 * ny_q14;
-    /* |F| / |grad F| <= t  <=>  (F b)^2 <= 4 t^2 n^2 */
-    DROGUE_NOTE("quality: squared normal, Q28", n2_q28, 30);
-    n2_q20 = (n2_q28 + 128) >> 8;
-    if ((int64_t)f_b_px_q16 * f_b_px_q16 > shr_round((int64_t)band->width2_px2_q24 * n2_q20, 10)) {
+    normal_of(&nx_q14, &ny_q14, frame, out->u_q24, out->v_q24);
+    n2_q28 = square_sum(nx_q14, ny_q14);
+    if (!within_band(band, f_b_px_q16, n2_q28)) {
         return 0;
     }
     along = gx * nx_q14 + gy * ny_q14;
-    out->polarity = along > 0 ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
-    g2 = (uint32_t)(gx * gx + gy * gy);
-    DROGUE_NOTE("quality: gradient along normal", along, 26);
-    DROGUE_NOTE("quality: squared gradient times squared cosine, Q10", band->cos2_q10 * g2, 32);
-    return along != 0 &&
-           (uint64_t)((int64_t)along * along) * 1024 >= (uint64_t)(band->cos2_q10 * g2) * (uint32_t)n2_q28;
+    out->polarity = polarity_of(along);
+    return aligned(band, along, (uint32_t)square_sum(gx, gy), n2_q28);
+}
+
+/* tan 11.25, 22.5, 33.75 degrees, Q16 */
+#define TAN_1 13036
+#define TAN_2 27146
+#define TAN_3 43790
+
+/* drogue_support_bin_of() */
+static inline uint32_t bin_of(int32_t u_q24, int32_t v_q24)
+{
+    const int32_t x = u_q24 < 0 ? -u_q24 : u_q24;
+    const int32_t y = v_q24 < 0 ? -v_q24 : v_q24;
+    const int32_t most = x > y ? x : y;
+    const int64_t least = (int64_t)(x > y ? y : x) * DROGUE_Q16_ONE;
+    uint32_t bin = (uint32_t)(least >= (int64_t)most * TAN_1) + (uint32_t)(least >= (int64_t)most * TAN_2) +
+                   (uint32_t)(least >= (int64_t)most * TAN_3);
+    bin = most == 0 ? 0 : bin;
+    bin = y > x ? 7 - bin : bin;      /* first quadrant */
+    bin = u_q24 < 0 ? 15 - bin : bin; /* upper half */
+    return v_q24 < 0 ? 31 - bin : bin;
+}
+
+/* A support's sums over all bins. */
+typedef struct support_sums {
+    int64_t squares_q32;
+    uint64_t gradient;
+    uint32_t points;
+} support_sums;
+
+static inline support_sums sums_of(const drogue_support *support)
+{
+    support_sums s;
+    s.squares_q32 = support->squares_q32;
+    s.gradient = support->gradient;
+    s.points = support->points;
+    return s;
+}
+
+static inline void put_sums(drogue_support *support, const support_sums *s)
+{
+    support->squares_q32 = s->squares_q32;
+    support->gradient = s->gradient;
+    support->points = s->points;
+}
+
+/* drogue_support_add() where held is 1; nothing where it is 0. Without a branch. */
+static inline uint32_t add_to_support(drogue_support_bin *bin, support_sums *s, uint32_t held, uint32_t bright_bin,
+                                      int32_t f_q24, drogue_polarity polarity, int16_t gx, int16_t gy)
+{
+    const uint32_t own = held & (uint32_t)(bright_bin == (uint32_t)polarity);
+    const int32_t offset_q16 = ((f_q24 + 256) >> 9) & -(int32_t)own;
+    const uint32_t gradient = (uint32_t)(gx < 0 ? -gx : gx) + (uint32_t)(gy < 0 ? -gy : gy);
+    bin->count[polarity] += held;
+    bin->sum_q16 += offset_q16;
+    s->squares_q32 += (int64_t)offset_q16 * offset_q16;
+    s->gradient += gradient & (0u - own);
+    s->points += own;
+    /* F is at most 1. A bin's points of one sign lie in a strip of less than 10 px across a region of 2048 px: at most
+     * 2^15. There is one point a pixel: all bins hold at most 2^22. */
+    DROGUE_NOTE("support: offset, Q16", offset_q16, 16);
+    DROGUE_NOTE("support: sum of a bin's offsets, Q16", bin->sum_q16, 31);
+    DROGUE_NOTE("support: sum of squared offsets, Q32", s->squares_q32, 53);
+    DROGUE_NOTE("support: sum of gradients", s->gradient, 33);
+    return own;
 }
 
 #endif

@@ -17,35 +17,47 @@ static inline int32_t cross(drogue_point o, drogue_point a, drogue_point b)
     return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
-/* Drop points of the chain above 'base' that p makes concave or straight, then push p. */
-static inline uint32_t chain_push(drogue_point *hull, uint32_t size, uint32_t base, drogue_point p)
+/* A chain of hull vertices; its last two apart, so that hardware keeps them in registers. */
+typedef struct chain {
+    drogue_point *points;
+    uint32_t size;
+    uint32_t base;       /* the chain stands on points[base] */
+    drogue_point last;   /* points[size - 1] */
+    drogue_point before; /* points[size - 2], where size >= base + 2 */
+} chain;
+
+/* Drop points of the chain above its base that p makes concave or straight, then push p. */
+static inline void chain_push(chain *c, drogue_point p)
 {
-    if (size > 0 && hull[size - 1].x == p.x && hull[size - 1].y == p.y) {
-        return size;
+    if (c->size > 0 && c->last.x == p.x && c->last.y == p.y) {
+        return;
     }
     /* bound: size; over a hull no more rounds than points, each was pushed once */
-    while (size >= base + 2 && cross(hull[size - 2], hull[size - 1], p) <= 0) {
-        size--;
+    while (c->size >= c->base + 2 && cross(c->before, c->last, p) <= 0) {
+        c->size--;
+        c->last = c->before;
+        c->before = c->points[c->size > 1 ? c->size - 2 : 0];
     }
-    hull[size] = p;
-    return size + 1;
+    c->points[c->size] = p;
+    c->size++;
+    c->before = c->last;
+    c->last = p;
 }
 
 /* Strictly convex hull by monotone chains over points in raster order; returns its size. */
 static uint32_t convex_hull(drogue_point *hull, const drogue_edge *edges, uint32_t count)
 {
-    uint32_t size = 0;
-    uint32_t base;
+    chain c = {hull, 0, 0, {0, 0}, {0, 0}};
     uint32_t i;
     for (i = 0; i < count; i++) {
-        size = chain_push(hull, size, 0, pixel_of(&edges[i]));
+        chain_push(&c, pixel_of(&edges[i]));
     }
-    base = size - 1;
+    c.base = c.size - 1;
     for (i = count; i-- > 0;) {
-        size = chain_push(hull, size, base, pixel_of(&edges[i]));
+        chain_push(&c, pixel_of(&edges[i]));
     }
-    DROGUE_NOTE("constraints: hull points", size, 10);
-    return size > 1 ? size - 1 : size; /* the last point is the first again */
+    DROGUE_NOTE("constraints: hull points", c.size, 10);
+    return c.size > 1 ? c.size - 1 : c.size; /* the last point is the first again */
 }
 
 static inline int64_t dot(int32_t dx, int32_t dy, drogue_point p) { return (int64_t)dx * p.x + (int64_t)dy * p.y; }
@@ -76,7 +88,7 @@ typedef struct box {
 } box;
 
 /* Is the area of p smaller than that of q? Areas are along * across / length2; compared exactly. */
-static int smaller(const box *p, const box *q)
+static inline int smaller(const box *p, const box *q)
 {
     return drogue_s128_cmp(drogue_s128_mul(p->along * p->across, q->length2),
                            drogue_s128_mul(q->along * q->across, p->length2)) < 0;

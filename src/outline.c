@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "band.h"
+#include "collect.h"
 #include "drogue/ellipse.h"
-#include "drogue/undistort.h"
 
 #define EDGE_FRAC 5                        /* edge points are Q5 */
 #define LOOKS 512                          /* a candidate is scored by so many edge points, evenly taken */
@@ -176,35 +176,9 @@ static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES
     return count;
 }
 
-/* Edge points that belong to an ellipse, the lens distortion removed where a camera is given. */
-typedef struct collection {
-    drogue_moments moments;
-    drogue_q16 x_px_q16; /* origin of the moments */
-    drogue_q16 y_px_q16;
-    int frac_bits;
-} collection;
-
-/* Offset in the fit's unit, rounded; beyond 16 bits where a - b leaves 32. */
-static inline int32_t in_unit(drogue_q16 a, drogue_q16 b, int frac_bits)
-{
-    const int64_t d = (int64_t)a - b;
-    const int32_t low = (int32_t)d;
-    return low == d ? (low >> (16 - frac_bits)) + ((low >> (15 - frac_bits)) & 1) : INT32_MAX;
-}
-
-static inline void collect_point(collection *c, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
-{
-    const int32_t x = in_unit(x_px_q16, c->x_px_q16, c->frac_bits);
-    const int32_t y = in_unit(y_px_q16, c->y_px_q16, c->frac_bits);
-    DROGUE_NOTE("outline: point in the fit's unit", x, 16);
-    if (c->moments.n < DROGUE_MAX_FIT_POINTS && x >= INT16_MIN && x <= INT16_MAX && y >= INT16_MIN && y <= INT16_MAX) {
-        drogue_moments_add_point(&c->moments, x, y);
-    }
-}
-
 /* Begin a collection of points that reach this far from a centre: the finest unit in which they fit 16 bits. The origin
  * is a whole pixel: edge points, multiples of 1/32 px, are then exact, where any other would shift them all alike. */
-static void collection_begin(collection *c, const drogue_ellipse *e, int64_t reach_px_q16)
+static void collection_begin(drogue_collection *c, const drogue_ellipse *e, int64_t reach_px_q16)
 {
     drogue_moments_clear(&c->moments);
     c->x_px_q16 = drogue_q16_from_int((int32_t)drogue_shr_round_s64(e->xc_px_q16, 16));
@@ -216,7 +190,7 @@ static void collection_begin(collection *c, const drogue_ellipse *e, int64_t rea
     }
 }
 
-static drogue_status collection_fit(drogue_ellipse *out, const collection *c)
+static drogue_status collection_fit(drogue_ellipse *out, const drogue_collection *c)
 {
     drogue_status status = drogue_ellipse_fit(out, &c->moments, c->frac_bits);
     out->xc_px_q16 = drogue_q16_add(out->xc_px_q16, c->x_px_q16);
@@ -251,48 +225,9 @@ static void undo_blur(drogue_ellipse *e, const drogue_config *config)
     e->b_px_q16 = drogue_wide_to_q16(grown[1]);
 }
 
-/* A lens, and the region's first pixel in the image that it distorts. */
-typedef struct lens {
-    const drogue_camera *camera;
-    drogue_q16 x_px_q16;
-    drogue_q16 y_px_q16;
-} lens;
-
-static inline void collect_undistorted(collection *c, const drogue_edge *e, const lens *l)
-{
-    drogue_q16 x = drogue_q16_add(drogue_edge_x_q16(e), l->x_px_q16);
-    drogue_q16 y = drogue_q16_add(drogue_edge_y_q16(e), l->y_px_q16);
-    if (drogue_undistort_point(&x, &y, l->camera) == DROGUE_OK) {
-        collect_point(c, x, y);
-    }
-}
-
-/* Collect the edge points within a band, without the distortion of a lens where one is given. */
-static void collect_edges(collection *c, drogue_support *support, const drogue_ellipse_frame *frame,
-                          const drogue_band *band, const drogue_edge *edges, uint32_t count, const lens *l)
-{
-    const drogue_ellipse_frame f = *frame; /* apart: hardware keeps these in registers */
-    const drogue_band b = *band;
-    collection part = *c;
-    uint32_t i;
-    for (i = 0; i < count; i++) { /* bound: edge points */
-        const drogue_edge *e = &edges[i];
-        drogue_band_point p;
-        if (band_holds(&p, &f, &b, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy) &&
-            drogue_support_add(support, &p, e)) {
-            if (l != NULL) {
-                collect_undistorted(&part, e, l);
-            } else {
-                collect_point(&part, drogue_edge_x_q16(e), drogue_edge_y_q16(e));
-            }
-        }
-    }
-    *c = part;
-}
-
 /* Collect the edge points that belong to an outline: counts by bin, residuals and moments. Bins have the polarity that
  * the collection before gave them. */
-static drogue_status collect_outline(collection *c, drogue_support *support, const drogue_ellipse *ellipse,
+static drogue_status collect_outline(drogue_collection *c, drogue_support *support, const drogue_ellipse *ellipse,
                                      const drogue_band *band, const context *x)
 {
     const uint32_t bright_bins = support->bright_bins;
@@ -304,7 +239,7 @@ static drogue_status collect_outline(collection *c, drogue_support *support, con
     memset(support, 0, sizeof *support);
     support->bright_bins = bright_bins;
     collection_begin(c, ellipse, (int64_t)ellipse->a_px_q16 + 16 * DROGUE_Q16_ONE);
-    collect_edges(c, support, &frame, band, x->workspace->edges, x->list->edge_count, NULL);
+    drogue_collect_edges(c, support, &frame, band, x->workspace->edges, x->list->edge_count, NULL);
     return DROGUE_OK;
 }
 
@@ -341,7 +276,7 @@ static void refit(drogue_outline *outline, const context *x)
 {
     const drogue_config *config = x->config;
     drogue_band band = band_about(&outline->ellipse, config->search_band_q16, config);
-    collection c;
+    drogue_collection c;
     uint32_t round;
     int done = 0;
     /* bound: refit_rounds + 1, at most 17 */
@@ -463,9 +398,9 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     drogue_support support = outline->support;
     drogue_ellipse_frame frame;
     drogue_ellipse centre = outline->fitted;
-    collection c;
+    drogue_collection c;
     drogue_status status;
-    lens l;
+    drogue_region_lens l;
     memset(out, 0, sizeof *out);
     l.camera = camera;
     l.x_px_q16 = drogue_q16_from_int(x_px);
@@ -477,7 +412,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         return DROGUE_E_DEGENERATE;
     }
     collection_begin(&c, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
-    collect_edges(&c, &support, &frame, &band, workspace->edges, list->edge_count, &l);
+    drogue_collect_edges(&c, &support, &frame, &band, workspace->edges, list->edge_count, &l);
     status = collection_fit(out, &c);
     if (status == DROGUE_OK && (c.moments.n * 4 < (int64_t)(support.points - outline->support.points) * 3 ||
                                 !round_enough(out, config) || out->b_px_q16 < DROGUE_Q16_ONE)) {

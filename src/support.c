@@ -6,24 +6,7 @@
 
 #include "band.h"
 
-/* tan 11.25, 22.5, 33.75 degrees, Q16 */
-#define TAN_1 13036
-#define TAN_2 27146
-#define TAN_3 43790
-
-inline uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24)
-{
-    const int32_t x = u_q24 < 0 ? -u_q24 : u_q24;
-    const int32_t y = v_q24 < 0 ? -v_q24 : v_q24;
-    const int32_t most = x > y ? x : y;
-    const int64_t least = (int64_t)(x > y ? y : x) * DROGUE_Q16_ONE;
-    uint32_t bin = (uint32_t)(least >= (int64_t)most * TAN_1) + (uint32_t)(least >= (int64_t)most * TAN_2) +
-                   (uint32_t)(least >= (int64_t)most * TAN_3);
-    bin = most == 0 ? 0 : bin;
-    bin = y > x ? 7 - bin : bin;      /* first quadrant */
-    bin = u_q24 < 0 ? 15 - bin : bin; /* upper half */
-    return v_q24 < 0 ? 31 - bin : bin;
-}
+uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24) { return bin_of(u_q24, v_q24); }
 
 void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame, const drogue_band *band,
                           const drogue_edge *edges, uint32_t edge_count, uint32_t stride)
@@ -36,31 +19,19 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
         drogue_band_point p;
         if (band_holds(&p, &f, &b, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]), edges[i].gx,
                        edges[i].gy)) {
-            out->bin[drogue_support_bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
+            out->bin[bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
         }
     }
 }
 
 int drogue_support_add(drogue_support *support, const drogue_band_point *p, const drogue_edge *edge)
 {
-    const uint32_t k = drogue_support_bin_of(p->u_q24, p->v_q24);
-    const int32_t offset_q16 = (p->f_q24 + 256) >> 9;
-    support->bin[k].count[p->polarity]++;
-    if (((support->bright_bins >> k) & 1u) != (uint32_t)p->polarity) {
-        return 0;
-    }
-    support->bin[k].sum_q16 += offset_q16;
-    support->squares_q32 += (int64_t)offset_q16 * offset_q16;
-    /* F is at most 1. A bin's points of one sign lie in a strip of less than 10 px across a region of 2048 px: at most
-     * 2^15. There is one point a pixel: all bins hold at most 2^22. */
-    DROGUE_NOTE("support: offset, Q16", offset_q16, 16);
-    DROGUE_NOTE("support: sum of a bin's offsets, Q16", support->bin[k].sum_q16, 31);
-    DROGUE_NOTE("support: sum of squared offsets, Q32", support->squares_q32, 53);
-    support->gradient +=
-        (uint64_t)(edge->gx < 0 ? -edge->gx : edge->gx) + (uint64_t)(edge->gy < 0 ? -edge->gy : edge->gy);
-    DROGUE_NOTE("support: sum of gradients", support->gradient, 33);
-    support->points++;
-    return 1;
+    const uint32_t k = bin_of(p->u_q24, p->v_q24);
+    support_sums sums = sums_of(support);
+    const uint32_t own = add_to_support(&support->bin[k], &sums, 1, (support->bright_bins >> k) & 1u, p->f_q24,
+                                        p->polarity, edge->gx, edge->gy);
+    put_sums(support, &sums);
+    return (int)own;
 }
 
 /* Length of bin k of a quadrant, px Q16: (b + (a - b) sin^2) pi / 16, within 8 % for axis ratios from 0.4. */

@@ -15,7 +15,7 @@ drogue_status decisions_outline_undistorted(drogue_ellipse *, const drogue_outli
 static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, const context *x)
 {
     drogue_band band = band_about(&o->ellipse, x->config->search_band_q16, x->config);
-    collection c;
+    drogue_collection c;
     uint32_t n;
     int done = 0;
     for (n = 0; n <= x->config->refit_rounds && !done;) {

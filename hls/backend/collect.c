@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* src/collect.c for hardware: the same steps, but a turn of the loop takes each of them once, on one point each, so that it
+ * lasts as long as the longest step and not as long as all. The steps run from the last to the first: they are independent
+ * within a turn. A point that a step refuses goes on as zeros. */
+#include "../../src/collect.h"
+
+#include "../../src/band.h"
+#include "../drogue_hls.h"
+
+/* What a step leaves to the next. */
+typedef struct station {
+    uint16_t at; /* index of the edge point */
+    drogue_q16 x_px_q16;
+    drogue_q16 y_px_q16;
+    int16_t gx;
+    int16_t gy;
+    uint32_t held; /* 1: belongs, as far as the steps so far can tell */
+    int32_t u_q24;
+    int32_t v_q24;
+    int32_t f_q24;
+    int32_t f_b_px_q16;
+    int32_t nx_q14;
+    int32_t ny_q14;
+    int32_t n2_q28;
+    int32_t along;
+    uint32_t g2;
+    uint32_t bin;
+    int32_t x; /* in the fit's unit */
+    int32_t y;
+} station;
+
+enum { STEPS = 8 };
+
+/* An edge point, or none. */
+static inline void read_edge(station *s, const drogue_edge *edges, uint32_t i, uint32_t count)
+{
+    const uint32_t at = i < count ? i : 0;
+    const drogue_edge *e = &edges[at];
+    s->at = (uint16_t)at;
+    s->x_px_q16 = drogue_edge_x_q16(e);
+    s->y_px_q16 = drogue_edge_y_q16(e);
+    s->gx = e->gx;
+    s->gy = e->gy;
+    s->held = i < count;
+}
+
+static inline void place(station *s, const drogue_ellipse_frame *frame)
+{
+    int64_t u_q46;
+    int64_t v_q46;
+    int near;
+    offsets(&u_q46, &v_q46, frame, s->x_px_q16, s->y_px_q16);
+    near = !(far_off(u_q46) | far_off(v_q46));
+    s->held &= (uint32_t)near;
+    s->u_q24 = low_shr_round(u_q46, 22) & -near; /* masks: Bambu makes branches of two choices by one condition */
+    s->v_q24 = low_shr_round(v_q46, 22) & -near;
+}
+
+static inline void shape(station *s, const drogue_ellipse_frame *frame)
+{
+    const int32_t f_q24 = form_q24(s->u_q24, s->v_q24);
+    const int near = !far_form(f_q24);
+    s->held &= (uint32_t)near;
+    s->f_q24 = f_q24 & -near;
+    normal_of(&s->nx_q14, &s->ny_q14, frame, s->u_q24, s->v_q24);
+    s->g2 = (uint32_t)square_sum(s->gx, s->gy);
+}
+
+static inline void project(station *s, const drogue_ellipse_frame *frame)
+{
+    s->f_b_px_q16 = form_px_q16(frame, s->f_q24);
+    s->n2_q28 = square_sum(s->nx_q14, s->ny_q14);
+    s->along = s->gx * s->nx_q14 + s->gy * s->ny_q14;
+    s->bin = bin_of(s->u_q24, s->v_q24);
+}
+
+static inline void judge(station *s, const drogue_band *band)
+{
+    s->held &= (uint32_t)(s->f_b_px_q16 <= 4 * band->half_width_px_q16) &
+               (uint32_t)within_band(band, s->f_b_px_q16, s->n2_q28) &
+               (uint32_t)aligned(band, s->along, s->g2, s->n2_q28);
+}
+
+/* The lens undone for these edge points, which takes too long for a step. */
+static void collect_undistorted(drogue_collection *c, const drogue_edge *edges, const uint16_t *own, uint32_t count,
+                                const drogue_region_lens *lens)
+{
+    uint32_t i;
+    for (i = 0; i < count; i++) { /* bound: edge points */
+        drogue_q16 x = drogue_edge_x_q16(&edges[own[i]]);
+        drogue_q16 y = drogue_edge_y_q16(&edges[own[i]]);
+        if (undistort_edge(&x, &y, lens)) {
+            collect_point(&c->moments, 1, in_unit(x, c->x_px_q16, c->frac_bits), in_unit(y, c->y_px_q16, c->frac_bits));
+        }
+    }
+}
+
+void drogue_collect_edges(drogue_collection *c, drogue_support *support, const drogue_ellipse_frame *frame,
+                          const drogue_band *band, const drogue_edge *edges, uint32_t count,
+                          const drogue_region_lens *lens)
+{
+    static uint16_t own[DROGUE_HLS_EDGES + 1]; /* which points were added to the support */
+    const drogue_ellipse_frame f = *frame;     /* apart, and so on: in registers */
+    const drogue_band b = *band;
+    const drogue_q16 x_px_q16 = c->x_px_q16;
+    const drogue_q16 y_px_q16 = c->y_px_q16;
+    const int frac_bits = c->frac_bits;
+    const uint32_t bright_bins = support->bright_bins;
+    const uint32_t at_once = lens == NULL;
+    drogue_moments m = c->moments;
+    support_sums sums = sums_of(support);
+    station read = {0};
+    station placed = {0};
+    station shaped = {0};
+    station projected = {0};
+    station judged = {0};
+    station added = {0};
+    station scaled = {0};
+    station fresh = {0};
+    uint32_t own_count = 0;
+    uint32_t i;
+    for (i = 0; i < count + STEPS - 1; i++) { /* bound: edge points and steps */
+#ifndef __BAMBU__
+#pragma HLS pipeline II = 2
+#pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
+#endif
+        read_edge(&fresh, edges, i, count); /* before what is written: compilers keep that order */
+        collect_point(&m, scaled.held & at_once, scaled.x, scaled.y);
+        scaled = added;
+        scaled.x = in_unit(added.x_px_q16, x_px_q16, frac_bits);
+        scaled.y = in_unit(added.y_px_q16, y_px_q16, frac_bits);
+        added = judged;
+        added.held = add_to_support(&support->bin[judged.bin], &sums, judged.held, (bright_bins >> judged.bin) & 1u,
+                                    judged.f_q24, polarity_of(judged.along), judged.gx, judged.gy);
+        own[own_count] = judged.at;
+        own_count += added.held;
+        judged = projected;
+        judge(&judged, &b);
+        projected = shaped;
+        project(&projected, &f);
+        shaped = placed;
+        shape(&shaped, &f);
+        placed = read;
+        place(&placed, &f);
+        read = fresh;
+    }
+    c->moments = m;
+    put_sums(support, &sums);
+    if (lens != NULL) {
+        collect_undistorted(c, edges, own, own_count, lens);
+    }
+}
