@@ -21,16 +21,17 @@ tops() {
     done
 }
 
-# top NAME: sets function; sources, bench, core (files, from the project's folder); stages, cosimulated; folder of its
-# scripts
+# top NAME: sets function; sources, bench, core, replaced (files, from the project's folder); stages, cosimulated; folder of
+# its scripts
 # shellcheck disable=SC2034 # for those who source this
 top() {
     local line
     line=$(tops_list | grep "^$1|")
-    IFS='|' read -r _ function sources bench stages cosimulated core <<<"$line"
+    IFS='|' read -r _ function sources bench stages cosimulated core replaced <<<"$line"
     sources=$(sed -E 's|[^ ]+|hls/&|g' <<<"$sources")
     bench=$(sed -E 's|[^ ]+|hls/&|g' <<<"$bench")
     core=$(sed -E 's|[^ ]+|src/&.c|g' <<<"$core")
+    replaced=$(sed -E 's|[^ ]+|src/&.c|g' <<<"$replaced")
     folder=$(dirname "${sources%% *}")
     if [ "$(basename "$folder")" != "$1" ]; then
         folder+=/$1

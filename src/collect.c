@@ -8,25 +8,15 @@ void drogue_collect_edges(drogue_collection *c, drogue_support *support, const d
                           const drogue_band *band, const drogue_edge *edges, uint32_t count,
                           const drogue_region_lens *lens)
 {
-    const drogue_ellipse_frame f = *frame;
-    const drogue_band b = *band;
-    drogue_moments m = c->moments;
-    support_sums sums = sums_of(support);
     uint32_t i;
     for (i = 0; i < count; i++) { /* bound: edge points */
         const drogue_edge *e = &edges[i];
         drogue_q16 x = drogue_edge_x_q16(e);
         drogue_q16 y = drogue_edge_y_q16(e);
         drogue_band_point p;
-        if (band_holds(&p, &f, &b, x, y, e->gx, e->gy)) {
-            const uint32_t k = bin_of(p.u_q24, p.v_q24);
-            const uint32_t own = add_to_support(&support->bin[k], &sums, 1, (support->bright_bins >> k) & 1u, p.f_q24,
-                                                p.polarity, e->gx, e->gy);
-            if (own != 0 && (lens == NULL || undistort_edge(&x, &y, lens))) {
-                collect_point(&m, 1, in_unit(x, c->x_px_q16, c->frac_bits), in_unit(y, c->y_px_q16, c->frac_bits));
-            }
+        if (band_holds(&p, frame, band, x, y, e->gx, e->gy) && drogue_support_add(support, &p, e) &&
+            (lens == NULL || undistort_edge(&x, &y, lens))) {
+            collect_point(&c->moments, 1, in_unit(x, c->x_px_q16, c->frac_bits), in_unit(y, c->y_px_q16, c->frac_bits));
         }
     }
-    c->moments = m;
-    put_sums(support, &sums);
 }

@@ -6,7 +6,7 @@
 
 #include "band.h"
 
-uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24) { return bin_of(u_q24, v_q24); }
+inline uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24) { return bin_of(u_q24, v_q24); }
 
 void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame, const drogue_band *band,
                           const drogue_edge *edges, uint32_t edge_count, uint32_t stride)
@@ -19,14 +19,14 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
         drogue_band_point p;
         if (band_holds(&p, &f, &b, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]), edges[i].gx,
                        edges[i].gy)) {
-            out->bin[bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
+            out->bin[drogue_support_bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
         }
     }
 }
 
 int drogue_support_add(drogue_support *support, const drogue_band_point *p, const drogue_edge *edge)
 {
-    const uint32_t k = bin_of(p->u_q24, p->v_q24);
+    const uint32_t k = drogue_support_bin_of(p->u_q24, p->v_q24);
     support_sums sums = sums_of(support);
     const uint32_t own = add_to_support(&support->bin[k], &sums, 1, (support->bright_bins >> k) & 1u, p->f_q24,
                                         p->polarity, edge->gx, edge->gy);

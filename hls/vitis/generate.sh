@@ -26,7 +26,7 @@ load() {
     top "$1"
     rest=""
     for file in src/*.c; do
-        [[ " $core " == *" $file "* ]] || rest+="${rest:+ }$file"
+        [[ " $core $replaced " == *" $file "* ]] || rest+="${rest:+ }$file"
     done
 }
 
