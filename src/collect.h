@@ -45,7 +45,7 @@ static inline int fits_16(int32_t v) { return v >= INT16_MIN && v <= INT16_MAX; 
 /* Add a point at x, y in the fit's unit where held is 1, if it fits. Without a branch. */
 static inline void collect_point(drogue_moments *m, uint32_t held, int32_t x, int32_t y)
 {
-    const int take = (held != 0) & (m->n < DROGUE_MAX_FIT_POINTS) & fits_16(x) & fits_16(y);
+    const int take = held && m->n < DROGUE_MAX_FIT_POINTS && fits_16(x) && fits_16(y);
     const int64_t n = m->n + take;
     DROGUE_NOTE("outline: point in the fit's unit", x, 16);
     drogue_moments_add_point(m, take ? x : 0, take ? y : 0); /* (0, 0) adds nothing but itself */
