@@ -52,15 +52,20 @@ static inline void frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_elli
     DROGUE_NOTE("quality: v, Q24", *v_q24, 29);
 }
 
+/* |u^2 + v^2 - 1| */
+static inline drogue_q16 off_ellipse(int32_t u_q24, int32_t v_q24)
+{
+    const int64_t d_q48 = conic_q48(u_q24, v_q24);
+    return drogue_sat_s32(shr_round(d_q48 < 0 ? -d_q48 : d_q48, 32));
+}
+
 /* drogue_ellipse_deviation() */
 static inline drogue_q16 deviation(const drogue_ellipse_frame *frame, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
     int32_t u_q24;
     int32_t v_q24;
-    int64_t d_q48;
     frame_point(&u_q24, &v_q24, frame, x_px_q16, y_px_q16);
-    d_q48 = conic_q48(u_q24, v_q24);
-    return drogue_sat_s32(shr_round(d_q48 < 0 ? -d_q48 : d_q48, 32));
+    return off_ellipse(u_q24, v_q24);
 }
 
 /* Bits n and up of v, rounded as drogue_shr_round_s64() does, where the result fits 32 bits; 1 <= n <= 31. */

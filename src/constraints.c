@@ -49,9 +49,12 @@ static uint32_t convex_hull(drogue_point *hull, const drogue_edge *edges, uint32
 {
     chain c = {hull, 0, 0, {0, 0}, {0, 0}};
     uint32_t i;
-    for (i = 0; i < 2 * count; i++) { /* there and back */
-        c.base = i == count ? c.size - 1 : c.base;
-        chain_push(&c, pixel_of(&edges[i < count ? i : 2 * count - 1 - i]));
+    for (i = 0; i < count; i++) {
+        chain_push(&c, pixel_of(&edges[i]));
+    }
+    c.base = c.size - 1;
+    for (i = count; i-- > 0;) {
+        chain_push(&c, pixel_of(&edges[i]));
     }
     DROGUE_NOTE("constraints: hull points", c.size, 10);
     return c.size > 1 ? c.size - 1 : c.size; /* the last point is the first again */

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "band.h"
-#include "collect.h"
 #include "drogue/ellipse.h"
+#include "near.h"
 
 #define EDGE_FRAC 5                        /* edge points are Q5 */
 #define LOOKS 512                          /* a candidate is scored by so many edge points, evenly taken */
@@ -25,19 +25,6 @@ static void add_arc(drogue_moments *sum, const drogue_edge *edges, const drogue_
         drogue_moments_add_point(&m, edges[i].x_q5 - origin_q5, edges[i].y_q5 - origin_q5);
     }
     *sum = m;
-}
-
-/* Points of an arc within the threshold of (10). */
-static uint32_t count_near(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
-                           const drogue_arc *arc)
-{
-    const drogue_ellipse_frame f = *frame; /* apart: hardware keeps it in registers */
-    uint32_t near_count = 0;
-    uint32_t i;
-    for (i = arc->first; i < arc->first + arc->count; i++) { /* bound: points of the arc */
-        near_count += deviation(&f, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i])) < threshold;
-    }
-    return near_count;
 }
 
 static int round_enough(const drogue_ellipse *e, const drogue_config *config)
@@ -124,7 +111,7 @@ static int try_arcs(drogue_candidate *out, uint32_t arcs, const context *c)
     for (k = 0; k < 4; k++) {
         const drogue_arc *arc = arc_of(c, arcs, k);
         if (arc != NULL) {
-            near_count += count_near(&frame, threshold, c->workspace->edges, arc);
+            near_count += drogue_near_count(&frame, threshold, c->workspace->edges + arc->first, arc->count);
         }
     }
     drogue_support_count(&support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);

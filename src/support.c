@@ -1,28 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Support of an ellipse by all edge points. */
+/* Support of an ellipse by all edge points; drogue_support_count() is in near.c. */
 #include "drogue/support.h"
-
-#include <string.h>
 
 #include "band.h"
 
 inline uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24) { return bin_of(u_q24, v_q24); }
-
-void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame, const drogue_band *band,
-                          const drogue_edge *edges, uint32_t edge_count, uint32_t stride)
-{
-    const drogue_ellipse_frame f = *frame; /* apart: hardware keeps these in registers */
-    const drogue_band b = *band;
-    uint32_t i;
-    memset(out, 0, sizeof *out);
-    for (i = 0; i < edge_count; i += stride) { /* bound: edge_count / stride, stride >= 1 */
-        drogue_band_point p;
-        if (band_holds(&p, &f, &b, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]), edges[i].gx,
-                       edges[i].gy)) {
-            out->bin[drogue_support_bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
-        }
-    }
-}
 
 int drogue_support_add(drogue_support *support, const drogue_band_point *p, const drogue_edge *edge)
 {

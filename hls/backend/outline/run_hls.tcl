@@ -4,7 +4,7 @@ set name outline
 set top drogue_hls_outline
 set root ../../..
 set sources {
-    hls/backend/collect.c
+    hls/backend/near.c
     hls/backend/outline.c
     src/cluster.c
     src/config.c

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Inside the outline stage: the edge points that belong to an ellipse, collected for a fit. */
-#ifndef DROGUE_COLLECT_H
-#define DROGUE_COLLECT_H
+/* Inside the outline stage: edge points near an ellipse, counted, and collected for a fit. Hardware takes its own form of
+ * these functions and of drogue_support_count(), hls/backend/near.c. */
+#ifndef DROGUE_NEAR_H
+#define DROGUE_NEAR_H
 
 #include "drogue/ellipse.h"
 #include "drogue/support.h"
@@ -21,6 +22,10 @@ typedef struct drogue_region_lens {
     drogue_q16 x_px_q16;
     drogue_q16 y_px_q16;
 } drogue_region_lens;
+
+/* How many of an arc's edge points lie nearer to the ellipse than a threshold of (10). */
+uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
+                           uint32_t count);
 
 /* Collect the edge points within a band, and add them to the ellipse's support: those that have their bin's polarity,
  * without the distortion of a lens where one is given, and within 16 bits of the origin.
@@ -45,7 +50,7 @@ static inline int fits_16(int32_t v) { return v >= INT16_MIN && v <= INT16_MAX; 
 /* Add a point at x, y in the fit's unit where held is 1, if it fits. Without a branch. */
 static inline void collect_point(drogue_moments *m, uint32_t held, int32_t x, int32_t y)
 {
-    const int take = held && m->n < DROGUE_MAX_FIT_POINTS && fits_16(x) && fits_16(y);
+    const int take = (held != 0) & (m->n < DROGUE_MAX_FIT_POINTS) & fits_16(x) & fits_16(y);
     const int64_t n = m->n + take;
     DROGUE_NOTE("outline: point in the fit's unit", x, 16);
     drogue_moments_add_point(m, take ? x : 0, take ? y : 0); /* (0, 0) adds nothing but itself */

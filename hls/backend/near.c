@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* src/collect.c for hardware: the same steps, but a turn of the loop takes each of them once, on one point each, so that it
+/* src/near.c for hardware: the same steps, but a turn of the loop takes each of them once, on one point each, so that it
  * lasts as long as the longest step and not as long as all. The steps run from the last to the first: they are independent
  * within a turn. A point that a step refuses goes on as zeros. */
-#include "../../src/collect.h"
+#include "../../src/near.h"
+
+#include <string.h>
 
 #include "../../src/band.h"
 #include "../drogue_hls.h"
@@ -79,6 +81,59 @@ static inline void judge(station *s, const drogue_band *band)
     s->held &= (uint32_t)(s->f_b_px_q16 <= 4 * band->half_width_px_q16) &
                (uint32_t)within_band(band, s->f_b_px_q16, s->n2_q28) &
                (uint32_t)aligned(band, s->along, s->g2, s->n2_q28);
+}
+
+uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
+                           uint32_t count)
+{
+    const drogue_ellipse_frame f = *frame; /* apart: in registers */
+    station read = {0};
+    station placed = {0};
+    uint32_t near_count = 0;
+    uint32_t i;
+    for (i = 0; i < count + 2; i++) { /* bound: points of an arc and steps */
+#ifndef __BAMBU__
+#pragma HLS pipeline II = 2
+#pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
+#endif
+        near_count += placed.held & (uint32_t)(off_ellipse(placed.u_q24, placed.v_q24) < threshold);
+        placed = read;
+        frame_point(&placed.u_q24, &placed.v_q24, &f, read.x_px_q16, read.y_px_q16);
+        read_edge(&read, edges, i, count);
+    }
+    return near_count;
+}
+
+void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame, const drogue_band *band,
+                          const drogue_edge *edges, uint32_t edge_count, uint32_t stride)
+{
+    const drogue_ellipse_frame f = *frame; /* apart: in registers */
+    const drogue_band b = *band;
+    station read = {0};
+    station placed = {0};
+    station shaped = {0};
+    station projected = {0};
+    station judged = {0};
+    station fresh = {0};
+    uint32_t i;
+    memset(out, 0, sizeof *out);
+    for (i = 0; i < edge_count + 5 * stride; i += stride) { /* bound: edge points and steps, by stride >= 1 */
+#ifndef __BAMBU__
+#pragma HLS pipeline II = 2
+#pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
+#endif
+        read_edge(&fresh, edges, i, edge_count); /* before what is written: compilers keep that order */
+        out->bin[judged.bin].count[polarity_of(judged.along)] += judged.held;
+        judged = projected;
+        judge(&judged, &b);
+        projected = shaped;
+        project(&projected, &f);
+        shaped = placed;
+        shape(&shaped, &f);
+        placed = read;
+        place(&placed, &f);
+        read = fresh;
+    }
 }
 
 /* The lens undone for these edge points, which takes too long for a step. */

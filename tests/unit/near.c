@@ -1,12 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Collected edge points against the public functions called one by one: as the library does it and as hardware does. */
+/* Edge points counted and collected, against the public functions called one by one: as the library does it and as
+ * hardware does. */
 #include "suite.h"
 
-#include "../../src/collect.h"
+#include "../../src/near.h"
 
+#define drogue_near_count hardware_near_count
+#define drogue_support_count hardware_support_count
 #define drogue_collect_edges hardware_collect_edges
-#include "../../hls/backend/collect.c"
+#include "../../hls/backend/near.c"
+#undef drogue_near_count
+#undef drogue_support_count
 #undef drogue_collect_edges
+uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
+                           uint32_t count);
+void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame, const drogue_band *band,
+                          const drogue_edge *edges, uint32_t edge_count, uint32_t stride);
 void drogue_collect_edges(drogue_collection *c, drogue_support *support, const drogue_ellipse_frame *frame,
                           const drogue_band *band, const drogue_edge *edges, uint32_t count,
                           const drogue_region_lens *lens);
@@ -146,10 +155,40 @@ static void collect_both_ways(int with_lens, int scenes, int64_t least)
     MUST(collected >= least, "%lld points collected", (long long)collected);
 }
 
+START_TEST(counts_of_random_scenes)
+{
+    uint64_t rng = 3;
+    int i;
+    for (i = 0; i < 2000; i++) {
+        static scene s;
+        const uint32_t stride = (uint32_t)rng_range(&rng, 1, 5);
+        const drogue_q16 threshold = q16_of(rng_real(&rng, 0, 0.5));
+        drogue_support expected, own, hardware;
+        uint32_t expected_near = 0, k;
+        draw_scene(&s, &rng);
+        memset(&expected, 0, sizeof expected);
+        for (k = 0; k < s.count; k++) {
+            const drogue_q16 x = drogue_edge_x_q16(&edges[k]), y = drogue_edge_y_q16(&edges[k]);
+            drogue_band_point p;
+            expected_near += drogue_ellipse_deviation(&s.frame, x, y) < threshold;
+            if (k % stride == 0 && drogue_ellipse_band_holds(&p, &s.frame, &s.band, x, y, edges[k].gx, edges[k].gy)) {
+                expected.bin[drogue_support_bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
+            }
+        }
+        drogue_support_count(&own, &s.frame, &s.band, edges, s.count, stride);
+        hardware_support_count(&hardware, &s.frame, &s.band, edges, s.count, stride);
+        MUST(memcmp(&own, &expected, sizeof own) == 0, "scene %d", i);
+        MUST(memcmp(&hardware, &expected, sizeof hardware) == 0, "scene %d, in hardware", i);
+        MUST(drogue_near_count(&s.frame, threshold, edges, s.count) == expected_near, "scene %d", i);
+        MUST(hardware_near_count(&s.frame, threshold, edges, s.count) == expected_near, "scene %d, in hardware", i);
+    }
+}
+END_TEST
+
 START_TEST(random_scenes) { collect_both_ways(0, 4000, 80000); }
 END_TEST
 
 START_TEST(random_scenes_through_a_lens) { collect_both_ways(1, 400, 4000); }
 END_TEST
 
-SUITE_MAIN("collect", random_scenes, random_scenes_through_a_lens)
+SUITE_MAIN("near", counts_of_random_scenes, random_scenes, random_scenes_through_a_lens)
