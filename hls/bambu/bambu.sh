@@ -32,8 +32,7 @@ flags=("--top-fname=$function" --std=c99 -O2 --generate-interface=INFER
 # The back end's many functions stay functions: all in one would not come to an end in an hour.
 case $name in
 centroid) flags+=(--hls-div=as -fno-unroll-loops) ;;
-outline | pose) flags+=(-finline-hint-functions --range-analysis-mode=skip --enable-function-proxy) ;;
-eigen | fit | cone | filter) flags+=(-finline-hint-functions --range-analysis-mode=skip) ;;
+outline | pose | eigen | fit | cone | filter) flags+=(-finline-hint-functions --range-analysis-mode=skip --enable-function-proxy) ;;
 esac
 design=()
 for file in $sources $core; do
