@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What is done to every edge point near an ellipse; here so that the loops over points take it in. */
+/* What is done to every edge point near an ellipse, step by step: here so that loops over points take it in, those of
+ * hardware (hls/backend/near.c) a step a turn. */
 #ifndef DROGUE_BAND_H
 #define DROGUE_BAND_H
 
@@ -81,6 +82,8 @@ static inline int far_off(int64_t v_q46)
     return (uint32_t)((uint64_t)v_q46 >> 32) + most_q14 > 2 * most_q14;
 }
 
+static inline int32_t q24_of_q46(int64_t v_q46) { return low_shr_round(v_q46, 22); } /* where it is not far off */
+
 /* F, and is it from inside half to outside 1.4 of the outline? */
 static inline int32_t form_q24(int32_t u_q24, int32_t v_q24) { return low_shr_round(conic_q48(u_q24, v_q24), 24); }
 
@@ -102,6 +105,20 @@ static inline void normal_of(int32_t *nx_q14, int32_t *ny_q14, const drogue_elli
 }
 
 static inline int32_t square_sum(int32_t x, int32_t y) { return x * x + y * y; }
+
+static inline uint32_t gradient_square(int16_t gx, int16_t gy) { return (uint32_t)(gx * gx) + (uint32_t)(gy * gy); }
+
+/* Gradient along the normal. */
+static inline int32_t along_of(int16_t gx, int16_t gy, int32_t nx_q14, int32_t ny_q14)
+{
+    return gx * nx_q14 + gy * ny_q14;
+}
+
+/* Can a point be within the band? The gradient of F is at most about 4 / b. */
+static inline int in_reach(const drogue_band *band, int32_t f_b_px_q16)
+{
+    return f_b_px_q16 <= 4 * band->half_width_px_q16;
+}
 
 /* |F| / |grad F| <= t  <=>  (F b)^2 <= 4 t^2 n^2 */
 static inline int within_band(const drogue_band *band, int32_t f_b_px_q16, int32_t n2_q28)
@@ -140,14 +157,14 @@ static inline int band_holds(drogue_band_point *out, const drogue_ellipse_frame 
     if (far_off(u_q46) || far_off(v_q46)) {
         return 0;
     }
-    out->u_q24 = low_shr_round(u_q46, 22);
-    out->v_q24 = low_shr_round(v_q46, 22);
+    out->u_q24 = q24_of_q46(u_q46);
+    out->v_q24 = q24_of_q46(v_q46);
     out->f_q24 = form_q24(out->u_q24, out->v_q24);
     if (far_form(out->f_q24)) {
         return 0;
     }
     f_b_px_q16 = form_px_q16(frame, out->f_q24);
-    if (f_b_px_q16 > 4 * band->half_width_px_q16) {
+    if (!in_reach(band, f_b_px_q16)) {
         return 0;
     }
     normal_of(&nx_q14, &ny_q14, frame, out->u_q24, out->v_q24);
@@ -155,9 +172,9 @@ static inline int band_holds(drogue_band_point *out, const drogue_ellipse_frame 
     if (!within_band(band, f_b_px_q16, n2_q28)) {
         return 0;
     }
-    along = gx * nx_q14 + gy * ny_q14;
+    along = along_of(gx, gy, nx_q14, ny_q14);
     out->polarity = polarity_of(along);
-    return aligned(band, along, (uint32_t)square_sum(gx, gy), n2_q28);
+    return aligned(band, along, gradient_square(gx, gy), n2_q28);
 }
 
 /* tan 11.25, 22.5, 33.75 degrees, Q16 */

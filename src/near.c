@@ -37,7 +37,7 @@ void drogue_collect_edges(drogue_collection *c, drogue_support *support, const d
                           const drogue_band *band, const drogue_edge *edges, uint32_t count,
                           const drogue_region_lens *lens)
 {
-    const drogue_ellipse_frame f = *frame;
+    const drogue_ellipse_frame f = *frame; /* apart, as above */
     const drogue_band b = *band;
     drogue_moments m = c->moments;
     uint32_t i;

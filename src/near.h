@@ -23,7 +23,7 @@ typedef struct drogue_region_lens {
     drogue_q16 y_px_q16;
 } drogue_region_lens;
 
-/* How many of an arc's edge points lie nearer to the ellipse than a threshold of (10). */
+/* How many of an arc's edge points lie nearer to the ellipse than a threshold of (10); count >= 1. */
 uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
                            uint32_t count);
 
@@ -52,7 +52,6 @@ static inline void collect_point(drogue_moments *m, uint32_t held, int32_t x, in
 {
     const int take = (held != 0) & (m->n < DROGUE_MAX_FIT_POINTS) & fits_16(x) & fits_16(y);
     const int64_t n = m->n + take;
-    DROGUE_NOTE("outline: point in the fit's unit", x, 16);
     drogue_moments_add_point(m, take ? x : 0, take ? y : 0); /* (0, 0) adds nothing but itself */
     m->n = n;
 }

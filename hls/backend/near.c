@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* src/near.c for hardware: the same steps, but a turn of the loop takes each of them once, on one point each, so that it
- * lasts as long as the longest step and not as long as all. The steps run from the last to the first: they are independent
- * within a turn. A point that a step refuses goes on as zeros. */
+/* src/near.c for hardware: the same steps, but a turn of the loop takes each of them once, on one point each, so that
+ * it lasts as long as the longest step and not as long as all. The steps run from the last to the first: they are
+ * independent within a turn. A point that a step refuses goes on, its mark 'held' taken away: with u = v = 0 when it is
+ * far off, with F = 0 when F is, so that no step overflows; n^2 may then be up to 4.5. */
 #include "../../src/near.h"
 
 #include <string.h>
 
 #include "../../src/band.h"
 #include "../drogue_hls.h"
+
+typedef char indices_fit_16_bits[DROGUE_HLS_EDGES <= 65536 ? 1 : -1];
 
 /* What a step leaves to the next. */
 typedef struct station {
@@ -46,7 +49,7 @@ static inline void read_edge(station *s, const drogue_edge *edges, uint32_t i, u
     s->held = i < count;
 }
 
-static inline void place(station *s, const drogue_ellipse_frame *frame)
+static inline void step_place(station *s, const drogue_ellipse_frame *frame)
 {
     int64_t u_q46;
     int64_t v_q46;
@@ -54,32 +57,31 @@ static inline void place(station *s, const drogue_ellipse_frame *frame)
     offsets(&u_q46, &v_q46, frame, s->x_px_q16, s->y_px_q16);
     near = !(far_off(u_q46) | far_off(v_q46));
     s->held &= (uint32_t)near;
-    s->u_q24 = low_shr_round(u_q46, 22) & -near; /* masks: Bambu makes branches of two choices by one condition */
-    s->v_q24 = low_shr_round(v_q46, 22) & -near;
+    s->u_q24 = q24_of_q46(u_q46) & -near; /* masks: Bambu makes branches of two choices by one condition */
+    s->v_q24 = q24_of_q46(v_q46) & -near;
 }
 
-static inline void shape(station *s, const drogue_ellipse_frame *frame)
+static inline void step_shape(station *s, const drogue_ellipse_frame *frame)
 {
     const int32_t f_q24 = form_q24(s->u_q24, s->v_q24);
     const int near = !far_form(f_q24);
     s->held &= (uint32_t)near;
     s->f_q24 = f_q24 & -near;
     normal_of(&s->nx_q14, &s->ny_q14, frame, s->u_q24, s->v_q24);
-    s->g2 = (uint32_t)square_sum(s->gx, s->gy);
+    s->g2 = gradient_square(s->gx, s->gy);
 }
 
-static inline void project(station *s, const drogue_ellipse_frame *frame)
+static inline void step_project(station *s, const drogue_ellipse_frame *frame)
 {
     s->f_b_px_q16 = form_px_q16(frame, s->f_q24);
     s->n2_q28 = square_sum(s->nx_q14, s->ny_q14);
-    s->along = s->gx * s->nx_q14 + s->gy * s->ny_q14;
+    s->along = along_of(s->gx, s->gy, s->nx_q14, s->ny_q14);
     s->bin = bin_of(s->u_q24, s->v_q24);
 }
 
-static inline void judge(station *s, const drogue_band *band)
+static inline void step_judge(station *s, const drogue_band *band)
 {
-    s->held &= (uint32_t)(s->f_b_px_q16 <= 4 * band->half_width_px_q16) &
-               (uint32_t)within_band(band, s->f_b_px_q16, s->n2_q28) &
+    s->held &= (uint32_t)in_reach(band, s->f_b_px_q16) & (uint32_t)within_band(band, s->f_b_px_q16, s->n2_q28) &
                (uint32_t)aligned(band, s->along, s->g2, s->n2_q28);
 }
 
@@ -117,7 +119,7 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
     station fresh = {0};
     uint32_t i;
     memset(out, 0, sizeof *out);
-    for (i = 0; i < edge_count + 5 * stride; i += stride) { /* bound: edge points and steps, by stride >= 1 */
+    for (i = 0; i < edge_count + 5 * stride; i += stride) { /* bound: edge points and steps, by stride, [1, 2^24] */
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 2
 #pragma HLS loop_tripcount max = DROGUE_HLS_EDGES
@@ -125,13 +127,13 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
         read_edge(&fresh, edges, i, edge_count); /* before what is written: compilers keep that order */
         out->bin[judged.bin].count[polarity_of(judged.along)] += judged.held;
         judged = projected;
-        judge(&judged, &b);
+        step_judge(&judged, &b);
         projected = shaped;
-        project(&projected, &f);
+        step_project(&projected, &f);
         shaped = placed;
-        shape(&shaped, &f);
+        step_shape(&shaped, &f);
         placed = read;
-        place(&placed, &f);
+        step_place(&placed, &f);
         read = fresh;
     }
 }
@@ -190,13 +192,13 @@ void drogue_collect_edges(drogue_collection *c, drogue_support *support, const d
         own[own_count] = judged.at;
         own_count += added.held;
         judged = projected;
-        judge(&judged, &b);
+        step_judge(&judged, &b);
         projected = shaped;
-        project(&projected, &f);
+        step_project(&projected, &f);
         shaped = placed;
-        shape(&shaped, &f);
+        step_shape(&shaped, &f);
         placed = read;
-        place(&placed, &f);
+        step_place(&placed, &f);
         read = fresh;
     }
     c->moments = m;

@@ -16,19 +16,16 @@ work=${DROGUE_HLS_CHECK_DIR:-build/hls/check}
 passes='function(sroa,early-cse,simplifycfg,instcombine,fix-irreducible,loop-simplify,lcssa,
 loop-mssa(loop-rotate,licm),instcombine,loop-simplify)'
 
-# make_ir DIR FUNCTION SOURCE...: linked.ll with the function and all that it calls; what several files of hls/ and src/
-# define is hls/'s
+# make_ir DIR FUNCTION SOURCE...: linked.ll with the function and all that it calls
 make_ir() {
-    local dir=$1 function=$2 source file bitcode=()
+    local dir=$1 function=$2 source bitcode=()
     shift 2
     mkdir -p "$dir"
     for source in "$@"; do
-        file=$dir/$(tr / - <<<"${source#/}").bc
+        bitcode+=("$dir/$(tr / - <<<"${source#/}").bc")
         # Not optimised: what recursion, a pointer to a function or floating point would be folded into is no excuse.
         clang -std=c99 -O1 -Xclang -disable-llvm-passes -fno-discard-value-names -g -emit-llvm -w -Iinclude -Ihls \
-            -c "$source" -o "$file" || return 2
-        [[ $# -gt 1 && $source == hls/* && ${#bitcode[@]} -gt 0 ]] && file=--override=$file
-        bitcode+=("$file")
+            -c "$source" -o "${bitcode[-1]}" || return 2
     done
     llvm-link "${bitcode[@]}" -o "$dir/all.bc" &&
         opt -passes='internalize,globaldce' -internalize-public-api-list="$function" -S "$dir/all.bc" -o "$dir/linked.ll"
@@ -71,8 +68,11 @@ case ${1:-} in
 --needed)
     chosen=$(tops "$2")
     top "$chosen"
+    for file in src/*.c; do
+        [[ " $replaced " == *" $file "* ]] || sources+=" $file"
+    done
     # shellcheck disable=SC2086
-    make_ir "$work/needed" "$function" src/*.c $sources
+    make_ir "$work/needed" "$function" $sources
     python3 hls/check/findings.py --needed "$work/needed/linked.ll"
     exit
     ;;

@@ -69,7 +69,7 @@ set sources {
 $(printf '    %s\n' $sources $core)
 }
 set bench {
-$(printf '    %s\n' $(bench_files "$1"))
+$(printf '    %s\n' $(bench_files "$1") $rest)
 }
 source \$root/hls/vitis/run.tcl
 END

@@ -23,11 +23,6 @@ foreach file $sources {
 foreach file $bench {
     add_files -tb $root/$file -cflags $flags
 }
-foreach file [lsort [glob -tails -directory $root src/*.c]] { # the test bench's own copy of what the top does not need
-    if {$file ni $sources} {
-        add_files -tb $root/$file -cflags $flags
-    }
-}
 set_top $top
 if {[llength [info commands open_component]] == 0} {
     open_solution -reset solution -flow_target vivado

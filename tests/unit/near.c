@@ -20,7 +20,7 @@ void drogue_collect_edges(drogue_collection *c, drogue_support *support, const d
                           const drogue_band *band, const drogue_edge *edges, uint32_t count,
                           const drogue_region_lens *lens);
 
-enum { MOST = 600 };
+enum { MOST = DROGUE_HLS_EDGES };
 
 static drogue_edge edges[MOST];
 
@@ -55,11 +55,13 @@ static void draw_edge(drogue_edge *e, uint64_t *rng, const drogue_ellipse *l)
 
 static void draw_scene(scene *s, uint64_t *rng)
 {
-    const double a = exp(rng_real(rng, 0, 7)), ratio = rng_real(rng, 0.05, 1);
+    const int wild = rng_range(rng, 0, 9) == 0; /* far from every region, or larger than any */
+    const double a = exp(rng_real(rng, 0, wild ? 10.3 : 7)), ratio = rng_real(rng, 0.05, 1);
+    const double low = wild ? -32700 : 0, high = wild ? 32700 : 2048;
     uint32_t k, i;
     memset(s, 0, sizeof *s);
-    s->ellipse.xc_px_q16 = q16_of(rng_real(rng, 0, 2048));
-    s->ellipse.yc_px_q16 = q16_of(rng_real(rng, 0, 2048));
+    s->ellipse.xc_px_q16 = q16_of(rng_real(rng, low, high));
+    s->ellipse.yc_px_q16 = q16_of(rng_real(rng, low, high));
     s->ellipse.a_px_q16 = q16_of(a);
     s->ellipse.b_px_q16 = q16_of(a * ratio < 1 ? 1 : a * ratio);
     s->ellipse.angle_rad_q16 = q16_of(rng_real(rng, -TEST_PI / 2, TEST_PI / 2));
@@ -69,8 +71,8 @@ static void draw_scene(scene *s, uint64_t *rng)
     s->camera.cx_px_q16 = s->camera.cy_px_q16 = q16_of(1024);
     s->camera.k1_q16 = q16_of(rng_real(rng, -0.4, 0.1));
     s->lens.camera = &s->camera;
-    s->lens.x_px_q16 = q16_of(rng_range(rng, -50, 50));
-    s->lens.y_px_q16 = q16_of(rng_range(rng, -50, 50));
+    s->lens.x_px_q16 = q16_of(rng_range(rng, wild ? -30000 : -50, 50));
+    s->lens.y_px_q16 = q16_of(rng_range(rng, -50, wild ? 30000 : 50));
     s->collection.x_px_q16 = drogue_q16_from_int(s->ellipse.xc_px_q16 >> 16);
     s->collection.y_px_q16 = drogue_q16_from_int(s->ellipse.yc_px_q16 >> 16);
     s->collection.frac_bits = rng_range(rng, 0, 10);
@@ -85,15 +87,15 @@ static void draw_scene(scene *s, uint64_t *rng)
         s->support.bin[k].count[k & 1] = k;
         s->support.bin[k].sum_q16 = -(int32_t)k;
     }
-    s->count = (uint32_t)rng_range(rng, 1, MOST);
+    s->count = (uint32_t)rng_range(rng, 1, rng_range(rng, 0, 30) == 0 ? MOST : 600);
     for (i = 0; i < s->count; i++) {
         draw_edge(&edges[i], rng, &s->ellipse);
     }
 }
 
-static int32_t model_unit(int32_t px_q16, int32_t origin_px_q16, int frac_bits)
+static int64_t model_unit(int32_t px_q16, int32_t origin_px_q16, int frac_bits)
 {
-    return (int32_t)floor(((double)px_q16 - origin_px_q16) / 65536 * (1 << frac_bits) + 0.5);
+    return (int64_t)floor(((double)px_q16 - origin_px_q16) / 65536 * (1 << frac_bits) + 0.5);
 }
 
 /* Returns how many points were collected. */
@@ -103,22 +105,22 @@ static int64_t model(drogue_collection *c, drogue_support *support, const scene 
     for (i = 0; i < s->count; i++) {
         drogue_q16 x = drogue_edge_x_q16(&edges[i]), y = drogue_edge_y_q16(&edges[i]);
         drogue_band_point p;
-        int32_t u, v;
+        int64_t u, v;
         if (!drogue_ellipse_band_holds(&p, &s->frame, &s->band, x, y, edges[i].gx, edges[i].gy) ||
             !drogue_support_add(support, &p, &edges[i])) {
             continue;
         }
         if (with_lens) {
-            x += s->lens.x_px_q16;
-            y += s->lens.y_px_q16;
+            x = drogue_q16_add(x, s->lens.x_px_q16);
+            y = drogue_q16_add(y, s->lens.y_px_q16);
             if (drogue_undistort_point(&x, &y, &s->camera) != DROGUE_OK) {
                 continue;
             }
         }
         u = model_unit(x, c->x_px_q16, c->frac_bits);
         v = model_unit(y, c->y_px_q16, c->frac_bits);
-        if (abs(2 * u + 1) < 1 << 16 && abs(2 * v + 1) < 1 << 16 && c->moments.n < DROGUE_MAX_FIT_POINTS) {
-            drogue_moments_add_point(&c->moments, u, v);
+        if (llabs(2 * u + 1) < 1 << 16 && llabs(2 * v + 1) < 1 << 16 && c->moments.n < DROGUE_MAX_FIT_POINTS) {
+            drogue_moments_add_point(&c->moments, (int32_t)u, (int32_t)v);
         }
     }
     return c->moments.n - s->collection.moments.n;
@@ -185,10 +187,48 @@ START_TEST(counts_of_random_scenes)
 }
 END_TEST
 
+/* Points that just fit 16 bits, just do not, and whose offset leaves 32. */
+START_TEST(borders_of_16_bits)
+{
+    static const uint16_t at_q5[] = {0, 1, 2, 3, 65532, 65533, 65534, 65535};
+    static const int32_t origin_q5[] = {32766, 32770, -(1 << 20)};
+    static const int fit[] = {6, 6, 0};
+    static scene s;
+    uint32_t i;
+    int k;
+    for (k = 0; k < 3; k++) {
+        drogue_collection expected, own, hardware;
+        drogue_support expected_support, own_support, hardware_support;
+        memset(&s, 0, sizeof s);
+        s.ellipse.xc_px_q16 = s.ellipse.yc_px_q16 = s.ellipse.a_px_q16 = s.ellipse.b_px_q16 = q16_of(1024);
+        ck_assert_int_eq(drogue_ellipse_frame_of(&s.frame, &s.ellipse), DROGUE_OK);
+        s.band = drogue_band_of(q16_of(4), q16_of(0.9));
+        s.collection.x_px_q16 = origin_q5[k] * (1 << 11);
+        s.collection.y_px_q16 = q16_of(1024);
+        s.collection.frac_bits = k < 2 ? 5 : 0;
+        s.count = sizeof at_q5 / sizeof at_q5[0];
+        for (i = 0; i < s.count; i++) {
+            edges[i].x_q5 = at_q5[i];
+            edges[i].y_q5 = 1024 * 32;
+            edges[i].gx = (int16_t)(at_q5[i] < 1024 * 32 ? -500 : 500);
+            edges[i].gy = 0;
+        }
+        expected = own = hardware = s.collection;
+        expected_support = own_support = hardware_support = s.support;
+        ck_assert_int_eq(model(&expected, &expected_support, &s, 0), fit[k]);
+        ck_assert_uint_eq(expected_support.points, s.count);
+        drogue_collect_edges(&own, &own_support, &s.frame, &s.band, edges, s.count, NULL);
+        hardware_collect_edges(&hardware, &hardware_support, &s.frame, &s.band, edges, s.count, NULL);
+        ck_assert(same(&own, &expected, &own_support, &expected_support));
+        ck_assert(same(&hardware, &expected, &hardware_support, &expected_support));
+    }
+}
+END_TEST
+
 START_TEST(random_scenes) { collect_both_ways(0, 4000, 80000); }
 END_TEST
 
 START_TEST(random_scenes_through_a_lens) { collect_both_ways(1, 400, 4000); }
 END_TEST
 
-SUITE_MAIN("near", counts_of_random_scenes, random_scenes, random_scenes_through_a_lens)
+SUITE_MAIN("near", counts_of_random_scenes, borders_of_16_bits, random_scenes, random_scenes_through_a_lens)
