@@ -28,7 +28,7 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
         drogue_band_point p;
         if (band_holds(&p, &f, &b, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]), edges[i].gx,
                        edges[i].gy)) {
-            out->bin[drogue_support_bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
+            out->bin[bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
         }
     }
 }
