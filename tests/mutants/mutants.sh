@@ -125,11 +125,15 @@ users() {
 # do_mutant NAME: leaves 'verdict|cases that fail|stages that notice' in its folder
 do_mutant() {
     local dir=$work/mutants/$1 path=${file[$1]} text source object objects=() status=0 last verdict
-    mkdir -p "$dir/core" "$dir/rest" "$dir/$(dirname "$path")"
+    mkdir -p "$dir/core" "$dir/rest" "$dir/src" "$dir/$(dirname "$path")"
+    cp src/*.h "$dir/src" # a header in quotes is looked for beside the file that includes it
     text=$(<"$path")
     printf '%s\n' "${text%%"${old[$1]}"*}${new[$1]}${text#*"${old[$1]}"}" >"$dir/$path"
     while read -r source object; do
-        [ "$source" != "$path" ] || source=$dir/$path
+        if [ "$source" != "$path" ]; then
+            [[ $source != src/* ]] || cp "$source" "$dir/src"
+        fi
+        [[ $source != src/* ]] || source=$dir/$source
         compile "$dir/include" "$source" "$dir/$object" || status=1
     done < <(users "$path") >"$dir/build.log" 2>&1
     for object in "$work"/{core,rest}/*.o; do
