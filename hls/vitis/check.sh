@@ -48,6 +48,7 @@ if [ -n "$last" ]; then
     top "$last"
     bites 's|src/wide\.c|src/wade.c|' 'no file .*wade\.c'
     bites 's/^set top .*/set top another/' 'top another'
+    bites '/^set replaced/s/.*/set replaced src\/drogue.c/' 'not those of hls_config.cfg'
     bites '/^ *cosim_design/d' 'steps .* csynth export'
     bites 's/^set_part/set_prat/' 'invalid command name "set_prat"'
 fi

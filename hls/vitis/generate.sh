@@ -69,8 +69,9 @@ set sources {
 $(printf '    %s\n' $sources $core)
 }
 set bench {
-$(printf '    %s\n' $(bench_files "$1") $rest)
+$(printf '    %s\n' $(bench_files "$1"))
 }
+set replaced {$replaced}
 source \$root/hls/vitis/run.tcl
 END
 }

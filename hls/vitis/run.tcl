@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What the run_hls.tcl of all tops have in common; they set name, top, root, sources and bench, and source this.
+# What the run_hls.tcl of all tops have in common; they set name, top, root, sources, bench and
+# replaced, and source this.
 # Part, clock and steps are those of the environment, where it has any.
 proc setting {name otherwise} {
     return [expr {[info exists ::env($name)] ? $::env($name) : $otherwise}]
@@ -22,6 +23,11 @@ foreach file $sources {
 }
 foreach file $bench {
     add_files -tb $root/$file -cflags $flags
+}
+foreach file [lsort [glob -tails -directory $root src/*.c]] { # the test bench's own copy of what the top does not have
+    if {$file ni $sources && $file ni $replaced} {
+        add_files -tb $root/$file -cflags $flags
+    }
 }
 set_top $top
 if {[llength [info commands open_component]] == 0} {

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Runs a run_hls.tcl with commands of the tool that only look: at the files, the top, the order of the steps.
 # usage: tclsh stub.tcl FUNCTION run_hls.tcl, in the script's folder; exit status 1 with a line for each fault
+# The files must be those of hls_config.cfg there, each once.
 set faults 0
+set files {}
 set done {}
 proc fault {what} {
     puts "$::argv: $what"
@@ -22,6 +24,7 @@ proc add_files {args} {
     if {![file exists $file] && ![string match */build/hls/*/cases_*.c $file]} {
         fault "no file $file"
     }
+    lappend ::files "[expr {$is_bench ? "tb" : "syn"}].file=$file"
     lappend ::done [expr {$is_bench ? "bench" : "source"}]
 }
 proc set_top {name} {
@@ -46,5 +49,9 @@ foreach step $done {
 }
 if {$order ne {open source bench top part clock csim csynth cosim export}} {
     fault "steps $order"
+}
+set config [open hls_config.cfg]
+if {[lsort $files] ne [lsort [regexp -all -inline -line {^(?:syn|tb)\.file=.*$} [read $config]]]} {
+    fault "files that are not those of hls_config.cfg"
 }
 leave [expr {$faults > 0}]

@@ -28,28 +28,6 @@ set bench {
     hls/bench/bench.c
     build/hls/outline/cases_0.c
     build/hls/outline/cases_index.c
-    src/acquire.c
-    src/canny.c
-    src/centroid.c
-    src/cholesky.c
-    src/dark_disc.c
-    src/dark_sums.c
-    src/decide.c
-    src/disc.c
-    src/drogue.c
-    src/frontend.c
-    src/gradient.c
-    src/joint.c
-    src/joint_weights.c
-    src/kalman.c
-    src/label.c
-    src/otsu.c
-    src/rim.c
-    src/search.c
-    src/smooth.c
-    src/status.c
-    src/track.c
-    src/track_end.c
-    src/workspace.c
 }
+set replaced {src/near.c}
 source $root/hls/vitis/run.tcl

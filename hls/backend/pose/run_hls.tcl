@@ -23,33 +23,6 @@ set bench {
     hls/bench/bench.c
     build/hls/pose/cases_0.c
     build/hls/pose/cases_index.c
-    src/acquire.c
-    src/canny.c
-    src/centroid.c
-    src/cluster.c
-    src/config.c
-    src/conic.c
-    src/constraints.c
-    src/dark_disc.c
-    src/disc.c
-    src/drogue.c
-    src/eigen.c
-    src/ellipse.c
-    src/frontend.c
-    src/gradient.c
-    src/kalman.c
-    src/label.c
-    src/moments.c
-    src/near.c
-    src/otsu.c
-    src/outline.c
-    src/rim.c
-    src/search.c
-    src/smooth.c
-    src/status.c
-    src/support.c
-    src/track.c
-    src/track_end.c
-    src/workspace.c
 }
+set replaced {}
 source $root/hls/vitis/run.tcl
