@@ -48,7 +48,9 @@ void drogue_collect_edges(drogue_collection *c, drogue_support *support, const d
         drogue_band_point p;
         if (band_holds(&p, &f, &b, x, y, e->gx, e->gy) && drogue_support_add(support, &p, e) &&
             (lens == NULL || undistort_edge(&x, &y, lens))) {
-            collect_point(&m, 1, in_unit(x, c->x_px_q16, c->frac_bits), in_unit(y, c->y_px_q16, c->frac_bits));
+            const int32_t u = in_unit(x, c->x_px_q16, c->frac_bits);
+            DROGUE_NOTE("outline: point in the fit's unit", u, 16);
+            collect_point(&m, 1, u, in_unit(y, c->y_px_q16, c->frac_bits));
         }
     }
     c->moments = m;

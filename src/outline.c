@@ -4,7 +4,6 @@
 
 #include <string.h>
 
-#include "band.h"
 #include "drogue/ellipse.h"
 #include "near.h"
 

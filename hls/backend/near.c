@@ -2,7 +2,8 @@
 /* src/near.c for hardware: the same steps, but a turn of the loop takes each of them once, on one point each, so that
  * it lasts as long as the longest step and not as long as all. The steps run from the last to the first: they are
  * independent within a turn. A point that a step refuses goes on, its mark 'held' taken away: with u = v = 0 when it is
- * far off, with F = 0 when F is, so that no step overflows; n^2 may then be up to 4.5. */
+ * far off, with F = 0 when F is, so that no step overflows; n^2 may then be up to 4.5. Both loops write the steps out: a
+ * function of two callers Bambu does not take in, which makes 11 states and calls of a turn instead of 6. */
 #include "../../src/near.h"
 
 #include <string.h>

@@ -130,10 +130,10 @@ do_mutant() {
     text=$(<"$path")
     printf '%s\n' "${text%%"${old[$1]}"*}${new[$1]}${text#*"${old[$1]}"}" >"$dir/$path"
     while read -r source object; do
-        if [ "$source" != "$path" ]; then
-            [[ $source != src/* ]] || cp "$source" "$dir/src"
+        if [[ $source == src/* ]]; then
+            [ "$source" = "$path" ] || cp "$source" "$dir/src"
+            source=$dir/$source
         fi
-        [[ $source != src/* ]] || source=$dir/$source
         compile "$dir/include" "$source" "$dir/$object" || status=1
     done < <(users "$path") >"$dir/build.log" 2>&1
     for object in "$work"/{core,rest}/*.o; do
