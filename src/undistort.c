@@ -11,7 +11,7 @@ static const int64_t one_q36 = INT64_C(1) << FRAC;
 static const int64_t most_q36 = INT64_C(4) << FRAC; /* off the axis, in focal lengths */
 static const int64_t still_q36 = INT64_C(1) << 10;  /* a step this short squares to nothing in the next */
 
-static int64_t mul_q36(int64_t a, int64_t b) { return drogue_mul_shr_round_s64(a, b, FRAC); }
+static int64_t mul_q36(int64_t a, int64_t b) { return drogue_s128_shr_round(drogue_s128_mul(a, b), FRAC); }
 
 static int64_t abs_s64(int64_t v) { return v < 0 ? -v : v; }
 
