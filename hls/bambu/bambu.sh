@@ -84,8 +84,10 @@ if [ $verdict != PASS ]; then
     exit 1
 fi
 if [ $area = yes ]; then
-    if ! timeout "${DROGUE_HLS_TIMEOUT_S:-3600}" yosys -q \
-        -p "read_verilog -defer $function.v; synth_xilinx -noiopad -noclkbuf -top $function; tee -o area stat" >yosys.log 2>&1; then
+    # Operators are flattened into the functions: as modules, some thousand of them, they would cost yosys hours.
+    if ! timeout "${DROGUE_HLS_TIMEOUT_S:-3600}" yosys -q -p "read_verilog -defer $function.v; hierarchy -check -top $function
+        setattr -mod -set keep_hierarchy 1 *datapath_* *controller_*
+        synth_xilinx -flatten -noiopad -noclkbuf -top $function; tee -o area stat" >yosys.log 2>&1; then
         echo "area of $name: yosys did not end well, see $work/yosys.log"
         exit 1
     fi
