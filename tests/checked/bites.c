@@ -16,7 +16,8 @@ int main(int argc, char **argv)
     case 4: (void)drogue_div_round_s64(1, (int64_t)(big - big)); break;
     case 5: (void)drogue_mul_shr_round_s64(big, big, 1); break;
     case 6: drogue_sincos_q30(&s, &c, INT32_MAX); break;
-    case 7: (void)drogue_wide_div(one, zero); break;
+    case 7: (void)drogue_s128_shr_round(drogue_s128_from_s64(big), 64); break;
+    case 8: (void)drogue_wide_div(one, zero); break;
     default: DROGUE_NOTE("bites: a quantity", 1, 1); break;
     }
     return 0;

@@ -82,17 +82,16 @@ int64_t checked_div_round_s64(int64_t num, int64_t den, const char *file, int li
     return drogue_div_round_s64(num, den);
 }
 
-int64_t checked_mul_shr_round_s64(int64_t a, int64_t b, int n, const char *file, int line)
+int64_t checked_s128_shr_round(drogue_s128 v, int n, const char *file, int line)
 {
-    drogue_s128 p = drogue_s128_mul(a, b);
     if (n < 1 || n > 63) {
-        checked_fail("drogue_mul_shr_round_s64: count", file, line);
+        checked_fail("drogue_s128_shr_round: count", file, line);
         return 0;
     }
-    if (p.hi >= (INT64_C(1) << (n - 1)) || p.hi < -(INT64_C(1) << (n - 1))) {
-        checked_fail("drogue_mul_shr_round_s64: result beyond 64 bits", file, line);
+    if (v.hi >= (INT64_C(1) << (n - 1)) || v.hi < -(INT64_C(1) << (n - 1))) {
+        checked_fail("drogue_s128_shr_round: result beyond 64 bits", file, line);
     }
-    return drogue_mul_shr_round_s64(a, b, n);
+    return drogue_s128_shr_round(v, n);
 }
 
 void checked_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29, const char *file, int line)

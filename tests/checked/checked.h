@@ -77,7 +77,8 @@ void checked_fail(const char *what, const char *file, int line);
 #define drogue_shl_s64(v, n) checked_shl_s64(v, n, __FILE__, __LINE__)
 #define drogue_shr_round_s64(v, n) checked_shr_round_s64(v, n, __FILE__, __LINE__)
 #define drogue_div_round_s64(num, den) checked_div_round_s64(num, den, __FILE__, __LINE__)
-#define drogue_mul_shr_round_s64(a, b, n) checked_mul_shr_round_s64(a, b, n, __FILE__, __LINE__)
+#define drogue_s128_shr_round(v, n) checked_s128_shr_round(v, n, __FILE__, __LINE__)
+#define drogue_mul_shr_round_s64(a, b, n) drogue_s128_shr_round(drogue_s128_mul(a, b), n)
 #define drogue_sincos_q30(s, c, angle) checked_sincos_q30(s, c, angle, __FILE__, __LINE__)
 #define drogue_wide_div(a, b) checked_wide_div(a, b, __FILE__, __LINE__)
 
@@ -86,7 +87,7 @@ void checked_fail(const char *what, const char *file, int line);
 int64_t checked_shl_s64(int64_t v, int n, const char *file, int line);
 int64_t checked_shr_round_s64(int64_t v, int n, const char *file, int line);
 int64_t checked_div_round_s64(int64_t num, int64_t den, const char *file, int line);
-int64_t checked_mul_shr_round_s64(int64_t a, int64_t b, int n, const char *file, int line);
+int64_t checked_s128_shr_round(drogue_s128 v, int n, const char *file, int line);
 void checked_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29, const char *file, int line);
 drogue_wide checked_wide_div(drogue_wide a, drogue_wide b, const char *file, int line);
 
