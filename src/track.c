@@ -41,10 +41,27 @@ void drogue_track_config_default(drogue_track_config *config)
     config->start_accel_std_q16 = DROGUE_Q16(2, 1);
 }
 
-void drogue_track_init(drogue_track *track, const drogue_track_config *config, const drogue_camera *camera,
-                       const drogue_model *model, const drogue_region *first_region)
+int drogue_track_config_valid(const drogue_track_config *c)
+{
+    /* the sign of all */
+    int32_t any = c->gate_q16 | c->position_gate_q16 | c->region_sigmas_q16 | c->lateral_std_q16 | c->depth_std_q16 |
+                  c->angle_std_rad_q16 | c->position_floor_m_q16 | c->angle_floor_rad_q16 | c->start_rate_std_q16 |
+                  c->start_accel_std_q16;
+    int p;
+    for (p = 0; p < DROGUE_PARAMETERS; p++) {
+        any |= c->process_std_q16[p];
+    }
+    return any >= 0 && c->agree_frames > 0 && c->region_scale_q16 > 0 && c->min_region_px > 0 &&
+           c->min_region_px <= c->max_region_px && c->max_region_px <= DROGUE_MAX_SIDE;
+}
+
+drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *config, const drogue_camera *camera,
+                                const drogue_model *model, const drogue_region *first_region)
 {
     memset(track, 0, sizeof *track);
+    if (!drogue_track_config_valid(config)) {
+        return DROGUE_E_ARGUMENT;
+    }
     track->config = *config;
     track->camera = *camera;
     track->model = *model;
@@ -53,6 +70,7 @@ void drogue_track_init(drogue_track *track, const drogue_track_config *config, c
     }
     track->reach = track->first_region;
     track->state = DROGUE_LOST;
+    return DROGUE_OK;
 }
 
 /* Unit vector of yaw and pitch, Q16. */

@@ -67,7 +67,8 @@ int32_t drogue_search_end(drogue_search *search);
  *
  *  out     as of drogue_measure()
  *  region  where to search; NULL: the whole image
- *  return  DROGUE_OK; DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else the status of the last that was measured
+ *  return  DROGUE_OK; DROGUE_E_ARGUMENT (the image), DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else the
+ *          status of the last that was measured
  */
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_config *config, const drogue_camera *camera, const drogue_model *model,

@@ -59,6 +59,10 @@ typedef struct drogue_track_config {
 
 void drogue_track_config_default(drogue_track_config *config);
 
+/* 1 when no standard deviation, gate or scale is negative, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and
+ * agree_frames and region_scale_q16 are above 0. */
+int drogue_track_config_valid(const drogue_track_config *config);
+
 typedef struct drogue_track {
     drogue_track_config config;
     drogue_camera camera;
@@ -95,9 +99,11 @@ typedef struct drogue_track_estimate {
 /* Start lost.
  *
  *  first_region  to be searched until something is found; NULL: the whole frame
- */
-void drogue_track_init(drogue_track *track, const drogue_track_config *config, const drogue_camera *camera,
-                       const drogue_model *model, const drogue_region *first_region);
+ *
+ * Returns DROGUE_OK, or DROGUE_E_ARGUMENT when drogue_track_config_valid() refuses the configuration: the track is then
+ * all zero, and drogue_track_frame() stays lost with the same status. Camera and model are examined frame by frame. */
+drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *config, const drogue_camera *camera,
+                                const drogue_model *model, const drogue_region *first_region);
 
 /* Begin a frame dt_us after the one before: predict and place the region for drogue_measure().
  *
@@ -113,9 +119,10 @@ drogue_track_state drogue_track_end(drogue_track *track, const drogue_result *re
 void drogue_track_get(drogue_track_estimate *out, const drogue_track *track);
 
 /* A frame in one call: begin; measure where the drogue is expected, and when that fails and 'search' is set search
- * where it may be; end. While lost the first region is measured, then the whole frame searched; a drogue of known inner part that a search finds starts a
- * track only when its inner part resolved the orientation, or was seen within an outline of three quarters. A
- * track of something else, which shows no inner part, gives way after reconsider_frames when the drogue is in sight.
+ * where it may be; end. While lost the first region is measured, then the whole frame searched; a drogue of known
+ * inner part that a search finds starts a track only when its inner part resolved the orientation, or was seen within an
+ * outline of three quarters. A track of something else, which shows no inner part, gives way after reconsider_frames
+ * when the drogue is in sight.
  *
  *  result  out, the frame's measurement; its region is where it was taken
  *  region  out, the region asked for

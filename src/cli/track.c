@@ -32,7 +32,7 @@ static int begin_sequence(sequence *s, const char *path, const picture *grey)
     if (s->o->max_missed_given) {
         config.max_missed = s->o->max_missed;
     }
-    drogue_track_init(&s->track, &config, &s->o->camera, &s->o->model, s->o->region_given ? &first : NULL);
+    (void)drogue_track_init(&s->track, &config, &s->o->camera, &s->o->model, s->o->region_given ? &first : NULL);
     s->width_px = grey->width_px;
     s->height_px = grey->height_px;
     return EXIT_MEASURED;

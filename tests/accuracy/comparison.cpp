@@ -72,7 +72,7 @@ public:
         const drogue_region region = {first.x, first.y, first.width, first.height};
         drogue_track_config config;
         drogue_track_config_default(&config);
-        drogue_track_init(&track_, &config, &q_camera, &model, &region);
+        (void)drogue_track_init(&track_, &config, &q_camera, &model, &region);
     }
 
     Estimate operator()(const drogue_result &result, double dt_s)

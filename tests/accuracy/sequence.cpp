@@ -80,7 +80,7 @@ public:
         }
         drogue_config_default(&config_);
         drogue_track_config_default(&track_config);
-        drogue_track_init(&track, &track_config, &camera, &model, nullptr);
+        (void)drogue_track_init(&track, &track_config, &camera, &model, nullptr);
     }
 
     void frame(drogue_result &result, const drogue_image &image, uint32_t dt_us)

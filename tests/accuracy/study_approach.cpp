@@ -187,7 +187,7 @@ std::vector<Step> run_sequence(const Approach &approach, Report &report)
     drogue_track track;
     std::vector<Step> steps;
     drogue_track_config_default(&config);
-    drogue_track_init(&track, &config, &camera, &model, &first_region);
+    (void)drogue_track_init(&track, &config, &camera, &model, &first_region);
     for (int i = 0; i < approach.frames; i++) {
         const Scene scene = approach.scene(i);
         drogue_region region;

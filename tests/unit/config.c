@@ -52,18 +52,7 @@ START_TEST(defaults_are_the_documented_ones)
 }
 END_TEST
 
-/* The member takes 'good' and refuses 'bad'. */
-static void check_limit(const char *name, drogue_config *c, int32_t *member, int32_t good, int32_t bad)
-{
-    int32_t kept = *member;
-    *member = good;
-    MUST(drogue_config_valid(c), "%s = %d refused", name, (int)good);
-    *member = bad;
-    MUST(!drogue_config_valid(c), "%s = %d accepted", name, (int)bad);
-    *member = kept;
-}
-
-#define LIMIT(member, good, bad) check_limit(#member, &c, &c.member, good, bad)
+#define LIMIT(member, good, bad) CHECK_LIMIT(drogue_config_valid, c, member, good, bad)
 
 START_TEST(each_limit)
 {

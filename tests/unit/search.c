@@ -313,7 +313,7 @@ START_TEST(track_frames)
     rig r = new_rig(&f);
     drogue_track_config_default(&config);
     config.max_missed = 5;
-    drogue_track_init(&t, &config, &r.camera, &model, NULL);
+    (void)drogue_track_init(&t, &config, &r.camera, &model, NULL);
     free(f.pixels);
     for (k = 0; k < 60; k++) {
         const int blank = k < 2 || k == 12 || (k >= 20 && k < 24) || (k >= 30 && k < 40);
@@ -363,11 +363,35 @@ START_TEST(first_region_then_anywhere)
     drogue_region region;
     (void)draw_drogue(&f, centre, 0.1, 0.1, &all_shades[0]);
     drogue_track_config_default(&config);
-    drogue_track_init(&t, &config, &r.camera, &model, &first);
+    (void)drogue_track_init(&t, &config, &r.camera, &model, &first);
     ck_assert_int_eq(
         drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search, &r.config, &image, 40000),
         DROGUE_TRACKING);
     ck_assert_int_eq(memcmp(&region, &first, sizeof first), 0);
+    free_rig(&r);
+    free(f.pixels);
+}
+END_TEST
+
+START_TEST(a_refused_configuration_finds_nothing)
+{
+    const drogue_region first = {75, 75, 150, 150};
+    const double centre[3] = {0.5, 0.2, 5};
+    frame f = new_frame(640, 480, 210, 3);
+    rig r = new_rig(&f);
+    const drogue_image image = image_of(&f);
+    drogue_track_config config;
+    drogue_track t;
+    drogue_result result;
+    drogue_region region;
+    (void)draw_drogue(&f, centre, 0.1, 0.1, &all_shades[0]);
+    drogue_track_config_default(&config);
+    config.gate_q16 = -1;
+    ck_assert_int_eq(drogue_track_init(&t, &config, &r.camera, &model, &first), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(
+        drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search, &r.config, &image, 40000),
+        DROGUE_LOST);
+    ck_assert_int_eq(result.status, DROGUE_E_ARGUMENT);
     free_rig(&r);
     free(f.pixels);
 }
@@ -397,7 +421,7 @@ START_TEST(what_shows_no_inner_part_is_reconsidered)
         if (with == 2) {
             config.reconsider_frames = 0;
         }
-        drogue_track_init(&t, &config, &r.camera, &model, &first);
+        (void)drogue_track_init(&t, &config, &r.camera, &model, &first);
         for (k = 0; k < 60; k++) {
             MUST(drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search, &r.config, &image,
                                     40000) == DROGUE_TRACKING,
@@ -414,4 +438,4 @@ END_TEST
 
 SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
            any_size_of_frame, refusals, acquire_measures_what_it_finds, track_frames, first_region_then_anywhere,
-           what_shows_no_inner_part_is_reconsidered)
+           a_refused_configuration_finds_nothing, what_shows_no_inner_part_is_reconsidered)

@@ -15,6 +15,17 @@
         }                              \
     } while (0)
 
+/* The configuration takes 'good' in that member and refuses 'bad'. */
+#define CHECK_LIMIT(valid, config, member, good, bad)                            \
+    do {                                                                         \
+        const int32_t kept_ = (config).member;                                   \
+        (config).member = (good);                                                \
+        MUST(valid(&(config)), #member " = %d refused", (int)(config).member);   \
+        (config).member = (bad);                                                 \
+        MUST(!valid(&(config)), #member " = %d accepted", (int)(config).member); \
+        (config).member = kept_;                                                 \
+    } while (0)
+
 #define SUITE_TIMEOUT_S 300.0 /* sanitizers and emulators are slow */
 
 static inline int suite_run(const char *name, const TTest *const *tests, size_t count)

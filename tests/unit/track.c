@@ -15,7 +15,7 @@ static drogue_track new_track(const drogue_camera *camera)
     drogue_track t;
     drogue_track_config_default(&config);
     config.region_sigmas_q16 = 0;
-    drogue_track_init(&t, &config, camera, &model, &first_region);
+    (void)drogue_track_init(&t, &config, camera, &model, &first_region);
     return t;
 }
 
@@ -58,6 +58,41 @@ START_TEST(defaults_are_the_documented_ones)
     }
     ck_assert_int_eq(c.start_rate_std_q16, q16_of(2));
     ck_assert_int_eq(c.start_accel_std_q16, q16_of(2));
+}
+END_TEST
+
+#define LIMIT(member, good, bad) CHECK_LIMIT(drogue_track_config_valid, c, member, good, bad)
+
+START_TEST(each_limit)
+{
+    drogue_track_config c;
+    int p;
+    drogue_track_config_default(&c);
+    ck_assert(drogue_track_config_valid(&c));
+    LIMIT(gate_q16, 0, -1);
+    LIMIT(position_gate_q16, 0, -1);
+    LIMIT(region_scale_q16, 1, 0);
+    LIMIT(region_scale_q16, INT32_MAX, INT32_MIN);
+    LIMIT(region_sigmas_q16, 0, -1);
+    LIMIT(min_region_px, 1, 0);
+    LIMIT(min_region_px, c.max_region_px, c.max_region_px + 1);
+    LIMIT(max_region_px, c.min_region_px, c.min_region_px - 1);
+    LIMIT(max_region_px, DROGUE_MAX_SIDE, DROGUE_MAX_SIDE + 1);
+    LIMIT(lateral_std_q16, 0, -1);
+    LIMIT(depth_std_q16, 0, -1);
+    LIMIT(angle_std_rad_q16, 0, -1);
+    LIMIT(position_floor_m_q16, 0, -1);
+    LIMIT(angle_floor_rad_q16, 0, -1);
+    for (p = 0; p < DROGUE_PARAMETERS; p++) {
+        LIMIT(process_std_q16[p], 0, INT32_MIN);
+    }
+    LIMIT(start_rate_std_q16, 0, -1);
+    LIMIT(start_accel_std_q16, 0, -1);
+    c.max_missed = c.reconsider_frames = 0;
+    c.agree_frames = 1;
+    ck_assert(drogue_track_config_valid(&c));
+    c.agree_frames = 0;
+    ck_assert(!drogue_track_config_valid(&c));
 }
 END_TEST
 
@@ -272,7 +307,7 @@ START_TEST(without_a_first_region_the_whole_frame)
     drogue_track t;
     drogue_region region = {1, 2, 3, 4};
     drogue_track_config_default(&config);
-    drogue_track_init(&t, &config, &camera, &model, NULL);
+    (void)drogue_track_init(&t, &config, &camera, &model, NULL);
     drogue_track_begin(&region, &t, 20000);
     ck_assert_int_eq(region.width_px, 0);
     ck_assert_int_eq(region.height_px, 0);
@@ -319,7 +354,8 @@ START_TEST(unresolved_poses_go_by_the_predicted_axis)
 }
 END_TEST
 
-SUITE_MAIN("track", defaults_are_the_documented_ones, names_of_states, states_in_turn, every_failure_is_a_miss,
-           no_miss_allowed, region_follows_a_steady_drogue, region_is_clamped, region_leads_a_moving_drogue,
-           region_allows_for_distortion, region_grows_with_uncertainty, without_a_first_region_the_whole_frame,
-           lost_when_it_flies_behind_the_camera, unresolved_poses_go_by_the_predicted_axis)
+SUITE_MAIN("track", defaults_are_the_documented_ones, each_limit, names_of_states, states_in_turn,
+           every_failure_is_a_miss, no_miss_allowed, region_follows_a_steady_drogue, region_is_clamped,
+           region_leads_a_moving_drogue, region_allows_for_distortion, region_grows_with_uncertainty,
+           without_a_first_region_the_whole_frame, lost_when_it_flies_behind_the_camera,
+           unresolved_poses_go_by_the_predicted_axis)

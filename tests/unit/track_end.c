@@ -15,7 +15,7 @@ static drogue_track new_track(void)
     drogue_track_config config;
     drogue_track t;
     drogue_track_config_default(&config);
-    drogue_track_init(&t, &config, &camera, &model, NULL);
+    (void)drogue_track_init(&t, &config, &camera, &model, NULL);
     return t;
 }
 

@@ -42,7 +42,9 @@ int main(void)
     drogue_config_default(&config);
     drogue_track_config_default(&following);
     following.max_region_px = FRAMES_SIDE_PX; /* what the workspace holds */
-    drogue_track_init(&track, &following, &frame_demo->camera, &frame_demo->model, &first);
+    if (drogue_track_init(&track, &following, &frame_demo->camera, &frame_demo->model, &first) != DROGUE_OK) {
+        return 1;
+    }
     for (number = 1; number <= FRAMES; number++) {
         drogue_image image = capture(number);
         drogue_region region;
