@@ -84,18 +84,5 @@ if [ $verdict != PASS ]; then
     exit 1
 fi
 if [ $area = yes ]; then
-    # Operators are flattened into the functions: as modules of their own, a thousand and more, they would be mapped one by
-    # one, a shift by a constant to LUTs; and yosys would not come to an end with the larger tops.
-    if ! timeout "${DROGUE_HLS_TIMEOUT_S:-3600}" yosys -q -p "read_verilog -defer $function.v; hierarchy -check -top $function
-        setattr -mod -set keep_hierarchy 1 *datapath_* *controller_*
-        synth_xilinx -flatten -noiopad -noclkbuf -top $function; tee -o area stat" >yosys.log 2>&1; then
-        echo "area of $name: yosys did not end well, see $work/yosys.log"
-        exit 1
-    fi
-    awk -v name="$name" '
-        /design hierarchy/ { whole = 1 } # after the modules one by one
-        !whole { next }
-        /^ +LUT[1-6] / { lut += $2 } /^ +FD[CPRS]E / { ff += $2 } /^ +DSP48E1 / { dsp += $2 }
-        /^ +RAMB18E1 / { bram += $2 } /^ +RAMB36E1 / { bram += 2 * $2 } /^ +(RAM(32|64|128|256)|SRL)/ { lutram += $2 }
-        END { printf "area of %s: LUT=%d FF=%d DSP=%d BRAM18=%d LUTRAM=%d\n", name, lut, ff, dsp, bram, lutram }' area
+    "$root/hls/bambu/area.sh" "$name" || exit 1
 fi

@@ -34,6 +34,20 @@ expect 1 MISMATCH "$rtl; $ran; echo 'mismatch on memory'" --simulate
 expect 1 MISMATCH "$rtl; $ran; mkdir -p HLS_output/simulation; echo 'Returned error code!' >HLS_output/simulation/testbench.log" --simulate
 expect 1 FAIL "echo '.PROXY_PREF_done_port_root(1'\\''b0)' >$function.v; $ran" --simulate
 expect 1 TIMEOUT "sleep 20"
+
+# area.sh likewise, with a stand-in for yosys: counts are those of the whole hierarchy, and one failed module is a failure
+yosys() { printf '#!/usr/bin/env bash\n%s\n' "$1" >"$work/yosys" && chmod +x "$work/yosys"; }
+answers="case \$3 in
+*modules*) printf '\n2 modules:\n  f\n  $function\n' >modules ;;
+*'tee -o stat'*) printf '=== f ===\n     LUT2      7\n=== design hierarchy ===\n     LUT2     14\n     LUT6      1\n     FDRE      3\n     RAMB36E1  2\n     DSP48E1   5\n' >stat ;;
+esac"
+yosys "$answers"
+expect 0 "area of $name: LUT=15 FF=3 DSP=5 BRAM18=4 LUTRAM=0" "$rtl" --area
+yosys "$answers
+case \$3 in *'-top f'*) exit 1 ;; esac"
+expect 1 "area of $name: yosys did not end well" "$rtl" --area
+yosys 'sleep 20'
+expect 1 "area of $name: yosys did not end well" "$rtl" --area
 rm -rf "build/hls/bambu/$name"
 
 # without bambu
