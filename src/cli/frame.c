@@ -54,9 +54,12 @@ static int fit_whole(frame_workspace *w, const char *path, const picture *grey)
 {
     const int32_t width = grey->width_px < DROGUE_MAX_SIDE ? grey->width_px : DROGUE_MAX_SIDE;
     const int32_t height = grey->height_px < DROGUE_MAX_SIDE ? grey->height_px : DROGUE_MAX_SIDE;
-    const int32_t widest = grey->width_px < INT16_MAX ? grey->width_px : INT16_MAX; /* wider ones are not searched */
-    const size_t bytes = DROGUE_SEARCH_BYTES(widest);
+    const size_t bytes = DROGUE_SEARCH_BYTES(grey->width_px);
     drogue_config config;
+    if (grey->width_px > INT16_MAX || grey->height_px > INT16_MAX) {
+        return complain(path, "%dx%d pixels are not searched, %d a side are the most: give a --roi", grey->width_px,
+                        grey->height_px, INT16_MAX);
+    }
     drogue_config_default(&config);
     if (frame_workspace_fit(w, path, width, height, config.min_arc_px)) {
         return EXIT_BAD;
@@ -66,7 +69,7 @@ static int fit_whole(frame_workspace *w, const char *path, const picture *grey)
         if (w->search_memory == NULL) {
             return complain(path, "out of memory");
         }
-        (void)drogue_search_init(&w->search, w->search_memory, bytes, widest);
+        (void)drogue_search_init(&w->search, w->search_memory, bytes, grey->width_px);
     }
     return EXIT_MEASURED;
 }
@@ -83,20 +86,12 @@ drogue_image frame_image(const picture *grey)
 
 int frame_region(drogue_region *out, const options *o, const char *path, const picture *grey)
 {
-    int32_t width, height;
-    if (o->region_given) {
-        *out = o->region;
-    } else {
-        out->x_px = 0;
-        out->y_px = 0;
-        out->width_px = grey->width_px;
-        out->height_px = grey->height_px;
-    }
-    width = overlap(out->x_px, out->width_px, grey->width_px);
-    height = overlap(out->y_px, out->height_px, grey->height_px);
+    const int32_t width = overlap(o->region.x_px, o->region.width_px, grey->width_px);
+    const int32_t height = overlap(o->region.y_px, o->region.height_px, grey->height_px);
+    *out = o->region;
     if (width > DROGUE_MAX_SIDE || height > DROGUE_MAX_SIDE) {
-        return complain(path, "the region is %dx%d pixels, more than %d a side: give %s --roi", width, height,
-                        DROGUE_MAX_SIDE, o->region_given ? "a smaller" : "a");
+        return complain(path, "the region is %dx%d pixels, more than %d a side: give a smaller --roi", width, height,
+                        DROGUE_MAX_SIDE);
     }
     return EXIT_MEASURED;
 }

@@ -14,8 +14,8 @@ static int measure(const options *o, frame_workspace *w, const picture *grey)
     const char *path = o->files[0];
     drogue_region region;
     drogue_result result;
-    if (frame_region(&region, o, path, grey) || (o->region_given ? frame_measure(&result, w, o, path, grey, &region)
-                                                                 : frame_acquire(&result, &region, w, o, path, grey))) {
+    if (o->region_given ? frame_region(&region, o, path, grey) || frame_measure(&result, w, o, path, grey, &region)
+                        : frame_acquire(&result, &region, w, o, path, grey)) {
         return EXIT_BAD;
     }
     if (o->json) {

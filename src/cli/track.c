@@ -25,7 +25,7 @@ static int begin_sequence(sequence *s, const char *path, const picture *grey)
 {
     drogue_track_config config;
     drogue_region first;
-    if (frame_region(&first, s->o, path, grey)) {
+    if (s->o->region_given && frame_region(&first, s->o, path, grey)) {
         return EXIT_BAD;
     }
     drogue_track_config_default(&config);

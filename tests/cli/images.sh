@@ -83,18 +83,25 @@ for image in noise noise_full; do
     run 0 edges $image.png edges.png --low 0 --high 0
 done
 
-# Larger than a region may be.
+# Larger than a region may be: searched, but not measured as a whole.
 for image in wide large; do
-    run 2 measure $image.png $camera
-    says 'give a --roi'
-    run 2 track $image.png $camera
-    says 'give a --roi'
+    run 1 measure $image.png $camera --json
+    same "$(json status)" '"no_ellipse"'
+    run 1 track $image.png $camera
     run 2 edges $image.png edges.png --low 40 --high 100
     says '2048'
     run 1 measure $image.png $camera --roi 0,0,2048,1 --overlay over.png
     run 2 measure $image.png $camera --roi 0,0,2049,1
     says 'smaller'
 done
+
+for image in widest tallest; do
+    run 2 measure $image.png $camera
+    says 'give a --roi'
+    run 2 track $image.png $camera
+    says 'give a --roi'
+done
+run 1 measure widest.png $camera --roi 100,0,100,1
 
 # The same colours in another kind of file give the same answer.
 run 0 measure scene.png $camera $roi --drogue 0.35,0.175,0.02 --json

@@ -227,6 +227,8 @@ int main(int argc, char **argv)
     write_level("wide.png", 10, 10000, 1);
     write_level("tall.png", 10, 1, 2048);
     write_level("large.png", 10, 2049, 20);
+    write_level("widest.png", 10, 32768, 1);
+    write_level("tallest.png", 10, 1, 32768);
     write_noise("noise.png", 256, 200);
     write_noise("noise_full.png", 2048, 2048);
     write_step("step.png", 40, 30);

@@ -242,7 +242,7 @@ START_TEST(refusals)
 }
 END_TEST
 
-/* Everything that finds and follows a drogue in frames. */
+/* Everything that finds and follows a drogue in frames; frames may be wider than a region. */
 typedef struct rig {
     test_workspace workspace;
     test_search search;
@@ -252,9 +252,10 @@ typedef struct rig {
 
 static rig new_rig(const frame *f)
 {
+    const uint32_t side = (uint32_t)(f->width < DROGUE_MAX_SIDE ? f->width : DROGUE_MAX_SIDE);
     rig r;
-    r.workspace = test_workspace_of((uint32_t)f->width, (uint32_t)DROGUE_EDGES_FOR(f->width),
-                                    (uint32_t)DROGUE_LABELS_FOR(f->width), (uint32_t)DROGUE_ARCS_FOR(f->width));
+    r.workspace = test_workspace_of(side, (uint32_t)DROGUE_EDGES_FOR(side), (uint32_t)DROGUE_LABELS_FOR(side),
+                                    (uint32_t)DROGUE_ARCS_FOR(side));
     r.search = new_search(f->width);
     drogue_config_default(&r.config);
     r.camera = camera_for(f);
@@ -297,6 +298,30 @@ START_TEST(acquire_measures_what_it_finds)
                                         &image, &outside),
                          DROGUE_E_REGION);
         ck_assert_int_eq(result.status, DROGUE_E_REGION);
+        free_rig(&r);
+        free(f.pixels);
+    }
+}
+END_TEST
+
+START_TEST(frames_larger_than_a_region)
+{
+    int with;
+    for (with = 0; with < 2; with++) {
+        const double centre[3] = {-4, 0.1, 4};
+        frame f = new_frame(DROGUE_MAX_SIDE + 300, 600, 210, 3);
+        rig r = new_rig(&f);
+        const drogue_image image = image_of(&f);
+        const drogue_region part = {0, 0, DROGUE_MAX_SIDE + 1, 600};
+        drogue_result result;
+        if (with) {
+            (void)draw_drogue(&f, centre, 0.2, -0.15, &all_shades[0]);
+        }
+        ck_assert_int_eq(drogue_acquire(&result, &r.search.search, &r.workspace.workspace, &r.config, &r.camera, &model,
+                                        &image, &part),
+                         with ? DROGUE_OK : DROGUE_E_NO_ELLIPSE);
+        MUST(!with || fabs(real_of_q16(result.pose.position_m_q16[0]) - centre[0]) < 0.005, "x %g",
+             real_of_q16(result.pose.position_m_q16[0]));
         free_rig(&r);
         free(f.pixels);
     }
@@ -437,5 +462,5 @@ START_TEST(what_shows_no_inner_part_is_reconsidered)
 END_TEST
 
 SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
-           any_size_of_frame, refusals, acquire_measures_what_it_finds, track_frames, first_region_then_anywhere,
-           a_refused_configuration_finds_nothing, what_shows_no_inner_part_is_reconsidered)
+           any_size_of_frame, refusals, acquire_measures_what_it_finds, frames_larger_than_a_region, track_frames,
+           first_region_then_anywhere, a_refused_configuration_finds_nothing, what_shows_no_inner_part_is_reconsidered)
