@@ -4,8 +4,9 @@
 # area/stat there has the counts of each module.
 # Operators are flattened into the functions: as modules of their own, a thousand and more, they would be mapped one by one,
 # a shift by a constant to LUTs. Each function's datapath and each controller is then mapped by a yosys of its own, the
-# others being black boxes: no pass of this flow works across modules, but some look at the whole design once a module, and
-# the larger tops would not come to an end.
+# others being black boxes: no pass of this flow works across modules, but some look at the whole design once a module.
+# And synth_xilinx goes without its pass 'share', which asks a SAT solver of every two operators whether both are ever in
+# use at once. With either the larger tops would not come to an end.
 # usage: area.sh NAME      patience with a module: DROGUE_HLS_TIMEOUT_S
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -37,7 +38,9 @@ for i in "${!modules[@]}"; do
 done
 run "$split; select -clear; blackbox; write_rtlil black.il" split.log
 for i in "${!modules[@]}"; do
-    printf '%s\0%s.log\0' "read_rtlil black.il; read_rtlil $i.il; synth_xilinx -noiopad -noclkbuf -top ${modules[i]}
+    synth="synth_xilinx -noiopad -noclkbuf -top ${modules[i]} -run"
+    printf '%s\0%s.log\0' "read_rtlil black.il; read_rtlil $i.il; $synth begin:coarse
+        techmap -map +/cmp2lut.v -map +/cmp2lcu.v -D LUT_WIDTH=6; alumacc; opt; memory -nomap; opt_clean; $synth map_memory:
         select ${modules[i]}; write_rtlil -selected $i.mapped.il" "$i"
 done | xargs -0 -n 2 -P "$(nproc)" bash -c 'run "$@"' run 2>/dev/null
 whole=
