@@ -374,7 +374,8 @@ START_TEST(track_frames)
 }
 END_TEST
 
-/* A first region that holds nothing does not keep a lost track from finding the drogue elsewhere. */
+/* A first region that holds nothing does not keep a lost track from finding the drogue elsewhere; a configuration that was
+ * refused does. */
 START_TEST(first_region_then_anywhere)
 {
     const drogue_region first = {0, 0, 100, 100};
@@ -382,41 +383,23 @@ START_TEST(first_region_then_anywhere)
     frame f = new_frame(640, 480, 210, 3);
     rig r = new_rig(&f);
     const drogue_image image = image_of(&f);
-    drogue_track_config config;
-    drogue_track t;
-    drogue_result result;
-    drogue_region region;
+    int refused;
     (void)draw_drogue(&f, centre, 0.1, 0.1, &all_shades[0]);
-    drogue_track_config_default(&config);
-    (void)drogue_track_init(&t, &config, &r.camera, &model, &first);
-    ck_assert_int_eq(
-        drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search, &r.config, &image, 40000),
-        DROGUE_TRACKING);
-    ck_assert_int_eq(memcmp(&region, &first, sizeof first), 0);
-    free_rig(&r);
-    free(f.pixels);
-}
-END_TEST
-
-START_TEST(a_refused_configuration_finds_nothing)
-{
-    const drogue_region first = {75, 75, 150, 150};
-    const double centre[3] = {0.5, 0.2, 5};
-    frame f = new_frame(640, 480, 210, 3);
-    rig r = new_rig(&f);
-    const drogue_image image = image_of(&f);
-    drogue_track_config config;
-    drogue_track t;
-    drogue_result result;
-    drogue_region region;
-    (void)draw_drogue(&f, centre, 0.1, 0.1, &all_shades[0]);
-    drogue_track_config_default(&config);
-    config.gate_q16 = -1;
-    ck_assert_int_eq(drogue_track_init(&t, &config, &r.camera, &model, &first), DROGUE_E_ARGUMENT);
-    ck_assert_int_eq(
-        drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search, &r.config, &image, 40000),
-        DROGUE_LOST);
-    ck_assert_int_eq(result.status, DROGUE_E_ARGUMENT);
+    for (refused = 0; refused < 2; refused++) {
+        drogue_track_config config;
+        drogue_track t;
+        drogue_result result;
+        drogue_region region;
+        drogue_track_config_default(&config);
+        config.gate_q16 = refused ? -1 : config.gate_q16;
+        ck_assert_int_eq(drogue_track_init(&t, &config, &r.camera, &model, &first),
+                         refused ? DROGUE_E_ARGUMENT : DROGUE_OK);
+        ck_assert_int_eq(drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search, &r.config,
+                                            &image, 40000),
+                         refused ? DROGUE_LOST : DROGUE_TRACKING);
+        ck_assert_int_eq(result.status, refused ? DROGUE_E_ARGUMENT : DROGUE_OK);
+        ck_assert_int_eq(memcmp(&region, &first, sizeof first) == 0, !refused);
+    }
     free_rig(&r);
     free(f.pixels);
 }
@@ -463,4 +446,4 @@ END_TEST
 
 SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
            any_size_of_frame, refusals, acquire_measures_what_it_finds, frames_larger_than_a_region, track_frames,
-           first_region_then_anywhere, a_refused_configuration_finds_nothing, what_shows_no_inner_part_is_reconsidered)
+           first_region_then_anywhere, what_shows_no_inner_part_is_reconsidered)
