@@ -88,8 +88,5 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     if (most > 0 && best < search->count) { /* again, so that the workspace holds its points */
         (void)drogue_measure(out, workspace, config, camera, model, image, &search->best[best].region);
     }
-    if (out->status == DROGUE_E_REGION) { /* the part as a whole is more than can be measured: it was searched */
-        out->status = DROGUE_E_NO_ELLIPSE;
-    }
     return out->status;
 }

@@ -53,5 +53,11 @@ awk -v name="$name" '
     /design hierarchy/ { whole = 1 } # after the modules one by one
     !whole { next }
     /^ +LUT[1-6] / { lut += $2 } /^ +FD[CPRS]E / { ff += $2 } /^ +DSP48E1 / { dsp += $2 }
-    /^ +RAMB18E1 / { bram += $2 } /^ +RAMB36E1 / { bram += 2 * $2 } /^ +(RAM(32|64|128|256)|SRL)/ { lutram += $2 }
-    END { printf "area of %s: LUT=%d FF=%d DSP=%d BRAM18=%d LUTRAM=%d\n", name, lut, ff, dsp, bram, lutram }' stat
+    /^ +RAMB18E1 / { bram += $2 } /^ +RAMB36E1 / { bram += 2 * $2 }
+    # LUTs that these take
+    /^ +(SRL16E|SRLC32E|RAM(32|64)X1S) / { lutram += $2 } /^ +(RAM(32|64)X1D|RAM128X1S) / { lutram += 2 * $2 }
+    /^ +(RAM(32|64)M|RAM128X1D|RAM256X1S) / { lutram += 4 * $2 }
+    END {
+        if (!whole) { print "area of " name ": no counts"; exit 1 }
+        printf "area of %s: LUT=%d FF=%d DSP=%d BRAM18=%d LUTRAM=%d\n", name, lut, ff, dsp, bram, lutram
+    }' stat

@@ -39,13 +39,15 @@ expect 1 TIMEOUT "sleep 20"
 yosys() { printf '#!/usr/bin/env bash\n%s\n' "$1" >"$work/yosys" && chmod +x "$work/yosys"; }
 answers="case \$3 in
 *modules*) printf '\n2 modules:\n  f\n  $function\n' >modules ;;
-*'tee -o stat'*) printf '=== f ===\n     LUT2      7\n=== design hierarchy ===\n     LUT2     14\n     LUT6      1\n     FDRE      3\n     RAMB36E1  2\n     DSP48E1   5\n' >stat ;;
+*'tee -o stat'*) printf '=== f ===\n     LUT2      7\n=== design hierarchy ===\n     LUT2     14\n     LUT6      1\n     FDRE      3\n     RAMB36E1  2\n     DSP48E1   5\n     RAM32M    2\n     SRL16E    1\n' >stat ;;
 esac"
 yosys "$answers"
-expect 0 "area of $name: LUT=15 FF=3 DSP=5 BRAM18=4 LUTRAM=0" "$rtl" --area
+expect 0 "area of $name: LUT=15 FF=3 DSP=5 BRAM18=4 LUTRAM=9" "$rtl" --area
 yosys "$answers
 case \$3 in *'-top f'*) exit 1 ;; esac"
 expect 1 "area of $name: yosys did not end well" "$rtl" --area
+yosys "${answers/design hierarchy/f again}"
+expect 1 "area of $name: no counts" "$rtl" --area
 yosys 'sleep 20'
 expect 1 "area of $name: yosys did not end well" "$rtl" --area
 rm -rf "build/hls/bambu/$name"

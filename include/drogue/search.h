@@ -66,10 +66,10 @@ int32_t drogue_search_end(drogue_search *search);
  * first with a pose.
  *
  *  out     as of drogue_measure()
- *  region  where to search; NULL: the whole image. Where its part in the image exceeds DROGUE_MAX_SIDE a side, only
- *          sightings are measured
+ *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not
+ *          measured itself
  *  return  DROGUE_OK; DROGUE_E_ARGUMENT (the image), DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else the
- *          status of the last that was measured, DROGUE_E_NO_ELLIPSE where that exceeds DROGUE_MAX_SIDE
+ *          status of the last, DROGUE_E_REGION where the part itself is too large
  */
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_config *config, const drogue_camera *camera, const drogue_model *model,

@@ -59,8 +59,8 @@ typedef struct drogue_track_config {
 
 void drogue_track_config_default(drogue_track_config *config);
 
-/* 1 when no standard deviation, gate or scale is negative, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and
- * agree_frames and region_scale_q16 are above 0. */
+/* 1 when agree_frames and region_scale_q16 are above 0, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and
+ * nothing else is negative. */
 int drogue_track_config_valid(const drogue_track_config *config);
 
 typedef struct drogue_track {
@@ -101,7 +101,8 @@ typedef struct drogue_track_estimate {
  *  first_region  to be searched until something is found; NULL: the whole frame
  *
  * Returns DROGUE_OK, or DROGUE_E_ARGUMENT when drogue_track_config_valid() refuses the configuration: the track is then
- * all zero, and drogue_track_frame() stays lost with the same status. Camera and model are examined frame by frame. */
+ * all zero, not to be used; drogue_track_frame() stays lost with it, as without a camera nothing is measured. Camera and
+ * model are examined frame by frame. */
 drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *config, const drogue_camera *camera,
                                 const drogue_model *model, const drogue_region *first_region);
 

@@ -50,13 +50,14 @@ void frame_workspace_free(frame_workspace *w)
 }
 
 /* Room to search a picture and to measure any part of it that the library takes. */
-static int fit_whole(frame_workspace *w, const char *path, const picture *grey)
+static int fit_whole(frame_workspace *w, const options *o, const char *path, const picture *grey)
 {
     const int32_t width = grey->width_px < DROGUE_MAX_SIDE ? grey->width_px : DROGUE_MAX_SIDE;
     const int32_t height = grey->height_px < DROGUE_MAX_SIDE ? grey->height_px : DROGUE_MAX_SIDE;
-    const size_t bytes = DROGUE_SEARCH_BYTES(grey->width_px);
+    const int32_t widest = grey->width_px < INT16_MAX ? grey->width_px : INT16_MAX; /* wider ones are not searched */
+    const size_t bytes = DROGUE_SEARCH_BYTES(widest);
     drogue_config config;
-    if (grey->width_px > INT16_MAX || grey->height_px > INT16_MAX) {
+    if (!o->region_given && (grey->width_px > INT16_MAX || grey->height_px > INT16_MAX)) {
         return complain(path, "%dx%d pixels are not searched, %d a side are the most: give a --roi", grey->width_px,
                         grey->height_px, INT16_MAX);
     }
@@ -69,7 +70,7 @@ static int fit_whole(frame_workspace *w, const char *path, const picture *grey)
         if (w->search_memory == NULL) {
             return complain(path, "out of memory");
         }
-        (void)drogue_search_init(&w->search, w->search_memory, bytes, grey->width_px);
+        (void)drogue_search_init(&w->search, w->search_memory, bytes, widest);
     }
     return EXIT_MEASURED;
 }
@@ -126,7 +127,7 @@ int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w,
     drogue_image image = frame_image(grey);
     drogue_config config;
     drogue_config_default(&config);
-    if (fit_whole(w, path, grey)) {
+    if (fit_whole(w, o, path, grey)) {
         return EXIT_BAD;
     }
     (void)drogue_acquire(out, &w->search, &w->workspace, &config, &o->camera, &o->model, &image, NULL);
@@ -140,7 +141,7 @@ int frame_track(drogue_result *out, drogue_region *region, drogue_track *track, 
     drogue_image image = frame_image(grey);
     drogue_config config;
     drogue_config_default(&config);
-    if (fit_whole(w, path, grey)) {
+    if (fit_whole(w, o, path, grey)) {
         return EXIT_BAD;
     }
     (void)drogue_track_frame(out, region, track, &w->workspace, &w->search, &config, &image, o->frame_us);

@@ -39,7 +39,7 @@ int frame_region(drogue_region *out, const options *o, const char *path, const p
 /* Search one whole frame and measure what is found.
  *
  *  region  out, where it was measured; the whole image when nothing was
- *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory or the image exceeds 32767 a side
+ *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory or an image of more than 32767 a side has no --roi
  */
 int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w, const options *o, const char *path,
                   const picture *grey);
@@ -47,14 +47,14 @@ int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w,
 /* One frame of a track.
  *
  *  region  out, asked for; where it was measured when the whole image was searched
- *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory or the image exceeds 32767 a side
+ *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory or an image of more than 32767 a side has no --roi
  */
 int frame_track(drogue_result *out, drogue_region *region, drogue_track *track, frame_workspace *w, const options *o,
                 const char *path, const picture *grey);
 
 /* Measure one frame; what the library found, or why it found nothing, is in the result.
  *
- *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory or the image exceeds 32767 a side
+ *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory
  */
 int frame_measure(drogue_result *out, frame_workspace *w, const options *o, const char *path, const picture *grey,
                   const drogue_region *region);

@@ -36,8 +36,8 @@ static const char USAGE[] =
     "\n"
     "Pixel (0, 0) is the centre of the top-left pixel, x right, y down. Camera frame: x right, y down, z forward.\n"
     "The axis points from the rim into the drogue; yaw = atan2(x, z), pitch = asin(y) of the axis.\n"
-    "The part of a region inside the image is at most 2048 pixels a side. Numbers are decimal, such as 1465.5 or "
-    "-4.35e-1.\n"
+    "The part of a region inside the image is at most 2048 pixels a side, an image without --roi 32767. Numbers are\n"
+    "decimal, such as 1465.5 or -4.35e-1.\n"
     "\n"
     "Exit code: 0 measured, 1 nothing measurable (the status says why), 2 bad usage, unreadable input or\n"
     "unwritable output.\n";

@@ -13,8 +13,9 @@
 enum {
     LEAST_WIDTH = 640,    /* canvas pixels: room for the words */
     MOST_ENLARGED = 2048, /* canvas pixels: no image is enlarged beyond */
-    MOST_WHOLE = 1600,    /* a longer side is cropped about a region that was asked for */
+    MOST_WHOLE = 1600,    /* a longer side is cropped about the region, where that is a part of the image */
     MOST_CROPPED = 3200,
+    MOST_WORD_SCALE = 5, /* canvas pixels a font pixel */
     ELLIPSE_SIDES = 360,
     AXIS_STEPS = 8,
     WORD_LINES = 6
@@ -51,13 +52,14 @@ static void crop(int32_t *first, int32_t *size, int32_t start, int32_t region_si
     *first = start - margin < 0 ? 0 : smaller(start - margin, limit - *size);
 }
 
-static void choose_part(view *v, const options *o, const picture *grey, const drogue_region *region)
+static void choose_part(view *v, const picture *grey, const drogue_region *region)
 {
     v->x_px = 0;
     v->y_px = 0;
     v->width_px = grey->width_px;
     v->height_px = grey->height_px;
-    if (o->region_given && (grey->width_px > MOST_WHOLE || grey->height_px > MOST_WHOLE)) {
+    if ((grey->width_px > MOST_WHOLE || grey->height_px > MOST_WHOLE) && region->width_px > 0 &&
+        (region->width_px < grey->width_px || region->height_px < grey->height_px)) {
         crop(&v->x_px, &v->width_px, region->x_px, region->width_px, grey->width_px);
         crop(&v->y_px, &v->height_px, region->y_px, region->height_px, grey->height_px);
     }
@@ -74,7 +76,7 @@ static int make_canvas(view *v, const char *path, const picture *grey)
     int32_t width = v->width_px * v->scale;
     int32_t x, y;
     width = width < LEAST_WIDTH ? LEAST_WIDTH : width;
-    v->word_scale = width / LEAST_WIDTH + 1;
+    v->word_scale = smaller(width / LEAST_WIDTH + 1, MOST_WORD_SCALE);
     if (picture_create(&v->canvas, path, width, v->height_px * v->scale + (WORD_LINES + 1) * line_height(v), 3)) {
         return EXIT_BAD;
     }
@@ -264,7 +266,7 @@ int overlay_write(const char *path, const options *o, const picture *grey, const
 {
     view v;
     int code;
-    choose_part(&v, o, grey, region);
+    choose_part(&v, grey, region);
     if (make_canvas(&v, path, grey)) {
         return EXIT_BAD;
     }

@@ -59,6 +59,10 @@ json() {
     "$json_check" "$1" <out || fail "no $1 in the output"
 }
 
+png_side() { # FILE OFFSET
+    od -A n -t u1 -j "$2" -N 4 "$1" | awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4 }'
+}
+
 # near VALUE EXPECTED TOLERANCE
 near() {
     checks=$((checks + 1))

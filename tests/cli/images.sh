@@ -85,9 +85,10 @@ done
 
 # Larger than a region may be: searched, but not measured as a whole.
 for image in wide large; do
-    run 1 measure $image.png $camera --json
-    same "$(json status)" '"no_ellipse"'
+    run 1 measure $image.png $camera --json --overlay over.png
+    same "$(json status)" '"region"'
     run 1 track $image.png $camera
+    same "$(json raw.status)" '"region"'
     run 2 edges $image.png edges.png --low 40 --high 100
     says '2048'
     run 1 measure $image.png $camera --roi 0,0,2048,1 --overlay over.png
@@ -102,6 +103,12 @@ for image in widest tallest; do
     says 'give a --roi'
 done
 run 1 measure widest.png $camera --roi 100,0,100,1
+run 1 track widest.png $camera --roi 100,0,100,1
+run 0 measure scene_large.png $camera --drogue 0.35,0.175,0.02 --json --overlay over.png
+near "$(json ellipse.xc)" 2241.25 0.02
+near "$(json ellipse.yc)" 118.5 0.02
+[ "$(png_side over.png 16)" -lt 1600 ] || fail 'the overlay of a large image is not cropped about what was found'
+run 0 track scene_large.png $camera --drogue 0.35,0.175,0.02 --overlay over.png
 
 # The same colours in another kind of file give the same answer.
 run 0 measure scene.png $camera $roi --drogue 0.35,0.175,0.02 --json

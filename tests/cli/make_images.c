@@ -12,6 +12,7 @@ enum {
     SCENE_WIDTH = 320,
     SCENE_HEIGHT = 240,
     SCENE_RADIUS = 80,
+    LARGE_WIDTH = 2400,
     TRACK_FRAMES = 16,
     TRACK_SEEN = 4,
     TRACK_STEP_PX = 2,
@@ -158,6 +159,19 @@ static uint8_t *draw_against(int x16, int y16, int left, int right)
     return grey;
 }
 
+/* The scene at the right end of an image wider than a region may be. */
+static void write_large_scene(const char *name, const uint8_t *scene)
+{
+    uint8_t *grey = allocate(LARGE_WIDTH, SCENE_HEIGHT);
+    int y;
+    memset(grey, 205, (size_t)LARGE_WIDTH * SCENE_HEIGHT);
+    for (y = 0; y < SCENE_HEIGHT; y++) {
+        memcpy(grey + (y + 1) * LARGE_WIDTH - SCENE_WIDTH, scene + y * SCENE_WIDTH, SCENE_WIDTH);
+    }
+    write_grey(name, grey, LARGE_WIDTH, SCENE_HEIGHT);
+    free(grey);
+}
+
 static uint8_t *draw_scene(int x16, int y16) { return draw_against(x16, y16, 205, 205); }
 
 static void write_scenes(void)
@@ -165,6 +179,7 @@ static void write_scenes(void)
     uint8_t *grey = draw_scene(16 * 161 + 4, 16 * 118 + 8);
     int i;
     write_grey("scene.png", grey, SCENE_WIDTH, SCENE_HEIGHT);
+    write_large_scene("scene_large.png", grey);
     write_as("scene_grey16.png", grey, SCENE_WIDTH, SCENE_HEIGHT, PNG_COLOR_TYPE_GRAY, 16, PNG_INTERLACE_NONE);
     write_as("scene_grey_alpha.png", grey, SCENE_WIDTH, SCENE_HEIGHT, PNG_COLOR_TYPE_GRAY_ALPHA, 8, PNG_INTERLACE_NONE);
     write_as("scene_rgb.png", grey, SCENE_WIDTH, SCENE_HEIGHT, PNG_COLOR_TYPE_RGB, 8, PNG_INTERLACE_ADAM7);

@@ -133,9 +133,6 @@ run 1 measure 'quote".png' $camera --json
 same "$(json image)" '"quote\".png"'
 
 # The overlay is another picture for what was found, wide enough to read, and the answer is the same.
-png_side() { # FILE OFFSET
-    od -A n -t u1 -j "$2" -N 4 "$1" | awk '{ print (($1 * 256 + $2) * 256 + $3) * 256 + $4 }'
-}
 run 0 measure scene.png $camera $roi $model --json
 cp out first
 run 0 measure scene.png $camera $roi $model --json --overlay found.png
