@@ -98,11 +98,11 @@ typedef struct drogue_track_estimate {
 
 /* Start lost.
  *
- *  first_region  to be searched until something is found; NULL: the whole frame
- *
- * Returns DROGUE_OK, or DROGUE_E_ARGUMENT when drogue_track_config_valid() refuses the configuration: the track is then
- * all zero, not to be used; drogue_track_frame() stays lost with it, as without a camera nothing is measured. Camera and
- * model are examined frame by frame. */
+ *  camera, model  examined frame by frame, by drogue_measure()
+ *  first_region   to be searched until something is found; NULL: the whole frame
+ *  return         DROGUE_OK; DROGUE_E_ARGUMENT when drogue_track_config_valid() refuses the configuration: the track is
+ *                 all zero then, not to be used. drogue_track_frame() stays lost with it: it has no camera
+ */
 drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *config, const drogue_camera *camera,
                                 const drogue_model *model, const drogue_region *first_region);
 

@@ -39,7 +39,7 @@ int frame_region(drogue_region *out, const options *o, const char *path, const p
 /* Search one whole frame and measure what is found.
  *
  *  region  out, where it was measured; the whole image when nothing was
- *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory or an image of more than 32767 a side has no --roi
+ *  return  EXIT_MEASURED, or EXIT_BAD after a complaint: no memory, or more than 32767 pixels a side and no --roi
  */
 int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w, const options *o, const char *path,
                   const picture *grey);
@@ -47,7 +47,7 @@ int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w,
 /* One frame of a track.
  *
  *  region  out, asked for; where it was measured when the whole image was searched
- *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory or an image of more than 32767 a side has no --roi
+ *  return  EXIT_MEASURED, or EXIT_BAD after a complaint: no memory, or more than 32767 pixels a side and no --roi
  */
 int frame_track(drogue_result *out, drogue_region *region, drogue_track *track, frame_workspace *w, const options *o,
                 const char *path, const picture *grey);

@@ -58,7 +58,7 @@ static void choose_part(view *v, const picture *grey, const drogue_region *regio
     v->y_px = 0;
     v->width_px = grey->width_px;
     v->height_px = grey->height_px;
-    if ((grey->width_px > MOST_WHOLE || grey->height_px > MOST_WHOLE) && region->width_px > 0 &&
+    if ((grey->width_px > MOST_WHOLE || grey->height_px > MOST_WHOLE) &&
         (region->width_px < grey->width_px || region->height_px < grey->height_px)) {
         crop(&v->x_px, &v->width_px, region->x_px, region->width_px, grey->width_px);
         crop(&v->y_px, &v->height_px, region->y_px, region->height_px, grey->height_px);
