@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Sourced, in the project's folder: reads hls/tops.txt.
 
+. src/sources.sh
+
 tops_list() { sed -E '/^#|^ *$/d; s/ *\| */|/g; s/ +$//' "${DROGUE_HLS_TOPS:-hls/tops.txt}"; }
 
 all_tops() { tops_list | cut -d'|' -f1; }

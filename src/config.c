@@ -30,7 +30,7 @@ void drogue_config_default(drogue_config *config)
     config->min_cover_q16 = DROGUE_Q16(45, 100);
     config->recentre_cover_q16 = DROGUE_Q16(85, 100);
     config->optics_blur_px_q16 = DROGUE_Q16(6, 10);
-    config->min_dark_area_px = 9;
+    config->min_inner_area_px = 9;
     config->min_inner_contrast = 6;
     config->inner_gate_px_q16 = DROGUE_Q16(15, 10);
     config->inner_gate_q16 = DROGUE_Q16(5, 100);

@@ -178,16 +178,15 @@ static drogue_status find_inner(drogue_result *out, drogue_joint_inner *weighed,
     drogue_ellipse expected[2];
     uint32_t which;
     const uint32_t count = drogue_inner_expect(expected, poses, camera, model, out->region.x_px, out->region.y_px);
-    drogue_status status = drogue_mask_valid(&disc)
-                               ? drogue_dark_disc_find(&out->inner, &which, workspace, &f->view, &disc,
-                                                       config->min_dark_area_px, expected, count)
-                               : DROGUE_E_NO_DARK_PART;
+    drogue_status status = drogue_mask_valid(&disc) ? drogue_inner_find(&out->inner, &which, workspace, &f->view, &disc,
+                                                                        config->min_inner_area_px, expected, count)
+                                                    : DROGUE_E_NO_INNER_PART;
     if (status == DROGUE_OK) {
         *nearer = drogue_inner_weigh(weighed, out, &expected[which], &f->outline.ellipse, poses, config, camera, model);
     } else {
         memset(&out->inner, 0, sizeof out->inner);
     }
-    return status == DROGUE_E_NO_DARK_PART ? DROGUE_OK : status;
+    return status == DROGUE_E_NO_INNER_PART ? DROGUE_OK : status;
 }
 
 static drogue_status measure(drogue_result *out, drogue_workspace *workspace, const drogue_config *config,

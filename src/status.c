@@ -17,7 +17,7 @@ const char *drogue_status_name(drogue_status status)
     case DROGUE_E_NO_ELLIPSE: return "no_ellipse";
     case DROGUE_E_TOO_FEW_POINTS: return "too_few_points";
     case DROGUE_E_DEGENERATE: return "degenerate";
-    case DROGUE_E_NO_DARK_PART: return "no_dark_part";
+    case DROGUE_E_NO_INNER_PART: return "no_inner_part";
     case DROGUE_E_DOMAIN: return "domain";
     case DROGUE_E_BEHIND_CAMERA: return "behind_camera";
     case DROGUE_STATUS_COUNT: break;

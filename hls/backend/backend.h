@@ -60,7 +60,7 @@ typedef struct drogue_hls_parameters {
     R(MIN_COVER, drogue_q16, config.min_cover_q16)                 \
     R(RECENTRE_COVER, drogue_q16, config.recentre_cover_q16)       \
     R(OPTICS_BLUR, drogue_q16, config.optics_blur_px_q16)          \
-    R(MIN_DARK_AREA, uint32_t, config.min_dark_area_px)            \
+    R(MIN_DARK_AREA, uint32_t, config.min_inner_area_px)            \
     R(MIN_INNER_CONTRAST, int32_t, config.min_inner_contrast)      \
     R(INNER_GATE_PX, drogue_q16, config.inner_gate_px_q16)         \
     R(INNER_GATE, drogue_q16, config.inner_gate_q16)               \
@@ -184,14 +184,14 @@ void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_co
                         const uint64_t arcs[DROGUE_HLS_ARCS], uint32_t arc_count, uint32_t frontend_status,
                         const int32_t parameters[DROGUE_HLS_PARAMETERS], int32_t outline[DROGUE_HLS_OUTLINE_WORDS]);
 
-/* From the outline and the dark part to the pose and its covariance.
+/* From the outline and the inner part to the pose and its covariance.
  *
  *  dark    not looked at when DISC is empty or INNER_RADIUS 0
  *  result, covariance, std  all words are written in every case; 0 where there is nothing to say, AMBIGUITY 1
  *  STATUS  drogue_measure()'s
  */
 void drogue_hls_pose(const int32_t parameters[DROGUE_HLS_PARAMETERS], const int32_t outline[DROGUE_HLS_OUTLINE_WORDS],
-                     const int32_t dark[DROGUE_HLS_DARK_WORDS], int32_t result[DROGUE_HLS_RESULT_WORDS],
+                     const int32_t dark[DROGUE_HLS_INNER_WORDS], int32_t result[DROGUE_HLS_RESULT_WORDS],
                      int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS], int64_t std[DROGUE_HLS_STD_WORDS]);
 
 /* Stages alone, to prove and to measure them. */

@@ -180,17 +180,17 @@ static inline void frame_find_outline(frame *f)
     frame_put_outline(f, poses, discs, &disc);
 }
 
-/* The dark disc, where the outline says. */
-static inline void frame_find_dark(int32_t dark[DROGUE_HLS_DARK_WORDS], const frame *f)
+/* The inner disc, where the outline says. */
+static inline void frame_find_inner(int32_t dark[DROGUE_HLS_INNER_WORDS], const frame *f)
 {
     const drogue_ellipse expected[2] = {drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED),
                                         drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5)};
     drogue_workspace workspace = f->workspace;
     drogue_mask disc;
-    drogue_dark_part part;
+    drogue_inner_part part;
     drogue_status status;
     uint32_t which = 0;
-    memset(dark, 0, DROGUE_HLS_DARK_WORDS * sizeof *dark);
+    memset(dark, 0, DROGUE_HLS_INNER_WORDS * sizeof *dark);
     memset(&part, 0, sizeof part);
     disc.centre2_x = f->words[DROGUE_HLS_O_DISC];
     disc.centre2_y = f->words[DROGUE_HLS_O_DISC + 1];
@@ -199,9 +199,9 @@ static inline void frame_find_dark(int32_t dark[DROGUE_HLS_DARK_WORDS], const fr
         dark[DROGUE_HLS_D_STATUS] = DROGUE_E_ARGUMENT; /* which nobody is to look at */
         return;
     }
-    status = drogue_dark_disc_find(&part, &which, &workspace, &f->view, &disc, f->p.config.min_dark_area_px, expected,
-                                   (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT]);
-    bench_put_dark(dark, (uint32_t)status, &part, which);
+    status = drogue_inner_find(&part, &which, &workspace, &f->view, &disc, f->p.config.min_inner_area_px, expected,
+                               (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT]);
+    bench_put_inner(dark, (uint32_t)status, &part, which);
 }
 
 #endif

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* src/near.c for hardware: the same steps, but a turn of the loop takes each of them once, on one point each, so that
+/* src/outline/near.c for hardware: the same steps, but a turn of the loop takes each of them once, on one point each, so that
  * it lasts as long as the longest step and not as long as all. The steps run from the last to the first: they are
  * independent within a turn. A point that a step refuses goes on, its mark 'held' taken away: with u = v = 0 when it is
  * far off, with F = 0 when F is, so that no step overflows; n^2 may then be up to 4.5. Both loops write the steps out: a
  * function of two callers Bambu does not take in, which makes 11 states and calls of a turn instead of 6. */
-#include "../../src/near.h"
+#include "../../src/outline/near.h"
 
 #include <string.h>
 
-#include "../../src/band.h"
+#include "../../src/outline/band.h"
 #include "../drogue_hls.h"
 
 typedef char indices_fit_16_bits[DROGUE_HLS_EDGES <= 65536 ? 1 : -1];

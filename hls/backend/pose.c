@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Top: outline and dark part in, pose and covariance out. The same calls as drogue_measure() makes. */
+/* Top: outline and inner part in, pose and covariance out. The same calls as drogue_measure() makes. */
 #include "backend.h"
 
 #include <string.h>
@@ -29,8 +29,8 @@ static void get_support(drogue_support *support, const int32_t words[DROGUE_HLS_
     support->covered = (uint32_t)words[DROGUE_HLS_O_COVERED];
 }
 
-/* The dark part as a measurement; the index of the expected disc that it is nearest to. */
-static uint32_t get_dark(drogue_dark_part *part, const int32_t words[DROGUE_HLS_DARK_WORDS])
+/* The inner part as a measurement; the index of the expected disc that it is nearest to. */
+static uint32_t get_inner(drogue_inner_part *part, const int32_t words[DROGUE_HLS_INNER_WORDS])
 {
     part->x_px_q16 = words[DROGUE_HLS_D_X];
     part->y_px_q16 = words[DROGUE_HLS_D_Y];
@@ -68,28 +68,28 @@ static void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covariance[DROGU
     std[3] = r->axis_std_rad_q32;
 }
 
-/* Weigh the dark part, if there is one, and decide. */
+/* Weigh the inner part, if there is one, and decide. */
 static drogue_status solve(drogue_result *out, const first_step *f, const drogue_hls_parameters *p,
-                           const int32_t outline[DROGUE_HLS_OUTLINE_WORDS], const int32_t dark[DROGUE_HLS_DARK_WORDS])
+                           const int32_t outline[DROGUE_HLS_OUTLINE_WORDS], const int32_t dark[DROGUE_HLS_INNER_WORDS])
 {
     drogue_joint_inner inner = {0, 0, 0};
     uint32_t nearer = 0;
-    drogue_status status = DROGUE_E_NO_DARK_PART;
+    drogue_status status = DROGUE_E_NO_INNER_PART;
     if (p->model.inner_radius_m_q16 > 0 && outline[DROGUE_HLS_O_DISC + 2] > 0) {
         status = (drogue_status)((uint32_t)dark[DROGUE_HLS_D_STATUS] & DROGUE_HLS_STATUS);
     }
     if (status == DROGUE_OK) {
-        const uint32_t which = get_dark(&out->inner, dark);
+        const uint32_t which = get_inner(&out->inner, dark);
         const drogue_ellipse expected = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED + 5 * which);
         nearer = drogue_inner_weigh(&inner, out, &expected, &f->ellipse, f->poses, &p->config, &p->camera, &p->model);
-    } else if (status != DROGUE_E_NO_DARK_PART) {
+    } else if (status != DROGUE_E_NO_INNER_PART) {
         return status;
     }
     return drogue_decide(out, f->poses, nearer, &f->support, &inner, &p->config, &p->camera, &p->model);
 }
 
 void drogue_hls_pose(const int32_t parameters[DROGUE_HLS_PARAMETERS], const int32_t outline[DROGUE_HLS_OUTLINE_WORDS],
-                     const int32_t dark[DROGUE_HLS_DARK_WORDS], int32_t result[DROGUE_HLS_RESULT_WORDS],
+                     const int32_t dark[DROGUE_HLS_INNER_WORDS], int32_t result[DROGUE_HLS_RESULT_WORDS],
                      int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS], int64_t std[DROGUE_HLS_STD_WORDS])
 {
 #ifndef __BAMBU__ /* registers; the other arrays are memory ports, which is the default */

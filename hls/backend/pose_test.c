@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Test bench of drogue_hls_pose(): front end, outline and dark disc of every frame vector by the library; each word that
+/* Test bench of drogue_hls_pose(): front end, outline and inner disc of every frame vector by the library; each word that
  * the top gives is compared with the library's functions, and the whole with the vector's where that is what the library
  * found at its first look. */
 #include "frame.h"
@@ -8,7 +8,7 @@
 #include <stdio.h>
 
 static int32_t parameters[DROGUE_HLS_PARAMETERS];
-static int32_t dark[DROGUE_HLS_DARK_WORDS];
+static int32_t dark[DROGUE_HLS_INNER_WORDS];
 static int32_t result[DROGUE_HLS_RESULT_WORDS];
 static int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS];
 static int64_t std_q32[DROGUE_HLS_STD_WORDS];
@@ -19,7 +19,7 @@ static void find_pose(frame *f)
     drogue_joint_inner inner = {0, 0, 0};
     drogue_result *r = &f->result;
     drogue_pose poses[2];
-    drogue_status status = DROGUE_E_NO_DARK_PART;
+    drogue_status status = DROGUE_E_NO_INNER_PART;
     uint32_t nearer = 0;
     if (r->status != DROGUE_OK) {
         return;
@@ -40,7 +40,7 @@ static void find_pose(frame *f)
         r->inner.contrast = (uint8_t)dark[DROGUE_HLS_D_CONTRAST];
         nearer = drogue_inner_weigh(&inner, r, &e, &f->outline.ellipse, poses, &f->p.config, &f->p.camera, &f->p.model);
     }
-    r->status = status == DROGUE_E_NO_DARK_PART ? DROGUE_OK : status;
+    r->status = status == DROGUE_E_NO_INNER_PART ? DROGUE_OK : status;
     if (r->status == DROGUE_OK) {
         r->status =
             drogue_decide(r, poses, nearer, &f->outline.support, &inner, &f->p.config, &f->p.camera, &f->p.model);
@@ -190,7 +190,7 @@ int main(void)
         frame_find_outline(&f);
         f.result.ambiguity_q16 = DROGUE_Q16_ONE;
         f.result.region = f.region;
-        frame_find_dark(dark, &f);
+        frame_find_inner(dark, &f);
         call(&f);
         find_pose(&f);
         compare(&b, &f.result);

@@ -43,7 +43,7 @@ if [ $simulated = yes ]; then
     hls/vectors.sh "$name" "${vectors[@]}"
     flags+=(--simulate --simulator=VERILATOR)
     # The test bench is a program apart, with a library of its own, and without the top: that is the RTL.
-    for file in $bench hls/bench/bench.c build/hls/"$name"/cases_*.c src/*.c; do
+    for file in $bench hls/bench/bench.c build/hls/"$name"/cases_*.c $(core_files . '*.c'); do
         flags+=("--generate-tb=$root/$file")
     done
 fi

@@ -6,17 +6,17 @@
 #include <string.h>
 
 #include "bench/bench.h"
-#include "bench/dark.h"
+#include "bench/inner.h"
 #include "bench/sim.h"
 #include "centroid.h"
 #include "drogue/centroid.h"
 
 enum { MOST_PIXELS = DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT, GUARD = 0x5A5A5A5A };
 
-static uint8_t stream[DROGUE_HLS_DARK_PASSES * MOST_PIXELS];
+static uint8_t stream[DROGUE_HLS_INNER_PASSES * MOST_PIXELS];
 
-static const char *const words[DROGUE_HLS_DARK_WORDS] = {"status", "x",         "y",        "area",
-                                                         "spread", "threshold", "contrast", "which"};
+static const char *const words[DROGUE_HLS_INNER_WORDS] = {"status", "x",         "y",        "area",
+                                                          "spread", "threshold", "contrast", "which"};
 
 /* What is asked, of both. */
 typedef struct question {
@@ -36,7 +36,7 @@ static size_t send(const question *q)
     uint8_t *to = stream;
     int32_t pass;
     int32_t y;
-    for (pass = 0; pass < DROGUE_HLS_DARK_PASSES; pass++) {
+    for (pass = 0; pass < DROGUE_HLS_INNER_PASSES; pass++) {
         for (y = 0; y < q->image.height_px; y++, to += width) {
             memcpy(to, drogue_image_row(&q->image, y), width);
         }
@@ -50,16 +50,16 @@ static int fits(const question *q)
            q->image.height_px <= DROGUE_HLS_HEIGHT;
 }
 
-static void ask_block(int32_t dark[DROGUE_HLS_DARK_WORDS], const question *q)
+static void ask_block(int32_t dark[DROGUE_HLS_INNER_WORDS], const question *q)
 {
-    static int32_t out[DROGUE_HLS_DARK_WORDS];
+    static int32_t out[DROGUE_HLS_INNER_WORDS];
     int32_t expected[DROGUE_HLS_DISCS * DROGUE_HLS_ELLIPSE_WORDS];
     const size_t sent = fits(q) ? send(q) : 0;
     int k;
     for (k = 0; k < DROGUE_HLS_DISCS; k++) {
         drogue_hls_pack_ellipse(expected + k * DROGUE_HLS_ELLIPSE_WORDS, &q->expected[k]);
     }
-    for (k = 0; k < DROGUE_HLS_DARK_WORDS; k++) {
+    for (k = 0; k < DROGUE_HLS_INNER_WORDS; k++) {
         out[k] = GUARD; /* all are written */
     }
     SIM_BYTES(0, sent);
@@ -70,31 +70,30 @@ static void ask_block(int32_t dark[DROGUE_HLS_DARK_WORDS], const question *q)
     memcpy(dark, out, sizeof out);
 }
 
-static void ask_library(int32_t dark[DROGUE_HLS_DARK_WORDS], const question *q)
+static void ask_library(int32_t dark[DROGUE_HLS_INNER_WORDS], const question *q)
 {
     static uint32_t memory[DROGUE_WORKSPACE_BYTES(DROGUE_HLS_WIDTH, 1, DROGUE_HLS_LABELS, 1) / 4 + 1];
     const drogue_capacity capacity = {DROGUE_HLS_WIDTH, 1, DROGUE_HLS_LABELS, 1};
     drogue_workspace workspace;
-    drogue_dark_part part;
+    drogue_inner_part part;
     uint32_t which = 0;
     drogue_status status = drogue_workspace_init(&workspace, memory, sizeof memory, &capacity);
     if (status == DROGUE_OK) {
-        status =
-            drogue_dark_disc_find(&part, &which, &workspace, &q->image, &q->disc, q->min_area, q->expected, q->count);
+        status = drogue_inner_find(&part, &which, &workspace, &q->image, &q->disc, q->min_area, q->expected, q->count);
     } else {
         memset(&part, 0, sizeof part);
     }
-    bench_put_dark(dark, status | (status == DROGUE_E_LABELS_FULL ? DROGUE_HLS_DARK_FULL : 0), &part, which);
+    bench_put_inner(dark, status | (status == DROGUE_E_LABELS_FULL ? DROGUE_HLS_INNER_FULL : 0), &part, which);
     answers[status]++;
 }
 
-static void compare(bench *b, int32_t dark[DROGUE_HLS_DARK_WORDS], const question *q)
+static void compare(bench *b, int32_t dark[DROGUE_HLS_INNER_WORDS], const question *q)
 {
-    int32_t expected[DROGUE_HLS_DARK_WORDS];
+    int32_t expected[DROGUE_HLS_INNER_WORDS];
     int k;
     ask_block(dark, q);
     ask_library(expected, q);
-    for (k = 0; k < DROGUE_HLS_DARK_WORDS; k++) {
+    for (k = 0; k < DROGUE_HLS_INNER_WORDS; k++) {
         bench_word(b, words[k], dark[k], expected[k]);
     }
 }

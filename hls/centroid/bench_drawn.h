@@ -96,7 +96,7 @@ static void draw_random(question *q, pattern kind, int32_t most_px)
 /* Two dark rows at the upper border, before anything else: the line buffers hold what they were born with. */
 static void first_call(bench *b)
 {
-    int32_t dark[DROGUE_HLS_DARK_WORDS];
+    int32_t dark[DROGUE_HLS_INNER_WORDS];
     question q;
     memset(&q, 0, sizeof q);
     q.disc = drogue_mask_of_size(DROGUE_HLS_WIDTH, DROGUE_HLS_HEIGHT);
@@ -114,7 +114,7 @@ static void first_call(bench *b)
 static void largest_image(bench *b, pattern kind)
 {
     const unsigned failed = b->failed;
-    int32_t dark[DROGUE_HLS_DARK_WORDS];
+    int32_t dark[DROGUE_HLS_INNER_WORDS];
     question q;
     memset(&q, 0, sizeof q);
     q.disc = drogue_mask_of_size(DROGUE_HLS_WIDTH, DROGUE_HLS_HEIGHT);
@@ -142,7 +142,7 @@ static void random_images(bench *b, unsigned images, int32_t most_px)
         question q;
         memset(&q, 0, sizeof q);
         for (i = 0; i < images; i++) {
-            int32_t dark[DROGUE_HLS_DARK_WORDS];
+            int32_t dark[DROGUE_HLS_INNER_WORDS];
             draw_random(&q, (pattern)kind, most_px);
             compare(b, dark, &q);
         }
@@ -172,7 +172,7 @@ static void full_labels(bench *b)
     }
     for (more = 0; more < 2; more++) {
         const int32_t squares = DROGUE_HLS_LABELS - 1 + more;
-        int32_t dark[DROGUE_HLS_DARK_WORDS];
+        int32_t dark[DROGUE_HLS_INNER_WORDS];
         int32_t i;
         memset(drawn, 200, sizeof drawn);
         for (i = 0; i < 9 * squares; i++) {
@@ -181,7 +181,7 @@ static void full_labels(bench *b)
         }
         compare(b, dark, &q);
         bench_word(b, "status of full labels", dark[DROGUE_HLS_D_STATUS],
-                   more ? (int64_t)(DROGUE_E_LABELS_FULL | DROGUE_HLS_DARK_FULL) : DROGUE_OK);
+                   more ? (int64_t)(DROGUE_E_LABELS_FULL | DROGUE_HLS_INNER_FULL) : DROGUE_OK);
         b->cases++;
     }
 }

@@ -153,35 +153,35 @@ static void take_darkness(const uint8_t *pixels, uint32_t at, int32_t width, int
 static int64_t times(int32_t a, int32_t b) { return (int64_t)((uint64_t)(uint32_t)a * (uint32_t)b); }
 
 /* The part's place by one of the ramps. */
-static drogue_dark_part place(const drogue_dark_part *part, int k, int32_t width, int32_t height,
-                              const drogue_dark_ramp *ramp)
+static drogue_inner_part place(const drogue_inner_part *part, int k, int32_t width, int32_t height,
+                               const drogue_inner_ramp *ramp)
 {
-    drogue_dark_part placed = *part;
-    drogue_dark_sums sums;
+    drogue_inner_part placed = *part;
+    drogue_inner_sums sums;
     sums.sum = totals[k];
     sums.x = times(width, totals[k]) - x_partials[k];
     sums.y = times(height, totals[k]) - y_partials[k];
-    drogue_dark_place(&placed, &sums, ramp);
+    drogue_inner_place(&placed, &sums, ramp);
     return placed;
 }
 
 /* The last two passes: weigh the part, then about the place found, with the three ramps in one pass; by the lower and
  * the upper one the part has a spread. */
-static void weigh(drogue_dark_part *part, const uint8_t *pixels, uint32_t at, int32_t width, int32_t height,
+static void weigh(drogue_inner_part *part, const uint8_t *pixels, uint32_t at, int32_t width, int32_t height,
                   drogue_q16 a_px_q16)
 {
     enum { PASSES = 2, STEPS = PASSES + RAMPS - 1 };
-    drogue_dark_part lower = *part;
-    drogue_dark_part upper = *part;
+    drogue_inner_part lower = *part;
+    drogue_inner_part upper = *part;
     drogue_mask window;
-    drogue_dark_ramp ramp;
+    drogue_inner_ramp ramp;
     int step;
-    drogue_dark_ramp_of(&ramp, part, histogram);
+    drogue_inner_ramp_of(&ramp, part, histogram);
     for (step = 0; step < STEPS; step++) {
         if (step < PASSES) {
-            drogue_dark_window(&window, part, a_px_q16, DROGUE_DARK_NARROW);
+            drogue_inner_window(&window, part, a_px_q16, DROGUE_INNER_NARROW);
             take_darkness(pixels, at, width, height, drogue_hls_disc_left(&window), window.centre2_x, window.centre2_y,
-                          ramp.full, ramp.range, drogue_dark_ramp_step(&ramp));
+                          ramp.full, ramp.range, drogue_inner_ramp_step(&ramp));
             at += (uint32_t)(width * height);
         }
         lower = upper;
@@ -190,18 +190,18 @@ static void weigh(drogue_dark_part *part, const uint8_t *pixels, uint32_t at, in
             *part = upper;
         }
     }
-    part->spread_px_q16 = drogue_dark_distance(&lower, upper.x_px_q16, upper.y_px_q16);
+    part->spread_px_q16 = drogue_inner_distance(&lower, upper.x_px_q16, upper.y_px_q16);
 }
 
 /* All five passes; without a part the last three are taken all the same, for nothing. Each kind of pass is called in one
  * place: one piece of hardware. */
-static uint32_t find(drogue_dark_part *out, uint32_t *which, const uint8_t *pixels, int32_t width, int32_t height,
+static uint32_t find(drogue_inner_part *out, uint32_t *which, const uint8_t *pixels, int32_t width, int32_t height,
                      const drogue_mask *disc, uint32_t min_area, const drogue_ellipse expected[DROGUE_HLS_DISCS],
                      uint32_t count)
 {
     const uint32_t frame = (uint32_t)(width * height);
     drogue_mask window = *disc;
-    drogue_dark_part part = {0, 0, 0, 0, 0, 0};
+    drogue_inner_part part = {0, 0, 0, 0, 0, 0};
     drogue_status status = DROGUE_OK;
     drogue_q16 a_px_q16 = 0;
     uint32_t full = 0;
@@ -219,13 +219,13 @@ static uint32_t find(drogue_dark_part *out, uint32_t *which, const uint8_t *pixe
             at += frame;
             status = drogue_hls_choose_components(&part, which, min_area, expected, count);
             a_px_q16 = expected[*which].a_px_q16;
-            drogue_dark_window(&window, &part, a_px_q16, DROGUE_DARK_WIDE);
+            drogue_inner_window(&window, &part, a_px_q16, DROGUE_INNER_WIDE);
         }
     }
     weigh(&part, pixels, at, width, height, a_px_q16);
     if (full != 0) {
         *which = 0;
-        return DROGUE_E_LABELS_FULL | DROGUE_HLS_DARK_FULL;
+        return DROGUE_E_LABELS_FULL | DROGUE_HLS_INNER_FULL;
     }
     if (status == DROGUE_OK) {
         *out = part;
@@ -242,9 +242,9 @@ static drogue_status check(int32_t width, int32_t height, const drogue_mask *dis
     return width > DROGUE_HLS_WIDTH || height > DROGUE_HLS_HEIGHT ? DROGUE_E_WORKSPACE : DROGUE_OK;
 }
 
-void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_DARK_PASSES * DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
+void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_INNER_PASSES * DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
                          const int32_t expected[DROGUE_HLS_DISCS * DROGUE_HLS_ELLIPSE_WORDS],
-                         int32_t dark[DROGUE_HLS_DARK_WORDS], int32_t width_px, int32_t height_px, int32_t centre2_x,
+                         int32_t dark[DROGUE_HLS_INNER_WORDS], int32_t width_px, int32_t height_px, int32_t centre2_x,
                          int32_t centre2_y, int32_t longest_px, uint32_t min_area, uint32_t count)
 {
 #ifdef __BAMBU__
@@ -262,7 +262,7 @@ void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_DARK_PASSES * DROGUE_HL
 #pragma HLS interface port = count mode = s_axilite
 #pragma HLS interface port = return mode = s_axilite
 #endif
-    drogue_dark_part part = {0, 0, 0, 0, 0, 0};
+    drogue_inner_part part = {0, 0, 0, 0, 0, 0};
     drogue_ellipse discs[DROGUE_HLS_DISCS];
     const drogue_mask disc = {centre2_x, centre2_y, longest_px};
     uint32_t which = 0;

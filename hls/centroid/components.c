@@ -226,9 +226,9 @@ void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, int32_t widt
     *full = r.full;
 }
 
-drogue_status drogue_hls_choose_components(drogue_dark_part *part, uint32_t *which, uint32_t min_area,
+drogue_status drogue_hls_choose_components(drogue_inner_part *part, uint32_t *which, uint32_t min_area,
                                            const drogue_ellipse expected[2], uint32_t count)
 {
-    drogue_dark_join(parent, area, x_sum, y_sum, label_count);
-    return drogue_dark_choose(part, which, area, x_sum, y_sum, label_count, min_area, expected, count);
+    drogue_inner_join(parent, area, x_sum, y_sum, label_count);
+    return drogue_inner_choose(part, which, area, x_sum, y_sum, label_count, min_area, expected, count);
 }

@@ -3,7 +3,7 @@
 #ifndef DROGUE_HLS_COMPONENTS_H
 #define DROGUE_HLS_COMPONENTS_H
 
-#include "../../src/dark_pass.h"
+#include "../../src/inner/pass.h"
 #include "../drogue_hls.h"
 
 /* Next pixel of the stream. It is taken whether its level matters or not: an ordinary load may be moved to where it does. */
@@ -17,8 +17,8 @@ static inline uint8_t drogue_hls_take_pixel(const uint8_t *pixels, uint32_t at)
 void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, int32_t width, int32_t height, int64_t disc_left,
                                 int32_t centre2_x, int32_t centre2_y, uint8_t threshold, uint32_t *full);
 
-/* Choose among them, as drogue_dark_choose(). */
-drogue_status drogue_hls_choose_components(drogue_dark_part *part, uint32_t *which, uint32_t min_area,
+/* Choose among them, as drogue_inner_choose(). */
+drogue_status drogue_hls_choose_components(drogue_inner_part *part, uint32_t *which, uint32_t min_area,
                                            const drogue_ellipse expected[2], uint32_t count);
 
 #endif

@@ -2,7 +2,7 @@
 /* The pure operators of the pixel loops; the formulas are the core's. */
 #include "operators.h"
 
-#include "../../src/dark_pass.h"
+#include "../../src/inner/pass.h"
 #include "../drogue_hls.h"
 
 enum { COLUMN_BITS = 3, WINDOW = 0x1FF };
@@ -25,8 +25,8 @@ uint32_t drogue_hls_dilate(uint32_t window) { return window != 0; }
 
 uint32_t drogue_hls_darkness(uint8_t level, int32_t full, int32_t range, uint32_t in_disc)
 {
-    drogue_dark_ramp ramp;
+    drogue_inner_ramp ramp;
     ramp.full = full;
     ramp.range = range;
-    return (uint32_t)drogue_dark_darkness(level, &ramp) & drogue_hls_when(in_disc != 0);
+    return (uint32_t)drogue_inner_darkness(level, &ramp) & drogue_hls_when(in_disc != 0);
 }

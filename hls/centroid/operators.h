@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The pure operators of the pixel loops: no state, scalars alone, so that a compiler can make a pipelined block of each. */
-#ifndef DROGUE_HLS_DARK_OPERATORS_H
-#define DROGUE_HLS_DARK_OPERATORS_H
+#ifndef DROGUE_HLS_INNER_OPERATORS_H
+#define DROGUE_HLS_INNER_OPERATORS_H
 
 #include <stdint.h>
 

@@ -8,11 +8,11 @@ set sources {
     hls/centroid/centroid.c
     hls/centroid/components.c
     hls/centroid/operators.c
-    src/dark_sums.c
-    src/fixed.c
-    src/label.c
-    src/otsu.c
-    src/wide.c
+    src/arithmetic/fixed.c
+    src/arithmetic/wide.c
+    src/frontend/label.c
+    src/inner/centroid.c
+    src/inner/otsu.c
 }
 set bench {
     hls/centroid/testbench.c

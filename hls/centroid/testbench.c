@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The block against the library, every word: on the vectors of stages disc, centroid and frame, on random images of odd
  * sizes, on patterns that merge or exceed the labels. */
-#include "../../src/dark_pass.h"
+#include "../../src/inner/pass.h"
 #include "bench_drawn.h"
 #include "disc_walk.h"
 #include "drogue/drogue.h"
@@ -27,7 +27,7 @@ static int take_case(question *q, bench *b, const conf_case *c)
 }
 
 /* The vectors' own words hold where the block has room for the region and its labels. */
-static void check_disc(bench *b, const int32_t dark[DROGUE_HLS_DARK_WORDS], const conf_case *c)
+static void check_disc(bench *b, const int32_t dark[DROGUE_HLS_INNER_WORDS], const conf_case *c)
 {
     const int32_t *part = bench_words32(bench_expected(c, "part"));
     const uint32_t status = (uint32_t)dark[DROGUE_HLS_D_STATUS] & DROGUE_HLS_STATUS;
@@ -49,7 +49,7 @@ static void disc_vectors(bench *b)
     const conf_case *c;
     while ((c = bench_next(b, "disc")) != NULL) {
         const conf_array *discs = bench_input(c, "expected");
-        int32_t dark[DROGUE_HLS_DARK_WORDS];
+        int32_t dark[DROGUE_HLS_INNER_WORDS];
         question q;
         uint32_t i;
         if (!take_case(&q, b, c)) {
@@ -70,7 +70,7 @@ static void centroid_vectors(bench *b)
 {
     const conf_case *c;
     while ((c = bench_next(b, "centroid")) != NULL) {
-        int32_t dark[DROGUE_HLS_DARK_WORDS];
+        int32_t dark[DROGUE_HLS_INNER_WORDS];
         question q;
         if (take_case(&q, b, c)) {
             expect_middle(&q);
@@ -97,7 +97,7 @@ static void question_of(question *q, const drogue_result *r, const drogue_camera
 }
 
 /* Where the library's frame has an inner part it is the block's. */
-static void check_frame(bench *b, const int32_t dark[DROGUE_HLS_DARK_WORDS], const conf_case *c,
+static void check_frame(bench *b, const int32_t dark[DROGUE_HLS_INNER_WORDS], const conf_case *c,
                         const drogue_region *region)
 {
     enum { HAS_INNER = 14, INNER_X, INNER_Y, INNER_AREA, INNER_THRESHOLD, INNER_SPREAD };
@@ -121,7 +121,7 @@ static void frame_vectors(bench *b)
         const drogue_model model = bench_model(c);
         const drogue_region region = bench_region(c);
         drogue_image image = bench_image(c);
-        int32_t dark[DROGUE_HLS_DARK_WORDS];
+        int32_t dark[DROGUE_HLS_INNER_WORDS];
         drogue_workspace workspace;
         drogue_config config;
         drogue_result result;
@@ -143,7 +143,7 @@ static void frame_vectors(bench *b)
             bench_skip(b, "larger than DROGUE_HLS_WIDTH or _HEIGHT");
             continue;
         }
-        q.min_area = config.min_dark_area_px;
+        q.min_area = config.min_inner_area_px;
         question_of(&q, &result, &camera, &model);
         compare(b, dark, &q);
         check_frame(b, dark, c, &result.region);
@@ -153,7 +153,7 @@ static void frame_vectors(bench *b)
 /* Arguments out of range: refused, and no pixel taken. */
 static void refusals(bench *b)
 {
-    int32_t dark[DROGUE_HLS_DARK_WORDS];
+    int32_t dark[DROGUE_HLS_INNER_WORDS];
     question q;
     memset(&q, 0, sizeof q);
     draw_random(&q, DISC, 8);
@@ -264,9 +264,9 @@ int main(void)
     refusals(&b);
     disc_by_walk(&b);
     printf("answers: ok %u, no part %u, labels full %u, refused %u\n", answers[DROGUE_OK],
-           answers[DROGUE_E_NO_DARK_PART], answers[DROGUE_E_LABELS_FULL],
+           answers[DROGUE_E_NO_INNER_PART], answers[DROGUE_E_LABELS_FULL],
            answers[DROGUE_E_ARGUMENT] + answers[DROGUE_E_WORKSPACE]);
-    bench_check(&b, "each answer is among them", answers[DROGUE_OK] > 500 && answers[DROGUE_E_NO_DARK_PART] > 50);
+    bench_check(&b, "each answer is among them", answers[DROGUE_OK] > 500 && answers[DROGUE_E_NO_INNER_PART] > 50);
 #endif
     return bench_end(&b);
 }

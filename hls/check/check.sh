@@ -68,7 +68,7 @@ case ${1:-} in
 --needed)
     chosen=$(tops "$2")
     top "$chosen"
-    for file in src/*.c; do
+    for file in $(core_files . '*.c'); do
         [[ " $replaced " == *" $file "* ]] || sources+=" $file"
     done
     # shellcheck disable=SC2086

@@ -144,7 +144,7 @@ def needed(module):
     for line in module.globals:
         for node in re.findall(r"!dbg (!\d+)", line):
             files.add(module.location(module.field(node, "var"))[0])
-    return {file for file in files if re.match(r"src/\w+\.c$", file)}
+    return {file for file in files if re.match(r"src/(\w+/)?\w+\.c$", file)}
 
 
 def sources(module, listed, name, findings):

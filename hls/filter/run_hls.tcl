@@ -5,9 +5,9 @@ set top drogue_hls_filter
 set root ../..
 set sources {
     hls/filter/filter.c
-    src/fixed.c
-    src/kalman.c
-    src/wide.c
+    src/arithmetic/fixed.c
+    src/arithmetic/wide.c
+    src/track/kalman.c
 }
 set bench {
     hls/filter/testbench.c

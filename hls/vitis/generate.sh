@@ -25,7 +25,7 @@ load() {
     local file
     top "$1"
     rest=""
-    for file in src/*.c; do
+    for file in $(core_files . '*.c'); do
         [[ " $core $replaced " == *" $file "* ]] || rest+="${rest:+ }$file"
     done
 }

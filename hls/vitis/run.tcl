@@ -24,7 +24,7 @@ foreach file $sources {
 foreach file $bench {
     add_files -tb $root/$file -cflags $flags
 }
-foreach file [lsort [glob -tails -directory $root src/*.c]] { # the test bench's own copy of what the top does not have
+foreach file [lsort [glob -tails -directory $root src/*.c src/{arithmetic,camera,frontend,inner,outline,pose,search,track}/*.c]] { # the test bench's own copy of what the top does not have
     if {$file ni $sources && $file ni $replaced} {
         add_files -tb $root/$file -cflags $flags
     }

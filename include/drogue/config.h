@@ -39,7 +39,7 @@ typedef struct drogue_config {
                                       in a region about it; 0: never */
     drogue_q16 optics_blur_px_q16; /* 0.6 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
                                       draws a curved edge inward, which is put back (outline.h) */
-    uint32_t min_dark_area_px;     /* 9 px: smaller dark parts are noise */
+    uint32_t min_inner_area_px;    /* 9 px: smaller inner parts are noise */
     int32_t min_inner_contrast;    /* 6 grey levels, [0, 255]: less contrast with its surround is no inner part */
     drogue_q16 inner_gate_px_q16;  /* 1.5 px, 0.05: the inner part is believed when it lies within so many pixels and */
     drogue_q16 inner_gate_q16;     /* this share of the major semi-axis of where a pose expects it */

@@ -58,7 +58,7 @@ typedef struct drogue_result {
     uint32_t refit_points;    /* points in the final fit */
     drogue_q16 cover_q16;     /* edge points that belong to the outline over its circumference, at most 1 */
     int32_t has_inner;        /* 1: an inner part was found and believed: of its size, in its place, with contrast */
-    drogue_dark_part inner;   /* its centroid, as seen; meaningful when has_inner */
+    drogue_inner_part inner;  /* its centroid, as seen; meaningful when has_inner */
     drogue_pose pose;         /* the pose chosen; unresolved: the one nearer to what is dark inside, unproved */
     drogue_pose alternative;  /* the other one that the outline allows */
     int32_t orientation_resolved; /* 1: the inner part decided between the two */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Connected components in one raster pass: a union-find over row labels, used for Canny's hysteresis, for
- * arcs within a direction class and for the dark parts.
+ * arcs within a direction class and for the inner parts.
  *
  * The pixel loop does bounded work a pixel: it looks only at labels of the row above, which are roots, and
  * notes at most one merge. Merges are resolved at the end of the row, in two steps each: no chain is ever followed. */

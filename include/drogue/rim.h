@@ -14,12 +14,12 @@ extern "C" {
 #define DROGUE_SEARCH_ROWS 48    /* rows that a level keeps: two reaches and what a dark disc waits */
 #define DROGUE_SEARCH_PENDING 16 /* dark discs of a level that may still grow with the next row */
 
-typedef struct drogue_dark_disc {
+typedef struct drogue_search_disc {
     int32_t x; /* cells */
     int32_t y;
     int32_t ring_q4;  /* radius of the circle that is brighter, cells Q4; the rim's is about twice as large */
     int32_t contrast; /* grey levels */
-} drogue_dark_disc;
+} drogue_search_disc;
 
 /* Block means of a frame in a ring of rows. */
 typedef struct drogue_search_level {
@@ -27,7 +27,7 @@ typedef struct drogue_search_level {
     int32_t width; /* cells */
     int32_t rows_in;
     int32_t pending_count;
-    drogue_dark_disc pending[DROGUE_SEARCH_PENDING];
+    drogue_search_disc pending[DROGUE_SEARCH_PENDING];
 } drogue_search_level;
 
 static inline const uint8_t *drogue_search_level_row(const drogue_search_level *level, int32_t y)
@@ -47,7 +47,7 @@ typedef struct drogue_rim {
  *  return  score: the square of the number of rays that meet the circle, times the mean contrast of disc and rim; 0
  *          when fewer than 9 of 16 meet it, or it does not suit the disc (out undefined)
  */
-uint32_t drogue_rim_find(drogue_rim *out, const drogue_search_level *level, const drogue_dark_disc *disc);
+uint32_t drogue_rim_find(drogue_rim *out, const drogue_search_level *level, const drogue_search_disc *disc);
 
 #ifdef __cplusplus
 }

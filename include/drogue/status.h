@@ -20,7 +20,7 @@ typedef enum drogue_status {
     DROGUE_E_NO_ELLIPSE,     /* no combination of arcs gives an acceptable ellipse */
     DROGUE_E_TOO_FEW_POINTS, /* fewer than the six points a conic needs */
     DROGUE_E_DEGENERATE,     /* the points do not determine an ellipse */
-    DROGUE_E_NO_DARK_PART,   /* no dark component of the least size */
+    DROGUE_E_NO_INNER_PART,  /* no dark component of the least size */
     DROGUE_E_DOMAIN,         /* a value outside the domain of the function */
     DROGUE_E_BEHIND_CAMERA,  /* the geometry puts the drogue behind the camera */
     DROGUE_STATUS_COUNT

@@ -22,7 +22,7 @@ static const char USAGE[] =
     "                                   semi-axes; may reach past the image. Default: the whole image is searched\n"
     "                                   for a dark disc inside a ring. track: of the first frame, and whenever\n"
     "                                   the track is lost, before the whole image is searched\n"
-    "  --drogue RADIUS[,INNER,DEPTH]    radius of the rim, of the dark inner part, and depth of that part behind\n"
+    "  --drogue RADIUS[,INNER,DEPTH]    radius of the rim, of the inner part, and depth of that part behind\n"
     "                                   the rim, metres. Without INNER,DEPTH both poses that an ellipse allows\n"
     "                                   are given and the orientation stays unresolved. Without --drogue the\n"
     "                                   radius is 1: positions come out in rim radii\n"

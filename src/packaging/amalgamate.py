@@ -40,10 +40,15 @@ class Writer:
         self.text += f'\n/* ==== {path.relative_to(ROOT)} ==== */\n' + INCLUDE.sub('', body)
 
 
+def core(pattern):
+    """Files of the library below src/, the host program's left out."""
+    return sorted(path for path in (ROOT / 'src').rglob(pattern) if 'cli' not in path.parts)
+
+
 def find(name):
-    for folder in (ROOT / 'include', ROOT / 'src'):
-        if (folder / name).exists():
-            return folder / name
+    for path in (ROOT / 'include' / name, *(path for path in core('*.h') if path.name == name)):
+        if path.exists():
+            return path
     sys.exit(f'amalgamate: no file {name}')
 
 
@@ -73,7 +78,7 @@ def own_names(source):
 
 def sources():
     """Text per source, with names made unique."""
-    texts = {path: path.read_text() for path in sorted((ROOT / 'src').glob('*.c'))}
+    texts = {path: path.read_text() for path in core('*.c')}
     words = {path: set(re.findall(r'\w+', text)) for path, text in texts.items()}
     for path in texts:
         elsewhere = set().union(*(words[other] for other in texts if other != path))

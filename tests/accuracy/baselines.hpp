@@ -13,9 +13,9 @@ struct Features {
     Ellipse outer; /* outline of the end plane */
     bool has_inner = false;
     double inner_area_px = 0;
-    cv::Point2d inner_px = {0, 0}; /* centroid of the dark inner part */
+    cv::Point2d inner_px = {0, 0}; /* centroid of the inner part */
     bool has_inner_ellipse = false;
-    Ellipse inner = {0, 0, 0, 0, 0}; /* outline of the dark inner part */
+    Ellipse inner = {0, 0, 0, 0, 0}; /* outline of the inner part */
 };
 
 struct Body {
@@ -39,7 +39,7 @@ bool circle_poses(std::array<Pose, 2> &out, const Camera &camera, const Ellipse 
  * box's centre. */
 Estimate martinez(const Features &features, const Camera &camera, const Body &body);
 
-/* The dark inner part as a frontal disc: its distance is f r / sqrt(area / pi), x and y come from its centroid there;
+/* The inner part as a frontal disc: its distance is f r / sqrt(area / pi), x and y come from its centroid there;
  * the end plane lies nearer by the inner part's depth. */
 Estimate yin(const Features &features, const Camera &camera, const Body &body);
 
@@ -54,13 +54,13 @@ Estimate sun(const Features &features, const Camera &camera, const Body &body);
  * the measured centroid is taken, which is kinder to it than a rule on u alone; the first without a centroid. */
 Estimate shiu_ahmad(const Features &features, const Camera &camera, const Body &body);
 
-/* The outline of the dark inner part in a grey picture, for sun(): level crossing at the given threshold round the
+/* The outline of the inner part in a grey picture, for sun(): level crossing at the given threshold round the
  * given centroid, then a direct fit. False when there is no outline there.
  *
  *  out       in pixels of the picture as seen
  *  picture   CV_8UC1
- *  centre    of the dark part, inside it
- *  area_px   of the dark part: sets the neighbourhood looked at
+ *  centre    of the inner part, inside it
+ *  area_px   of the inner part: sets the neighbourhood looked at
  */
 bool inner_ellipse(Ellipse &out, const cv::Mat &picture, const cv::Point2d &centre_px, double area_px, int threshold);
 

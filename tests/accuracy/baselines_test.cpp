@@ -157,7 +157,7 @@ void test_inner_ellipse()
     }
     Ellipse none;
     const cv::Mat bright(100, 100, CV_8U, cv::Scalar(200));
-    truth("no dark part, no outline", !inner_ellipse(none, bright, {50, 50}, 100, 100));
+    truth("no inner part, no outline", !inner_ellipse(none, bright, {50, 50}, 100, 100));
 }
 
 } // namespace

@@ -32,12 +32,12 @@ Report::Row head_of(const Method &m) { return {m.name, tick(m.arcs), tick(m.qual
 void definitions(Report &report)
 {
     report.text(
-        "Baselines, in double precision, all from the library's features of the same picture (outline; dark part's "
-        "centroid and area; for Sun a direct fit to the dark part's outline at the library's threshold). Martinez: depth "
-        "from the mean of width and height of the outline's upright box. Yin: the dark part as a frontal disc. Ma and "
+        "Baselines, in double precision, all from the library's features of the same picture (outline; inner part's "
+        "centroid and area; for Sun a direct fit to the inner part's outline at the library's threshold). Martinez: depth "
+        "from the mean of width and height of the outline's upright box. Yin: the inner part as a frontal disc. Ma and "
         "Zhao: depth from the major semi-axis. Sun: circle poses of outer and inner outline, the pair whose centres lie "
         "best along both axes, weighted by squared semi-axes. Shiu and Ahmad: the closed form from the outline alone, of "
-        "its two poses the one whose inner centre projects nearer to the dark part.");
+        "its two poses the one whose inner centre projects nearer to the inner part.");
     report.text(
         "Ours, by what is there. (1) arc-level extraction: without it no arcs, the edge points of the ring mask are "
         "taken at once. (2) quality metric: without it one fit, no combinations scored, no clusters, no refit. Neither: "

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # The core's rules that compilers do not know: no floating point, no 128-bit built-in, no heap, no function
 # pointer, no recursion, no variable-length array, no system header but the four below. Needs gcc 10 or later.
-# usage: core_rules.sh ROOT     checks ROOT/src/*.c, ROOT/src/*.h and ROOT/include/drogue/*.h
+# usage: core_rules.sh ROOT     checks the library's files below ROOT/src, and ROOT/include/drogue/*.h
 set -euo pipefail
+. "$(dirname "$0")/../../src/sources.sh"
 shopt -s nullglob
 root=$1
 work=$(mktemp -d)
@@ -23,7 +24,7 @@ forbid() {
     fi
 }
 
-for file in "$root"/include/drogue/*.h "$root"/src/*.h "$root"/src/*.c; do
+for file in "$root"/include/drogue/*.h $(core_files "$root" '*.[ch]'); do
     name=${file#"$root/"}
     # Without comments; directives stay.
     text=$(gcc -fpreprocessed -dD -E -P "$file")
@@ -40,7 +41,7 @@ for file in "$root"/include/drogue/*.h "$root"/src/*.h "$root"/src/*.c; do
 done
 
 : >"$work/calls"
-for source in "$root"/src/*.c; do
+for source in $(core_files "$root" '*.c'); do
     object=$work/$(basename "$source" .c).o
     # Not optimised, so that each call is still a call.
     if ! gcc -std=c99 -I "$root/include" -O0 -fcallgraph-info -Werror=vla -c "$source" -o "$object"; then

@@ -6,13 +6,14 @@
 # under valgrind: no decision may rest on memory that nobody wrote, which the address sanitizer does not see.
 # usage: digest.sh ROOT
 set -euo pipefail
+. "$(dirname "$0")/../../src/sources.sh"
 root=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 warnings=(-pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Wvla -Wdouble-promotion -Wshadow -Werror)
 program=()
-for source in "$root"/src/*.c "$root"/src/cli/*.c; do
+for source in $(core_files "$root" '*.c') "$root"/src/cli/*.c; do
     [ "${source##*/}" = png_io.c ] || program+=("$source")
 done
 # build NAME CC CFLAGS...

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # The core as a linker sees it: it needs nothing but memcpy, memset and the compiler's integer helpers, exports
 # nothing without the prefix, and holds no data that can change.
-# usage: symbols.sh ROOT CC [CFLAGS...]     checks ROOT/src/*.c
+# usage: symbols.sh ROOT CC [CFLAGS...]     checks the library's sources below ROOT/src
 set -euo pipefail
+. "$(dirname "$0")/../../src/sources.sh"
 root=$1
 shift
 work=$(mktemp -d)
@@ -11,7 +12,7 @@ trap 'rm -rf "$work"' EXIT
 status=0
 
 # Position-independent code would put constant pointers into .data.rel.ro, and distributions' hardening adds calls.
-for source in "$root"/src/*.c; do
+for source in $(core_files "$root" '*.c'); do
     "$@" -std=c99 -I "$root/include" -fno-pic -fno-stack-protector -U_FORTIFY_SOURCE -c "$source" \
         -o "$work/$(basename "$source" .c).o"
 done

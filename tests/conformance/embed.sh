@@ -3,6 +3,7 @@
 # Cases compiled in give what the files give: the same lines, the same digest, however many files they are split into.
 # usage: embed.sh ROOT CC CONFORMANCE CONFORMANCE_EMBED TINY_VECTORS
 set -euo pipefail
+. "$(dirname "$0")/../../src/sources.sh"
 root=$1
 cc=$2
 conformance=$3
@@ -17,7 +18,7 @@ status=0
 # build FOLDER: the run over the cases in it
 build() {
     "$cc" -std=c99 -pedantic -Wall -Wextra -Werror -O1 -I "$root/include" -I "$here" "$here"/embedded_main.c \
-        "$here"/conformance.c "$here"/sha256.c "$here"/stages*.c "$root"/src/*.c "$1"/cases_*.c -o "$1/run"
+        "$here"/conformance.c "$here"/sha256.c "$here"/stages*.c $(core_files "$root" '*.c') "$1"/cases_*.c -o "$1/run"
 }
 
 for files in 1 3 40; do # 40: more than there are cases

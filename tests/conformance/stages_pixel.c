@@ -152,7 +152,7 @@ int stage_centroid(stage_run *r)
     const int32_t *p = stage_input32(r, 1);
     int32_t *out = stage_output32(r, "part", 5);
     drogue_workspace workspace;
-    drogue_dark_part part;
+    drogue_inner_part part;
     drogue_mask disc;
     if (!stage_mask(&disc, p) || p[3] < 0) {
         return CONF_E_MALFORMED;
@@ -160,7 +160,7 @@ int stage_centroid(stage_run *r)
     if (out == NULL || !stage_workspace(r, &workspace, image.width_px)) {
         return CONF_E_MEMORY;
     }
-    out[0] = (int32_t)drogue_dark_part_find(&part, &workspace, &image, &disc, (uint32_t)p[3]);
+    out[0] = (int32_t)drogue_inner_part_find(&part, &workspace, &image, &disc, (uint32_t)p[3]);
     out[1] = part.threshold;
     if (out[0] == DROGUE_OK) {
         out[2] = (int32_t)part.area_px;
@@ -178,7 +178,7 @@ int stage_disc(stage_run *r)
     const size_t count = r->in[2].count / 4;
     int32_t *out = stage_output32(r, "part", 9);
     drogue_workspace workspace;
-    drogue_dark_part part;
+    drogue_inner_part part;
     drogue_ellipse expected[2];
     drogue_mask disc;
     uint32_t which;
@@ -199,8 +199,8 @@ int stage_disc(stage_run *r)
     if (out == NULL || !stage_workspace(r, &workspace, image.width_px)) {
         return CONF_E_MEMORY;
     }
-    out[0] = (int32_t)drogue_dark_disc_find(&part, &which, &workspace, &image, &disc, (uint32_t)p[3], expected,
-                                            (uint32_t)count);
+    out[0] =
+        (int32_t)drogue_inner_find(&part, &which, &workspace, &image, &disc, (uint32_t)p[3], expected, (uint32_t)count);
     out[1] = part.threshold;
     if (out[0] == DROGUE_OK) {
         out[2] = (int32_t)part.area_px;
@@ -208,7 +208,7 @@ int stage_disc(stage_run *r)
         out[4] = part.y_px_q16;
         out[5] = part.spread_px_q16;
         out[6] = (int32_t)which;
-        out[7] = drogue_dark_fill(&part, &expected[which]);
+        out[7] = drogue_inner_fill(&part, &expected[which]);
         out[8] = part.contrast;
     }
     return 0;

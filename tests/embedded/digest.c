@@ -9,7 +9,7 @@ COVERED(drogue_result, 448);
 COVERED(drogue_ellipse, 20);
 COVERED(drogue_quality, 20);
 COVERED(drogue_pose, 32);
-COVERED(drogue_dark_part, 20);
+COVERED(drogue_inner_part, 20);
 #endif
 
 static uint64_t add(uint64_t digest, int64_t value)
@@ -34,7 +34,7 @@ static uint64_t add_quality(uint64_t d, const drogue_quality *q)
     return add(add(add(d, q->axis_ratio_q16), q->score_q16), q->reliability_q16);
 }
 
-static uint64_t add_dark_part(uint64_t d, const drogue_dark_part *p)
+static uint64_t add_inner_part(uint64_t d, const drogue_inner_part *p)
 {
     d = add(add(add(d, p->x_px_q16), p->y_px_q16), p->area_px);
     return add(add(d, p->spread_px_q16), p->threshold);
@@ -66,7 +66,7 @@ uint64_t digest_result(uint64_t d, const drogue_result *r)
     d = add_quality(d, &r->quality);
     d = add(add(add(d, (int64_t)r->polarity), r->cluster_members), r->refit_points);
     d = add(add(d, r->cover_q16), r->has_inner);
-    d = add_dark_part(d, &r->inner);
+    d = add_inner_part(d, &r->inner);
     d = add_pose(d, &r->pose);
     d = add_pose(d, &r->alternative);
     d = add(add(d, r->orientation_resolved), r->ambiguity_q16);

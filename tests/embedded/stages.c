@@ -72,7 +72,7 @@ WRAP(OUTLINE, drogue_status, drogue_outline_find, (drogue_outline *a, const drog
 WRAP(OUTLINE, drogue_status, drogue_outline_undistorted, (drogue_ellipse *a, const drogue_outline *b,
      const drogue_workspace *c, const drogue_edge_list *d, const drogue_config *e, const drogue_camera *f, int32_t g,
      int32_t h), (a, b, c, d, e, f, g, h))
-WRAP(INNER, drogue_status, drogue_dark_disc_find, (drogue_dark_part *a, uint32_t *b, drogue_workspace *c,
+WRAP(INNER, drogue_status, drogue_inner_find, (drogue_inner_part *a, uint32_t *b, drogue_workspace *c,
      const drogue_image *d, const drogue_mask *e, uint32_t f, const drogue_ellipse *g, uint32_t h),
      (a, b, c, d, e, f, g, h))
 WRAP(POSE, drogue_status, drogue_pose_from_ellipse, (drogue_pose a[2], const drogue_ellipse *b, const drogue_camera *c,

@@ -22,7 +22,7 @@ double mask_difference(const cv::Mat &image, const drogue_mask &disc, int t, con
 }
 
 /* One or two expected discs near the part that was found, or anywhere. */
-std::vector<drogue_ellipse> random_expectation(std::uint64_t *rng, const cv::Mat &image, const reference::DarkPart &m)
+std::vector<drogue_ellipse> random_expectation(std::uint64_t *rng, const cv::Mat &image, const reference::InnerPart &m)
 {
     std::vector<drogue_ellipse> all((std::size_t)rng_range(rng, 1, 2));
     for (drogue_ellipse &e : all) {
@@ -37,7 +37,7 @@ std::vector<drogue_ellipse> random_expectation(std::uint64_t *rng, const cv::Mat
     return all;
 }
 
-/* The dark disc where it is expected. */
+/* The inner disc where it is expected. */
 struct DiscReports {
     Report choice{"disc_choice", 0}, threshold{"disc_threshold", 0}, area{"disc_area", 0}, centroid{"disc_centroid", 1},
         spread{"disc_spread", 3};
@@ -46,16 +46,16 @@ struct DiscReports {
              const std::vector<drogue_ellipse> &expected, const std::string &name)
     {
         std::vector<reference::Ellipse> model;
-        drogue_dark_part got;
+        drogue_inner_part got;
         std::uint32_t which;
         for (const drogue_ellipse &e : expected) {
             model.push_back({real_of_q16(e.xc_px_q16), real_of_q16(e.yc_px_q16), real_of_q16(e.a_px_q16),
                              real_of_q16(e.b_px_q16), 0});
         }
-        const reference::DarkDisc m =
-            reference::dark_disc(pixels, disc.centre2_x, disc.centre2_y, disc.longest_px, 1, model);
-        const drogue_status status = drogue_dark_disc_find(&got, &which, workspace, view, &disc, 1, expected.data(),
-                                                           (std::uint32_t)expected.size());
+        const reference::InnerDisc m =
+            reference::inner_disc(pixels, disc.centre2_x, disc.centre2_y, disc.longest_px, 1, model);
+        const drogue_status status =
+            drogue_inner_find(&got, &which, workspace, view, &disc, 1, expected.data(), (std::uint32_t)expected.size());
         choice.add((status == DROGUE_OK) == m.found && (!m.found || (int)which == m.which) ? 0 : 1, name);
         threshold.add(std::abs(got.threshold - m.threshold), name);
         if (m.found && status == DROGUE_OK) {
@@ -90,16 +90,17 @@ int main()
             disc.longest_px = rng_range(&rng, 1, 3 * disc.longest_px);
         }
         const drogue_image view = {pixels.data, pixels.cols, pixels.rows, (std::int32_t)pixels.step};
-        const reference::DarkPart m = reference::dark_part(pixels, disc.centre2_x, disc.centre2_y, disc.longest_px, 1);
-        drogue_dark_part got;
-        const drogue_status status = drogue_dark_part_find(&got, &t.workspace, &view, &disc, 1);
+        const reference::InnerPart m =
+            reference::inner_part(pixels, disc.centre2_x, disc.centre2_y, disc.longest_px, 1);
+        drogue_inner_part got;
+        const drogue_status status = drogue_inner_part_find(&got, &t.workspace, &view, &disc, 1);
         /* OpenCV's double may prefer another of two equals. */
         equals += m.opencv_equal && m.threshold_opencv != m.threshold;
         opencv.add(m.opencv_equal ? 0 : std::abs(m.threshold_opencv - m.threshold), image.name);
         threshold.add(std::abs(got.threshold - m.threshold), image.name);
         mask.add(mask_difference(pixels, disc, got.threshold, m.dark), image.name);
-        area.add(status == DROGUE_OK || status == DROGUE_E_NO_DARK_PART ? std::fabs((double)got.area_px - m.area)
-                                                                        : INFINITY,
+        area.add(status == DROGUE_OK || status == DROGUE_E_NO_INNER_PART ? std::fabs((double)got.area_px - m.area)
+                                                                         : INFINITY,
                  image.name);
         if (m.found) {
             centroid.add(status == DROGUE_OK ? std::max(lsb_from(got.x_px_q16, m.x), lsb_from(got.y_px_q16, m.y))

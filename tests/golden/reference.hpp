@@ -39,7 +39,7 @@ struct Arc {
 /* Arcs of an edge map by cv::connectedComponents per direction class, in raster order of their first pixel. */
 std::vector<Arc> arcs(const cv::Mat &edges, const cv::Mat &gx, const cv::Mat &gy);
 
-struct DarkPart {
+struct InnerPart {
     bool found;           /* a component of at least min_area */
     int threshold;        /* of the levels that maximise the variance the least, exact; 0: fewer than two levels */
     int threshold_opencv; /* cv::threshold(OTSU) over the disc's pixels, in double */
@@ -49,7 +49,7 @@ struct DarkPart {
     bool area_unique;     /* no other component is as large */
     Real x, y;            /* its centroid; of equals the one whose first pixel comes first */
 };
-DarkPart dark_part(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area);
+InnerPart inner_part(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area);
 
 /* --- geometry --- */
 struct Ellipse {
@@ -57,7 +57,7 @@ struct Ellipse {
     bool ok = true;
 };
 
-struct DarkDisc {
+struct InnerDisc {
     bool found;
     int which;         /* index of the expected disc that fits better */
     int threshold;     /* of the disc looked in when nothing is found, else of the window about the part */
@@ -66,9 +66,9 @@ struct DarkDisc {
     int contrast;      /* between the means above and below the threshold, each rounded down */
     Real fill;         /* area over that of the expected disc */
 };
-/* The dark disc where one of the expected ones lies, as drogue/centroid.h describes it. */
-DarkDisc dark_disc(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area,
-                   const std::vector<Ellipse> &expected);
+/* The inner disc where one of the expected ones lies, as drogue/centroid.h describes it. */
+InnerDisc inner_disc(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area,
+                     const std::vector<Ellipse> &expected);
 
 struct Rect {
     Real xc, yc, shorter, longer;

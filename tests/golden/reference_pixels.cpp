@@ -80,7 +80,7 @@ std::array<Variance, 256> class_variances(const std::vector<uint8_t> &levels)
     return variance;
 }
 
-void find_threshold(DarkPart &part, const std::vector<uint8_t> &levels)
+void find_threshold(InnerPart &part, const std::vector<uint8_t> &levels)
 {
     const std::array<Variance, 256> variance = class_variances(levels);
     const auto most = std::max_element(variance.begin(), variance.end()); /* the first of equals */
@@ -197,9 +197,9 @@ Real weigh(Point &at, const cv::Mat &image, const cv::Mat &inside, int full, int
 
 } // namespace
 
-DarkPart dark_part(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area)
+InnerPart inner_part(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area)
 {
-    DarkPart part = {};
+    InnerPart part = {};
     const cv::Mat inside = disc(image.cols, image.rows, centre2_x, centre2_y, longest);
     find_threshold(part, levels_in(image, inside));
     part.dark = (image <= part.threshold) & inside;
@@ -221,12 +221,12 @@ DarkPart dark_part(const cv::Mat &image, int centre2_x, int centre2_y, int longe
     return part;
 }
 
-DarkDisc dark_disc(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area,
-                   const std::vector<Ellipse> &expected)
+InnerDisc inner_disc(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area,
+                     const std::vector<Ellipse> &expected)
 {
     constexpr Real PI = 3.14159265358979323846264338327950288L;
-    const DarkPart all = dark_part(image, centre2_x, centre2_y, longest, min_area);
-    DarkDisc out = {};
+    const InnerPart all = inner_part(image, centre2_x, centre2_y, longest, min_area);
+    InnerDisc out = {};
     Real least = 0;
     Point at = {0, 0};
     out.threshold = all.threshold;
@@ -258,7 +258,7 @@ DarkDisc dark_disc(const cv::Mat &image, int centre2_x, int centre2_y, int longe
     }
     /* about the part's own threshold, a third of the way to the dark level on either side */
     const Ellipse &e = expected[static_cast<size_t>(out.which)];
-    DarkPart own = {};
+    InnerPart own = {};
     const std::vector<uint8_t> levels = levels_in(image, window(image, at, 1.6L * e.a));
     find_threshold(own, levels);
     int64_t count[2] = {0, 0}, sum[2] = {0, 0};

@@ -5,6 +5,7 @@
 # the row says: compiler, optimisation, pointer size, byte order and core are read back from it.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit
+. src/sources.sh
 . tests/matrix/machine.sh
 work=${DROGUE_MATRIX_DIR:-build/matrix}
 jobs=${DROGUE_MATRIX_JOBS:-$(nproc)}
@@ -121,7 +122,7 @@ build_row() {
     local compile=("$compiler" "${dialect[@]}" "${flags[@]}" -std=c99 "${warnings[@]}" -frecord-gcc-switches
         -I include -I tests/conformance)
     "${compile[@]}" -Dmain=conformance_main -c tests/conformance/embedded_main.c -o "$1/embedded_main.o" &&
-        "${compile[@]}" src/*.c "${conformance[@]}" tests/matrix/row_main.c "$1/embedded_main.o" \
+        "${compile[@]}" $(core_files . '*.c') "${conformance[@]}" tests/matrix/row_main.c "$1/embedded_main.o" \
             "$data_dir"/*.o "${link[@]}" -o "$1/image"
 } >"$1/build.log" 2>&1
 

@@ -4,6 +4,7 @@
 # the vectors, and counts the changes that make a case fail.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit
+. src/sources.sh
 list=tests/mutants/list.txt
 work=${DROGUE_MUTANTS_DIR:-build/mutants}
 jobs=${DROGUE_MUTANTS_JOBS:-$(nproc)}
@@ -80,7 +81,7 @@ slot() {
 
 # compile INCLUDE SOURCE OBJECT [FLAG...]: with INCLUDE before the tree's own headers
 compile() {
-    gcc -O1 -std=c99 -I "$1" -I include -I src -I tests/conformance -MMD -c "$2" -o "$3" "${@:4}"
+    gcc -O1 -std=c99 -I "$1" -I include -I tests/conformance -MMD -c "$2" -o "$3" "${@:4}"
 }
 
 # build_base: objects of the unchanged core with their dependencies, the conformance run, the vectors; its digest
@@ -93,7 +94,7 @@ build_base() {
         slot
         compile include "$source" "$work/rest/$(basename "$source" .c).o" -O0 &
     done
-    for source in src/*.c; do
+    for source in $(core_files . '*.c'); do
         slot
         compile include "$source" "$work/core/$(basename "$source" .c).o" &
     done
@@ -125,13 +126,17 @@ users() {
 # do_mutant NAME: leaves 'verdict|cases that fail|stages that notice' in its folder
 do_mutant() {
     local dir=$work/mutants/$1 path=${file[$1]} text source object objects=() status=0 last verdict
-    mkdir -p "$dir/core" "$dir/rest" "$dir/src" "$dir/$(dirname "$path")"
-    cp src/*.h "$dir/src" # a header in quotes is looked for beside the file that includes it
+    mkdir -p "$dir/core" "$dir/rest" "$dir/$(dirname "$path")"
+    for source in $(core_files . '*.h'); do # a header in quotes is looked for beside the file that includes it
+        mkdir -p "$dir/$(dirname "$source")"
+        cp "$source" "$dir/$source"
+    done
     text=$(<"$path")
     printf '%s\n' "${text%%"${old[$1]}"*}${new[$1]}${text#*"${old[$1]}"}" >"$dir/$path"
     while read -r source object; do
         if [[ $source == src/* ]]; then
-            [ "$source" = "$path" ] || cp "$source" "$dir/src"
+            mkdir -p "$dir/$(dirname "$source")"
+            [ "$source" = "$path" ] || cp "$source" "$dir/$source"
             source=$dir/$source
         fi
         compile "$dir/include" "$source" "$dir/$object" || status=1

@@ -165,7 +165,7 @@ use_platformio() {
     folders=$(python3 - library.json <<'END'
 import json, sys
 build = json.load(open(sys.argv[1]))['build']
-assert build['srcFilter'] == ['+<*.c>'], build
+assert build['srcFilter'] == ['+<*>', '-<cli/>'], build
 print(build['srcDir'], build['includeDir'])
 END
     )

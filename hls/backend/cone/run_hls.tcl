@@ -5,10 +5,10 @@ set top drogue_hls_cone
 set root ../../..
 set sources {
     hls/backend/cone.c
-    src/eigen.c
-    src/fixed.c
-    src/pose.c
-    src/wide.c
+    src/arithmetic/eigen.c
+    src/arithmetic/fixed.c
+    src/arithmetic/wide.c
+    src/pose/pose.c
 }
 set bench {
     hls/backend/cone_test.c

@@ -5,9 +5,9 @@ set top drogue_hls_eigen
 set root ../../..
 set sources {
     hls/backend/eigen.c
-    src/eigen.c
-    src/fixed.c
-    src/wide.c
+    src/arithmetic/eigen.c
+    src/arithmetic/fixed.c
+    src/arithmetic/wide.c
 }
 set bench {
     hls/backend/eigen_test.c

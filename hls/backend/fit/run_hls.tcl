@@ -5,12 +5,12 @@ set top drogue_hls_fit
 set root ../../..
 set sources {
     hls/backend/fit.c
-    src/conic.c
-    src/eigen.c
-    src/ellipse.c
-    src/fixed.c
-    src/moments.c
-    src/wide.c
+    src/arithmetic/eigen.c
+    src/arithmetic/fixed.c
+    src/arithmetic/wide.c
+    src/outline/conic.c
+    src/outline/ellipse.c
+    src/outline/moments.c
 }
 set bench {
     hls/backend/fit_test.c

@@ -6,22 +6,22 @@ set root ../../..
 set sources {
     hls/backend/near.c
     hls/backend/outline.c
-    src/cluster.c
+    src/arithmetic/eigen.c
+    src/arithmetic/fixed.c
+    src/arithmetic/wide.c
+    src/camera/undistort.c
     src/config.c
-    src/conic.c
-    src/constraints.c
-    src/eigen.c
-    src/ellipse.c
-    src/fixed.c
-    src/inner.c
-    src/joint_model.c
-    src/moments.c
-    src/outline.c
-    src/pose.c
-    src/quality.c
-    src/support.c
-    src/undistort.c
-    src/wide.c
+    src/inner/inner.c
+    src/outline/cluster.c
+    src/outline/conic.c
+    src/outline/constraints.c
+    src/outline/ellipse.c
+    src/outline/moments.c
+    src/outline/outline.c
+    src/outline/quality.c
+    src/outline/support.c
+    src/pose/joint_model.c
+    src/pose/pose.c
 }
 set bench {
     hls/backend/outline_test.c
@@ -29,5 +29,5 @@ set bench {
     build/hls/outline/cases_0.c
     build/hls/outline/cases_index.c
 }
-set replaced {src/near.c}
+set replaced {src/outline/near.c}
 source $root/hls/vitis/run.tcl

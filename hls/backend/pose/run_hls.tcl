@@ -5,18 +5,18 @@ set top drogue_hls_pose
 set root ../../..
 set sources {
     hls/backend/pose.c
-    src/cholesky.c
-    src/dark_sums.c
-    src/decide.c
-    src/fixed.c
-    src/inner.c
-    src/joint.c
-    src/joint_model.c
-    src/joint_weights.c
-    src/pose.c
-    src/quality.c
-    src/undistort.c
-    src/wide.c
+    src/arithmetic/cholesky.c
+    src/arithmetic/fixed.c
+    src/arithmetic/wide.c
+    src/camera/undistort.c
+    src/inner/centroid.c
+    src/inner/inner.c
+    src/outline/quality.c
+    src/pose/decide.c
+    src/pose/joint.c
+    src/pose/joint_model.c
+    src/pose/joint_weights.c
+    src/pose/pose.c
 }
 set bench {
     hls/backend/pose_test.c

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Cases of the dark disc where it is expected: cut by ribs, hidden, blurred, beside other dark parts. */
+/* Cases of the inner disc where it is expected: cut by ribs, hidden, blurred, beside other inner parts. */
 #include <cmath>
 
 #include "images.hpp"

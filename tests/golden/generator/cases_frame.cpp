@@ -264,7 +264,7 @@ void add_conditions(Set &set)
     }
 }
 
-/* Ring with an inner dark disc, drawn. */
+/* Ring with an inner disc, drawn. */
 Frame drawn(int side, int radius4, int rim, int paper, int inner)
 {
     Frame f;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Cases of the inner dark part: Otsu's threshold with its ties, the disc, the opening, equal areas. */
+/* Cases of the inner inner part: Otsu's threshold with its ties, the disc, the opening, equal areas. */
 #include <stdexcept>
 
 #include "images.hpp"

@@ -237,9 +237,9 @@ Tiers centroid_tier(const Arrays &in, const Arrays &exact)
     if (!valid_mask(&p[0])) {
         return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0, 0, 0}), {}}};
     }
-    const reference::DarkPart part =
-        reference::dark_part(image_of(in[0]), as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]));
-    Words words = {DROGUE_E_NO_DARK_PART, part.threshold, 0, 0, 0};
+    const reference::InnerPart part =
+        reference::inner_part(image_of(in[0]), as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]));
+    Words words = {DROGUE_E_NO_INNER_PART, part.threshold, 0, 0, 0};
     if (part.found) {
         words = {DROGUE_OK, part.threshold, part.area, q16(part.x), q16(part.y)};
     }

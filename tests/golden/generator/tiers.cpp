@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The reference tier of arcs selected, of support, of the dark disc and of the joint pose. */
+/* The reference tier of arcs selected, of support, of the inner disc and of the joint pose. */
 #include "tiers.hpp"
 
 #include <algorithm>
@@ -173,10 +173,10 @@ Tiers disc_tier(const Arrays &in, const Arrays &exact)
     for (size_t i = 0; i < w.size(); i += 4) {
         expected.push_back({real(w[i]), real(w[i + 1]), real(w[i + 2]), real(w[i + 3]), 0, true});
     }
-    const reference::DarkDisc d =
-        reference::dark_disc(image_of(in[0]), as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]), expected);
+    const reference::InnerDisc d =
+        reference::inner_disc(image_of(in[0]), as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]), expected);
     if (!d.found) {
-        return {{like(exact[0], {DROGUE_E_NO_DARK_PART, d.threshold, 0, 0, 0, 0, 0, 0, 0}), {}}};
+        return {{like(exact[0], {DROGUE_E_NO_INNER_PART, d.threshold, 0, 0, 0, 0, 0, 0, 0}), {}}};
     }
     /* each centroid is rounded once, their distance twice from those */
     return {{like(exact[0], {DROGUE_OK, d.threshold, d.area, q16(d.x), q16(d.y), q16(d.spread), d.which, q16(d.fill),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The measurement of a frame in floating point: region, outline, dark part, poses, choice, joint solution. */
+/* The measurement of a frame in floating point: region, outline, inner part, poses, choice, joint solution. */
 #include "mirror.hpp"
 
 #include <algorithm>
@@ -124,8 +124,8 @@ void find_inner(Result &out, Ellipse &expected, const Frame &f, const std::array
             discs.push_back({at.x - out.region.x, at.y - out.region.y, e.a, e.b, 0, true});
         }
     }
-    out.part = reference::dark_disc(f.view, rounded(2 * rim.xc), rounded(2 * rim.yc), rounded(2.5L * rim.b),
-                                    static_cast<int>(task.config.min_dark_area_px), discs);
+    out.part = reference::inner_disc(f.view, rounded(2 * rim.xc), rounded(2 * rim.yc), rounded(2.5L * rim.b),
+                                     static_cast<int>(task.config.min_inner_area_px), discs);
     out.has_inner = out.part.found;
     if (out.has_inner) {
         expected = discs[static_cast<size_t>(out.part.which)];

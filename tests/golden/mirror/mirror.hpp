@@ -26,7 +26,7 @@ struct Result {
     Outline outline;    /* in coordinates of the region */
     reference::Ellipse seen = {0, 0, 0, 0, 0, false}, ideal = {0, 0, 0, 0, 0, false};
     bool has_inner = false;
-    reference::DarkDisc part = {};
+    reference::InnerDisc part = {};
     reference::Point inner = {0, 0}; /* as seen, px of the whole image */
     Real ambiguity = 1;
     bool resolved = false;

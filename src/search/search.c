@@ -106,7 +106,7 @@ static void sort_sightings(drogue_search *search)
     }
 }
 
-static void judge_disc(drogue_search *search, int k, const drogue_dark_disc *disc)
+static void judge_disc(drogue_search *search, int k, const drogue_search_disc *disc)
 {
     const int32_t cell_px = 2 << k;
     drogue_sighting c;
@@ -145,13 +145,13 @@ static void judge_above(drogue_search *search, int k, int32_t y)
 }
 
 /* Add a dark disc; of those beside each other the one of most contrast stays. */
-static void keep_disc(drogue_search *search, int k, const drogue_dark_disc *disc)
+static void keep_disc(drogue_search *search, int k, const drogue_search_disc *disc)
 {
     drogue_search_level *level = &search->levels[k];
     const int32_t near = disc->ring_q4 >> 4;
     int32_t i;
     for (i = 0; i < level->pending_count; i++) {
-        drogue_dark_disc *p = &level->pending[i];
+        drogue_search_disc *p = &level->pending[i];
         if (p->ring_q4 == disc->ring_q4 && disc->y - p->y <= near && disc->x - p->x <= near && p->x - disc->x <= near) {
             if (disc->contrast > p->contrast) {
                 *p = *disc;
@@ -221,7 +221,7 @@ static void scan_row(drogue_search *search, int k, int32_t y)
             continue;
         }
         for (x = margin; x + margin < level->width; x++) {
-            drogue_dark_disc disc;
+            drogue_search_disc disc;
             disc.contrast = disc_contrast(rows, x, scale, search->min_contrast);
             if (disc.contrast > search->min_contrast) {
                 disc.x = x;

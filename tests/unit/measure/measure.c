@@ -145,7 +145,7 @@ START_TEST(without_inner_part)
     ck_assert_int_eq(r.ambiguity_q16, 65536);
     ck_assert_int_ne(memcmp(&r.pose, &r.alternative, sizeof r.pose), 0);
     ck_assert(r.inner.x_px_q16 == 0 && r.inner.y_px_q16 == 0 && r.inner.area_px == 0);
-    config.min_dark_area_px = 1000000; /* known, but not found */
+    config.min_inner_area_px = 1000000; /* known, but not found */
     ck_assert_int_eq(measure(&r, &t, &config, &model, &whole), DROGUE_OK);
     ck_assert_int_eq(r.has_inner, 0);
     ck_assert_int_eq(r.orientation_resolved, 0);

@@ -2,7 +2,7 @@
 /* Rows, columns and threshold of a disc in an image. */
 #include <string.h>
 
-#include "dark_pass.h"
+#include "pass.h"
 
 int drogue_disc_span(int32_t *first, int32_t *last, const drogue_mask *disc, int32_t y, int32_t width_px)
 {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the two ways to find the dark inner part share: rows of a disc, its threshold, the components in it. */
-#ifndef DROGUE_DARK_PASS_H
-#define DROGUE_DARK_PASS_H
+/* What the two ways to find the inner part share: rows of a disc, its threshold, the components in it. */
+#ifndef DROGUE_INNER_PASS_H
+#define DROGUE_INNER_PASS_H
 
 #include "drogue/centroid.h"
 
 /* Components of the opened binary image with area and coordinate sums, in the tables of the workspace. The sums
  * fit 32 bits: those over all pixels of 2048 x 2048 do. */
-typedef struct drogue_dark_pass {
+typedef struct drogue_inner_pass {
     drogue_workspace *workspace;
     const drogue_image *image;
     const drogue_mask *disc;
@@ -22,36 +22,36 @@ typedef struct drogue_dark_pass {
     int32_t last_row;
     uint32_t valid; /* columns of the last word */
     uint8_t threshold;
-} drogue_dark_pass;
+} drogue_inner_pass;
 
 /* Darkness falls from 1 to 0 between two grey levels: a pixel at the edge counts by its grey, one of the surround not at
  * all. */
-typedef struct drogue_dark_ramp {
+typedef struct drogue_inner_ramp {
     int32_t full;  /* level of darkness 'range' and more */
     int32_t range; /* levels to darkness 0, [1, 171]: 2 / 3 of 255, and 1 */
-} drogue_dark_ramp;
+} drogue_inner_ramp;
 
 /* Sums of darkness over a window of at most 2^22 pixels. */
-typedef struct drogue_dark_sums {
+typedef struct drogue_inner_sums {
     int64_t sum;
     int64_t x; /* weighted by the column */
     int64_t y; /* weighted by the row */
-} drogue_dark_sums;
+} drogue_inner_sums;
 
-static inline drogue_q16 drogue_dark_mean_q16(int64_t sum, int64_t count)
+static inline drogue_q16 drogue_inner_mean_q16(int64_t sum, int64_t count)
 {
     return (drogue_q16)drogue_div_round_s64(sum * DROGUE_Q16_ONE, count);
 }
 
 /* Darkness of a grey level, [0, range]. */
-static inline int32_t drogue_dark_darkness(int32_t level, const drogue_dark_ramp *ramp)
+static inline int32_t drogue_inner_darkness(int32_t level, const drogue_inner_ramp *ramp)
 {
     const int32_t above = level - ramp->full;
     return above < 0 ? ramp->range : above > ramp->range ? 0 : ramp->range - above;
 }
 
 /* Add row y: its darkness and that weighted by the column, which 32 bits hold for 2048 columns. */
-static inline void drogue_dark_add_row(drogue_dark_sums *sums, int32_t darkness, int32_t x_darkness, int32_t y)
+static inline void drogue_inner_add_row(drogue_inner_sums *sums, int32_t darkness, int32_t x_darkness, int32_t y)
 {
     sums->sum += darkness;
     sums->x += x_darkness;
@@ -73,38 +73,39 @@ uint8_t drogue_disc_threshold(uint32_t *histogram, const drogue_image *image, co
  *  out     zero but for the threshold
  *  return  DROGUE_OK, DROGUE_E_LABELS_FULL, DROGUE_E_ARGUMENT, DROGUE_E_WORKSPACE
  */
-drogue_status drogue_dark_components(drogue_dark_pass *pass, drogue_dark_part *out, drogue_workspace *workspace,
-                                     const drogue_image *image, const drogue_mask *disc);
+drogue_status drogue_inner_components(drogue_inner_pass *pass, drogue_inner_part *out, drogue_workspace *workspace,
+                                      const drogue_image *image, const drogue_mask *disc);
 
 /* Join what is summed by label, 1 .. count - 1: afterwards parent[i] is the root of i and roots alone have an area. */
-void drogue_dark_join(uint32_t *parent, uint32_t *area, uint32_t *x_sum, uint32_t *y_sum, uint32_t count);
+void drogue_inner_join(uint32_t *parent, uint32_t *area, uint32_t *x_sum, uint32_t *y_sum, uint32_t count);
 
 /* Choose among the expected discs the one that the components within it fit best; these together are the part.
  *
  *  out     area and place; as it was when the call fails
  *  which   out: index of the disc, 0 when the call fails
- *  area, x_sum, y_sum, labels  as drogue_dark_join() left them
- *  return  DROGUE_OK, DROGUE_E_NO_DARK_PART
+ *  area, x_sum, y_sum, labels  as drogue_inner_join() left them
+ *  return  DROGUE_OK, DROGUE_E_NO_INNER_PART
  */
-drogue_status drogue_dark_choose(drogue_dark_part *out, uint32_t *which, const uint32_t *area, const uint32_t *x_sum,
-                                 const uint32_t *y_sum, uint32_t labels, uint32_t min_area,
-                                 const drogue_ellipse *expected, uint32_t count);
+drogue_status drogue_inner_choose(drogue_inner_part *out, uint32_t *which, const uint32_t *area, const uint32_t *x_sum,
+                                  const uint32_t *y_sum, uint32_t labels, uint32_t min_area,
+                                  const drogue_ellipse *expected, uint32_t count);
 
 /* Disc about the part of a multiple of the expected semi-axis, and a pixel: WIDE to find its threshold, then NARROW to
  * weigh it. */
-#define DROGUE_DARK_WIDE DROGUE_Q16(16, 10)
-#define DROGUE_DARK_NARROW DROGUE_Q16(12, 10)
-void drogue_dark_window(drogue_mask *window, const drogue_dark_part *part, drogue_q16 a_px_q16, drogue_q16 factor_q16);
+#define DROGUE_INNER_WIDE DROGUE_Q16(16, 10)
+#define DROGUE_INNER_NARROW DROGUE_Q16(12, 10)
+void drogue_inner_window(drogue_mask *window, const drogue_inner_part *part, drogue_q16 a_px_q16,
+                         drogue_q16 factor_q16);
 
 /* Contrast of a part and its ramp from its threshold and the histogram that gave that. The lower and the upper ramp
  * begin a third of the way to the dark level below and above. */
-void drogue_dark_ramp_of(drogue_dark_ramp *ramp, drogue_dark_part *part, const uint32_t *histogram);
-static inline int32_t drogue_dark_ramp_step(const drogue_dark_ramp *ramp) { return ramp->range / 2; }
+void drogue_inner_ramp_of(drogue_inner_ramp *ramp, drogue_inner_part *part, const uint32_t *histogram);
+static inline int32_t drogue_inner_ramp_step(const drogue_inner_ramp *ramp) { return ramp->range / 2; }
 
 /* Place and area of the darkness summed; without any the part stays as it is. */
-void drogue_dark_place(drogue_dark_part *part, const drogue_dark_sums *sums, const drogue_dark_ramp *ramp);
+void drogue_inner_place(drogue_inner_part *part, const drogue_inner_sums *sums, const drogue_inner_ramp *ramp);
 
 /* Distance of a part from a point, px Q16. */
-drogue_q16 drogue_dark_distance(const drogue_dark_part *part, drogue_q16 x_px_q16, drogue_q16 y_px_q16);
+drogue_q16 drogue_inner_distance(const drogue_inner_part *part, drogue_q16 x_px_q16, drogue_q16 y_px_q16);
 
 #endif

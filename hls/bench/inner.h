@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Test benches only: the words that the block of the inner dark part should give, from what the library says; 'status' is the
+/* Test benches only: the words that the block of the inner inner part should give, from what the library says; 'status' is the
  * register. */
-#ifndef DROGUE_HLS_BENCH_DARK_H
-#define DROGUE_HLS_BENCH_DARK_H
+#ifndef DROGUE_HLS_BENCH_INNER_H
+#define DROGUE_HLS_BENCH_INNER_H
 
 #include "../centroid/centroid.h"
 #include "drogue/centroid.h"
 
-static inline void bench_put_dark(int32_t dark[DROGUE_HLS_DARK_WORDS], uint32_t status, const drogue_dark_part *part,
-                                  uint32_t which)
+static inline void bench_put_inner(int32_t dark[DROGUE_HLS_INNER_WORDS], uint32_t status, const drogue_inner_part *part,
+                                   uint32_t which)
 {
     dark[DROGUE_HLS_D_STATUS] = (int32_t)status;
     dark[DROGUE_HLS_D_X] = part->x_px_q16;

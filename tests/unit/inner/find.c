@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The dark disc where it is expected: against exact sums, crossed by ribs, beside larger dark regions, cut by the image. */
+/* The inner disc where it is expected: against exact sums, crossed by ribs, beside larger dark regions, cut by the image. */
 #include "suite.h"
 
-#include "dark_model.h"
 #include "drogue/centroid.h"
 #include "images.h"
+#include "inner_model.h"
 #include "workspace.h"
 
 enum { WIDTH = 160, HEIGHT = 120 };
@@ -23,14 +23,14 @@ static drogue_ellipse disc_at(double x, double y, double a)
     return e;
 }
 
-static drogue_status find(drogue_dark_part *out, uint32_t *which, const drogue_mask *disc, uint32_t min_area,
+static drogue_status find(drogue_inner_part *out, uint32_t *which, const drogue_mask *disc, uint32_t min_area,
                           const drogue_ellipse *expected, uint32_t count)
 {
     test_workspace t = test_workspace_of(WIDTH, 1, WIDTH * HEIGHT / 4 + 2, 1);
     drogue_status status;
     memset(out, 0x5A, sizeof *out);
     *which = 99;
-    status = drogue_dark_disc_find(out, which, &t.workspace, &image, disc, min_area, expected, count);
+    status = drogue_inner_find(out, which, &t.workspace, &image, disc, min_area, expected, count);
     MUST(guarded_intact(&t.memory), "wrote outside the workspace");
     test_workspace_free(&t);
     return status;
@@ -102,7 +102,7 @@ START_TEST(whole_discs_to_a_fraction_of_a_pixel)
                         rng_real(&rng, 0, 40)};
         const drogue_ellipse expected =
             disc_at(b.x + rng_real(&rng, -0.5, 0.5) * a, b.y + rng_real(&rng, -0.5, 0.5) * a, a);
-        drogue_dark_part part;
+        drogue_inner_part part;
         double x, y, area = draw(&x, &y, rng_real(&rng, 90, 220), &b, 1, NULL, 0);
         uint32_t which;
         MUST(find(&part, &which, &everywhere, 9, &expected, 1) == DROGUE_OK, "case %d not found", i);
@@ -126,7 +126,7 @@ START_TEST(ribs_cross_the_disc)
         const drogue_ellipse expected = disc_at(b.x + 2, b.y - 2, 22);
         const int ribs = 1 + i % 4;
         test_workspace t = test_workspace_of(WIDTH, 1, 4096, 1);
-        drogue_dark_part part, largest;
+        drogue_inner_part part, largest;
         bar bars[4];
         double x, y, area;
         uint32_t which;
@@ -146,7 +146,7 @@ START_TEST(ribs_cross_the_disc)
         MUST(fabs(part.area_px / area - 1) < 0.08, "case %d: area %u of %g", i, (unsigned)part.area_px, area);
         MUST(hypot(real_of_q16(part.x_px_q16) - x, real_of_q16(part.y_px_q16) - y) < 0.25, "case %d: %g %g px off", i,
              real_of_q16(part.x_px_q16) - x, real_of_q16(part.y_px_q16) - y);
-        MUST(drogue_dark_part_find(&largest, &t.workspace, &image, &everywhere, 9) == DROGUE_OK, "case %d", i);
+        MUST(drogue_inner_part_find(&largest, &t.workspace, &image, &everywhere, 9) == DROGUE_OK, "case %d", i);
         split += largest.area_px < 0.8 * part.area_px;
         test_workspace_free(&t);
     }
@@ -159,10 +159,10 @@ START_TEST(larger_dark_region_beside_it)
     static const blob blobs[] = {{60, 60, 14, 13, 20}, {115, 60, 30, 35, 5}};
     const drogue_ellipse expected = disc_at(62, 59, 14);
     test_workspace t = test_workspace_of(WIDTH, 1, 4096, 1);
-    drogue_dark_part part, largest;
+    drogue_inner_part part, largest;
     uint32_t which;
     double x, y, area = draw(&x, &y, 140, blobs, 2, NULL, 0);
-    ck_assert_int_eq(drogue_dark_part_find(&largest, &t.workspace, &image, &everywhere, 9), DROGUE_OK);
+    ck_assert_int_eq(drogue_inner_part_find(&largest, &t.workspace, &image, &everywhere, 9), DROGUE_OK);
     ck_assert(real_of_q16(largest.x_px_q16) > 100);
     ck_assert_int_eq(find(&part, &which, &everywhere, 9, &expected, 1), DROGUE_OK);
     ck_assert(hypot(real_of_q16(part.x_px_q16) - x, real_of_q16(part.y_px_q16) - y) < 0.05);
@@ -175,7 +175,7 @@ START_TEST(the_better_of_two_expectations)
 {
     static const blob at[] = {{50, 60, 12, 12, 20}, {100, 50, 12, 12, 20}};
     drogue_ellipse expected[2];
-    drogue_dark_part part;
+    drogue_inner_part part;
     uint32_t which;
     double x, y;
     int i, turn;
@@ -217,32 +217,32 @@ START_TEST(nothing_where_it_is_expected)
                                   {INT32_MAX, INT32_MIN, INT32_MAX, 65536, 0},
                                   {INT32_MIN, INT32_MAX, INT32_MAX, INT32_MAX, 0}};
     drogue_mask elsewhere = everywhere;
-    drogue_dark_part part;
+    drogue_inner_part part;
     uint32_t which;
     double x, y;
     size_t i;
     (void)draw(&x, &y, 140, &b, 1, NULL, 0);
-    ck_assert_int_eq(find(&part, &which, &everywhere, 9, &beside, 1), DROGUE_E_NO_DARK_PART);
+    ck_assert_int_eq(find(&part, &which, &everywhere, 9, &beside, 1), DROGUE_E_NO_INNER_PART);
     ck_assert_uint_eq(part.area_px, 0);
     ck_assert_int_eq(part.x_px_q16, 0);
-    ck_assert_int_eq(find(&part, &which, &everywhere, 9, &there, 0), DROGUE_E_NO_DARK_PART);
+    ck_assert_int_eq(find(&part, &which, &everywhere, 9, &there, 0), DROGUE_E_NO_INNER_PART);
     ck_assert_int_eq(find(&part, &which, &everywhere, 9, &there, 1), DROGUE_OK);
-    ck_assert_int_eq(find(&part, &which, &everywhere, 700, &there, 1), DROGUE_E_NO_DARK_PART);
+    ck_assert_int_eq(find(&part, &which, &everywhere, 700, &there, 1), DROGUE_E_NO_INNER_PART);
     elsewhere.centre2_x = 2 * 140;
     elsewhere.longest_px = 3 * 15; /* where the disc is not looked for */
-    ck_assert_int_eq(find(&part, &which, &elsewhere, 9, &there, 1), DROGUE_E_NO_DARK_PART);
+    ck_assert_int_eq(find(&part, &which, &elsewhere, 9, &there, 1), DROGUE_E_NO_INNER_PART);
     for (i = 0; i < sizeof far / sizeof far[0]; i++) { /* the ends of Q16 */
-        MUST(find(&part, &which, &everywhere, 9, &far[i], 1) == DROGUE_E_NO_DARK_PART, "expected at end %d", (int)i);
+        MUST(find(&part, &which, &everywhere, 9, &far[i], 1) == DROGUE_E_NO_INNER_PART, "expected at end %d", (int)i);
     }
     {
         const drogue_ellipse centre = disc_at(WIDTH / 2, HEIGHT / 2, 10);
         memset(pixels, 90, sizeof pixels); /* all one level: nothing is dark, but of black all is */
-        ck_assert_int_eq(find(&part, &which, &everywhere, 9, &centre, 1), DROGUE_E_NO_DARK_PART);
+        ck_assert_int_eq(find(&part, &which, &everywhere, 9, &centre, 1), DROGUE_E_NO_INNER_PART);
         memset(pixels, 0, sizeof pixels);
         ck_assert_int_eq(find(&part, &which, &everywhere, 9, &centre, 1), DROGUE_OK);
         ck_assert(fabs(real_of_q16(part.x_px_q16) - WIDTH / 2) <= 1 &&
                   fabs(real_of_q16(part.y_px_q16) - HEIGHT / 2) <= 1);
-        ck_assert(drogue_dark_fill(&part, &centre) > q16_of(1.4)); /* which is no disc of that size */
+        ck_assert(drogue_inner_fill(&part, &centre) > q16_of(1.4)); /* which is no disc of that size */
     }
 }
 END_TEST
@@ -379,7 +379,7 @@ START_TEST(exact_sums_over_random_images)
         drogue_ellipse expected =
             disc_at(rng_real(&rng, -5, WIDTH + 5), rng_real(&rng, -5, HEIGHT + 5), exp(rng_real(&rng, 0, 4)));
         const uint32_t min_area = (uint32_t)rng_range(&rng, 0, 30);
-        drogue_dark_part part;
+        drogue_inner_part part;
         drogue_status status;
         exact_part model;
         uint32_t which;
@@ -412,7 +412,7 @@ START_TEST(exact_sums_over_random_images)
             continue;
         }
         status = find(&part, &which, &disc, min_area, &expected, 1);
-        MUST(status == (there ? DROGUE_OK : DROGUE_E_NO_DARK_PART), "case %d: %s", i, drogue_status_name(status));
+        MUST(status == (there ? DROGUE_OK : DROGUE_E_NO_INNER_PART), "case %d: %s", i, drogue_status_name(status));
         if (there) {
             double reach = 1.2 * real_of_q16(expected.a_px_q16);
             outside += model.x < reach || model.y < reach || model.x > WIDTH - reach || model.y > HEIGHT - reach;
@@ -442,21 +442,21 @@ START_TEST(fill)
     int i;
     for (i = 0; i < 100000; i++) {
         drogue_ellipse e = disc_at(0, 0, exp(rng_real(&rng, 0, log(1000.0))));
-        drogue_dark_part part;
+        drogue_inner_part part;
         double expected;
         memset(&part, 0, sizeof part);
         e.b_px_q16 = rng_range(&rng, 65536, e.a_px_q16);
         part.area_px =
             (uint32_t)(exp(rng_real(&rng, -5, 1)) * TEST_PI * real_of_q16(e.a_px_q16) * real_of_q16(e.b_px_q16));
         expected = part.area_px / (TEST_PI * real_of_q16(e.a_px_q16) * real_of_q16(e.b_px_q16));
-        worst = fmax(worst, fabs(drogue_dark_fill(&part, &e) - 65536 * expected));
+        worst = fmax(worst, fabs(drogue_inner_fill(&part, &e) - 65536 * expected));
     }
     MUST(worst <= 1.5, "off by %g LSB", worst); /* pi as Q16 takes a part */
     {
         const drogue_ellipse least = disc_at(0, 0, 1.0 / 256), largest = {0, 0, INT32_MAX, INT32_MAX, 0};
-        const drogue_dark_part all = {0, 0, 1u << 22, 0, 0, 0};
-        ck_assert_int_eq(drogue_dark_fill(&all, &least), INT32_MAX);
-        ck_assert_int_le(abs(drogue_dark_fill(&all, &largest) - 81), 1); /* 2^22 / (pi 2^30) */
+        const drogue_inner_part all = {0, 0, 1u << 22, 0, 0, 0};
+        ck_assert_int_eq(drogue_inner_fill(&all, &least), INT32_MAX);
+        ck_assert_int_le(abs(drogue_inner_fill(&all, &largest) - 81), 1); /* 2^22 / (pi 2^30) */
     }
 }
 END_TEST
@@ -467,7 +467,7 @@ START_TEST(arguments)
     drogue_mask bad = everywhere;
     drogue_image none = image;
     test_workspace t = test_workspace_of(WIDTH - 1, 1, 100, 1), few = test_workspace_of(WIDTH, 1, 2, 1);
-    drogue_dark_part part;
+    drogue_inner_part part;
     uint32_t which;
     int32_t i;
     memset(pixels, 200, sizeof pixels);
@@ -478,11 +478,11 @@ START_TEST(arguments)
     ck_assert_int_eq(find(&part, &which, &bad, 1, &expected, 1), DROGUE_E_ARGUMENT);
     ck_assert_uint_eq(which, 0);
     none.data = NULL;
-    ck_assert_int_eq(drogue_dark_disc_find(&part, &which, &few.workspace, &none, &everywhere, 1, &expected, 1),
+    ck_assert_int_eq(drogue_inner_find(&part, &which, &few.workspace, &none, &everywhere, 1, &expected, 1),
                      DROGUE_E_ARGUMENT);
-    ck_assert_int_eq(drogue_dark_disc_find(&part, &which, &t.workspace, &image, &everywhere, 1, &expected, 1),
+    ck_assert_int_eq(drogue_inner_find(&part, &which, &t.workspace, &image, &everywhere, 1, &expected, 1),
                      DROGUE_E_WORKSPACE);
-    ck_assert_int_eq(drogue_dark_disc_find(&part, &which, &few.workspace, &image, &everywhere, 1, &expected, 1),
+    ck_assert_int_eq(drogue_inner_find(&part, &which, &few.workspace, &image, &everywhere, 1, &expected, 1),
                      DROGUE_E_LABELS_FULL);
     ck_assert(guarded_intact(&few.memory));
     test_workspace_free(&t);

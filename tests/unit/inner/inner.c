@@ -102,7 +102,7 @@ END_TEST
 
 /* An outline of 100 by 80 px, a disc of 30 px expected 10 px off its centre, and the part found there. */
 typedef struct finding {
-    drogue_dark_part part;
+    drogue_inner_part part;
     drogue_ellipse expected, outline;
     drogue_config config;
 } finding;

@@ -34,7 +34,7 @@ drogue_mask drogue_inner_disc(const drogue_ellipse *outline)
 }
 
 /* Does the expected disc lie wholly within the outline when its centre is the part's? */
-static int within_outline(const drogue_dark_part *part, const drogue_ellipse *expected, const drogue_ellipse *outline)
+static int within_outline(const drogue_inner_part *part, const drogue_ellipse *expected, const drogue_ellipse *outline)
 {
     drogue_ellipse_frame rim;
     int32_t u_q24;
@@ -51,16 +51,16 @@ static int within_outline(const drogue_dark_part *part, const drogue_ellipse *ex
 #define FILL_ROOM DROGUE_Q16(1, 2) /* px that blur and threshold may move the disc's edge */
 
 /* Area over that of the expected disc, made larger by so many pixels all round. */
-static drogue_q16 fill_of(const drogue_dark_part *part, const drogue_ellipse *expected, drogue_q16 by_px_q16)
+static drogue_q16 fill_of(const drogue_inner_part *part, const drogue_ellipse *expected, drogue_q16 by_px_q16)
 {
     drogue_ellipse grown = *expected;
     grown.a_px_q16 = drogue_q16_add(grown.a_px_q16, by_px_q16);
     grown.b_px_q16 = drogue_q16_add(grown.b_px_q16, by_px_q16);
-    return drogue_dark_fill(part, &grown);
+    return drogue_inner_fill(part, &grown);
 }
 
-drogue_q16 drogue_inner_std(const drogue_dark_part *part, const drogue_ellipse *expected, const drogue_ellipse *outline,
-                            const drogue_config *config)
+drogue_q16 drogue_inner_std(const drogue_inner_part *part, const drogue_ellipse *expected,
+                            const drogue_ellipse *outline, const drogue_config *config)
 {
     const uint64_t away2_q32 = drogue_square_sum(drogue_q16_sub(part->x_px_q16, expected->xc_px_q16),
                                                  drogue_q16_sub(part->y_px_q16, expected->yc_px_q16));

@@ -2,8 +2,8 @@
 /* The inner black part: opening, largest component, centroid. Two passes over the disc's rows. */
 #include <string.h>
 
-#include "dark_pass.h"
 #include "drogue/lanes.h"
+#include "pass.h"
 
 /* Rows of the binary image are bits, pixel x at bit x % 32 of word x / 32. */
 enum { BITS = 32 };
@@ -84,7 +84,7 @@ static uint32_t list_opened(drogue_slope *points, uint8_t *code, const uint32_t 
     return count;
 }
 
-static void label_opened_row(drogue_dark_pass *p, int32_t y)
+static void label_opened_row(drogue_inner_pass *p, int32_t y)
 {
     drogue_workspace *w = p->workspace;
     size_t width = (size_t)p->image->width_px;
@@ -113,7 +113,7 @@ static void label_opened_row(drogue_dark_pass *p, int32_t y)
 }
 
 /* Row y of the binary image, or what stands for it outside the disc. */
-static const uint32_t *binary_at(const drogue_dark_pass *p, int32_t y)
+static const uint32_t *binary_at(const drogue_inner_pass *p, int32_t y)
 {
     if (y < 0 || y >= p->image->height_px) {
         return p->ones;
@@ -121,7 +121,7 @@ static const uint32_t *binary_at(const drogue_dark_pass *p, int32_t y)
     return y >= p->first_row && y <= p->last_row ? p->binary + y % 3 * p->words : p->zeros;
 }
 
-static void erode_step(drogue_dark_pass *p, int32_t y)
+static void erode_step(drogue_inner_pass *p, int32_t y)
 {
     const uint32_t *rows[3];
     rows[0] = binary_at(p, y - 1);
@@ -134,7 +134,7 @@ static void erode_step(drogue_dark_pass *p, int32_t y)
 }
 
 /* Rows of the disc within the image; 0 when there are none. */
-static int bound_rows(drogue_dark_pass *p)
+static int bound_rows(drogue_inner_pass *p)
 {
     int32_t height = p->image->height_px;
     int32_t first;
@@ -147,7 +147,7 @@ static int bound_rows(drogue_dark_pass *p)
     return p->first_row < height;
 }
 
-static void open_and_label(drogue_dark_pass *p)
+static void open_and_label(drogue_inner_pass *p)
 {
     drogue_workspace *w = p->workspace;
     size_t width = (size_t)p->image->width_px;
@@ -188,8 +188,8 @@ static void open_and_label(drogue_dark_pass *p)
     label_opened_row(p, p->last_row);
 }
 
-drogue_status drogue_dark_components(drogue_dark_pass *pass, drogue_dark_part *out, drogue_workspace *workspace,
-                                     const drogue_image *image, const drogue_mask *disc)
+drogue_status drogue_inner_components(drogue_inner_pass *pass, drogue_inner_part *out, drogue_workspace *workspace,
+                                      const drogue_image *image, const drogue_mask *disc)
 {
     memset(out, 0, sizeof *out);
     if (!drogue_image_valid(image) || !drogue_mask_valid(disc)) {
@@ -204,18 +204,18 @@ drogue_status drogue_dark_components(drogue_dark_pass *pass, drogue_dark_part *o
     pass->threshold = drogue_disc_threshold(workspace->histogram, image, disc);
     out->threshold = pass->threshold;
     open_and_label(pass);
-    drogue_dark_join(workspace->component_parent, workspace->component_strong, workspace->arc_parent,
-                     workspace->arc_component, pass->labels.count);
+    drogue_inner_join(workspace->component_parent, workspace->component_strong, workspace->arc_parent,
+                      workspace->arc_component, pass->labels.count);
     return pass->labels.full ? DROGUE_E_LABELS_FULL : DROGUE_OK;
 }
 
-drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *workspace, const drogue_image *image,
-                                    const drogue_mask *disc, uint32_t min_area)
+drogue_status drogue_inner_part_find(drogue_inner_part *out, drogue_workspace *workspace, const drogue_image *image,
+                                     const drogue_mask *disc, uint32_t min_area)
 {
-    drogue_dark_pass pass;
+    drogue_inner_pass pass;
     uint32_t best = 0;
     uint32_t i;
-    drogue_status status = drogue_dark_components(&pass, out, workspace, image, disc);
+    drogue_status status = drogue_inner_components(&pass, out, workspace, image, disc);
     if (status != DROGUE_OK) {
         return status;
     }
@@ -225,11 +225,11 @@ drogue_status drogue_dark_part_find(drogue_dark_part *out, drogue_workspace *wor
         }
     }
     if (best == 0 || workspace->component_strong[best] < min_area) {
-        return DROGUE_E_NO_DARK_PART;
+        return DROGUE_E_NO_INNER_PART;
     }
     DROGUE_NOTE("centroid: coordinate sum", workspace->arc_parent[best], 32);
     out->area_px = workspace->component_strong[best];
-    out->x_px_q16 = drogue_dark_mean_q16(workspace->arc_parent[best], out->area_px);
-    out->y_px_q16 = drogue_dark_mean_q16(workspace->arc_component[best], out->area_px);
+    out->x_px_q16 = drogue_inner_mean_q16(workspace->arc_parent[best], out->area_px);
+    out->y_px_q16 = drogue_inner_mean_q16(workspace->arc_component[best], out->area_px);
     return DROGUE_OK;
 }

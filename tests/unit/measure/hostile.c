@@ -118,7 +118,7 @@ static void random_config(drogue_config *c, uint64_t *rng)
             case 22: c->min_cover_q16 = any_up_to(rng, 65536); break;
             case 23: c->recentre_cover_q16 = any_up_to(rng, 65536); break;
             case 24: c->optics_blur_px_q16 = any_up_to(rng, 16 * 65536); break;
-            case 25: c->min_dark_area_px = (uint32_t)rng_u64(rng) >> rng_range(rng, 0, 31); break;
+            case 25: c->min_inner_area_px = (uint32_t)rng_u64(rng) >> rng_range(rng, 0, 31); break;
             case 26: c->inner_gate_q16 = any_up_to(rng, INT32_MAX); break;
             case 27: c->min_fill_q16 = any_up_to(rng, c->max_fill_q16); break;
             case 28: c->max_fill_q16 = any_up_to(rng, INT32_MAX); break;
@@ -190,7 +190,7 @@ static void check_result(const drogue_result *r, const hostile *h, int run)
     const int found = r->status == DROGUE_OK;
     int i, j;
     MUST(strcmp(drogue_status_name(r->status), "unknown") != 0 && r->status != DROGUE_E_TOO_FEW_POINTS &&
-             r->status != DROGUE_E_DEGENERATE && r->status != DROGUE_E_NO_DARK_PART && r->status != DROGUE_E_WORKSPACE,
+             r->status != DROGUE_E_DEGENERATE && r->status != DROGUE_E_NO_INNER_PART && r->status != DROGUE_E_WORKSPACE,
          "run %d: status %s", run, drogue_status_name(r->status));
     /* every argument is within its documented range */
     MUST(r->status != DROGUE_E_ARGUMENT, "run %d: arguments refused", run);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Otsu's threshold and the opening, one image operation after the other. */
-#ifndef DROGUE_TESTS_DARK_MODEL_H
-#define DROGUE_TESTS_DARK_MODEL_H
+#ifndef DROGUE_TESTS_INNER_MODEL_H
+#define DROGUE_TESTS_INNER_MODEL_H
 
 #include "common.h"
 #include "quad.h"

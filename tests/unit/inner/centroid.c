@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Otsu's threshold as exact fractions, and the dark part against one image operation after the other. */
+/* Otsu's threshold as exact fractions, and the inner part against one image operation after the other. */
 #include "suite.h"
 
-#include "dark_model.h"
 #include "drogue/centroid.h"
 #include "images.h"
+#include "inner_model.h"
 #include "workspace.h"
 
 START_TEST(otsu_of_random_histograms)
@@ -92,7 +92,7 @@ static void check_image(const uint8_t *pixels, int32_t width, int32_t height, co
     uint32_t histogram[256], area;
     uint8_t threshold;
     drogue_image image = {pixels, width, height, width};
-    drogue_dark_part got;
+    drogue_inner_part got;
     drogue_status status;
     double x = 0, y = 0;
     int32_t i;
@@ -107,8 +107,8 @@ static void check_image(const uint8_t *pixels, int32_t width, int32_t height, co
     filter3(eroded, dark, width, height, 1);
     filter3(dark, eroded, width, height, 0);
     area = model_largest(&x, &y, dark, width, height);
-    status = drogue_dark_part_find(&got, &t.workspace, &image, disc, min_area);
-    MUST(status == (area > 0 && area >= min_area ? DROGUE_OK : DROGUE_E_NO_DARK_PART), "seed %d: status %s", seed,
+    status = drogue_inner_part_find(&got, &t.workspace, &image, disc, min_area);
+    MUST(status == (area > 0 && area >= min_area ? DROGUE_OK : DROGUE_E_NO_INNER_PART), "seed %d: status %s", seed,
          drogue_status_name(status));
     MUST(got.threshold == threshold, "seed %d: threshold %u", seed, (unsigned)got.threshold);
     if (status == DROGUE_OK) {
@@ -164,7 +164,7 @@ START_TEST(label_table_overfilled_by_one)
     static uint8_t pixels[SIDE * SIDE];
     const drogue_mask disc = {SIDE - 1, SIDE - 1, 3 * SIDE};
     drogue_image image = {pixels, SIDE, SIDE, SIDE};
-    drogue_dark_part part;
+    drogue_inner_part part;
     uint32_t less;
     int32_t x, y;
     for (y = 0; y < SIDE; y++) {
@@ -174,7 +174,7 @@ START_TEST(label_table_overfilled_by_one)
     }
     for (less = 0; less <= 1; less++) {
         test_workspace t = test_workspace_of(SIDE, 1, (SIDE / CELLS) * (SIDE / CELLS) + 1u - less, 1);
-        ck_assert_int_eq(drogue_dark_part_find(&part, &t.workspace, &image, &disc, 1),
+        ck_assert_int_eq(drogue_inner_part_find(&part, &t.workspace, &image, &disc, 1),
                          less ? DROGUE_E_LABELS_FULL : DROGUE_OK);
         ck_assert(guarded_intact(&t.memory));
         test_workspace_free(&t);
@@ -188,33 +188,33 @@ START_TEST(arguments_and_edges_left_alone)
     test_workspace t = test_workspace_of(10, 4, 102, 4);
     drogue_image image = {pixels, 10, 10, 10}, bad = image;
     drogue_mask disc = drogue_mask_of_size(10, 10);
-    drogue_dark_part part;
+    drogue_inner_part part;
     drogue_edge edges[4];
     drogue_arc arcs[4];
     memset(t.workspace.edges, 0x5A, sizeof edges);
     memset(t.workspace.arcs, 0x5A, sizeof arcs);
     memset(edges, 0x5A, sizeof edges);
     memset(arcs, 0x5A, sizeof arcs);
-    ck_assert_int_eq(drogue_dark_part_find(&part, &t.workspace, &image, &disc, 1),
+    ck_assert_int_eq(drogue_inner_part_find(&part, &t.workspace, &image, &disc, 1),
                      DROGUE_OK); /* all one level: all dark */
     ck_assert_int_eq(memcmp(t.workspace.edges, edges, sizeof edges), 0);
     ck_assert_int_eq(memcmp(t.workspace.arcs, arcs, sizeof arcs), 0);
     bad.data = NULL;
-    ck_assert_int_eq(drogue_dark_part_find(&part, &t.workspace, &bad, &disc, 1), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_inner_part_find(&part, &t.workspace, &bad, &disc, 1), DROGUE_E_ARGUMENT);
     bad = image;
     bad.stride = 9;
-    ck_assert_int_eq(drogue_dark_part_find(&part, &t.workspace, &bad, &disc, 1), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_inner_part_find(&part, &t.workspace, &bad, &disc, 1), DROGUE_E_ARGUMENT);
     bad = image;
     bad.width_px = 0;
-    ck_assert_int_eq(drogue_dark_part_find(&part, &t.workspace, &bad, &disc, 1), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_inner_part_find(&part, &t.workspace, &bad, &disc, 1), DROGUE_E_ARGUMENT);
     bad.width_px = bad.stride = 11;
     bad.height_px = 9;
-    ck_assert_int_eq(drogue_dark_part_find(&part, &t.workspace, &bad, &disc, 1), DROGUE_E_WORKSPACE);
+    ck_assert_int_eq(drogue_inner_part_find(&part, &t.workspace, &bad, &disc, 1), DROGUE_E_WORKSPACE);
     disc.longest_px = 0;
-    ck_assert_int_eq(drogue_dark_part_find(&part, &t.workspace, &image, &disc, 1), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_inner_part_find(&part, &t.workspace, &image, &disc, 1), DROGUE_E_ARGUMENT);
     disc.longest_px = 10;
     disc.centre2_x = 1000; /* the disc misses the image */
-    ck_assert_int_eq(drogue_dark_part_find(&part, &t.workspace, &image, &disc, 1), DROGUE_E_NO_DARK_PART);
+    ck_assert_int_eq(drogue_inner_part_find(&part, &t.workspace, &image, &disc, 1), DROGUE_E_NO_INNER_PART);
     test_workspace_free(&t);
 }
 END_TEST
@@ -225,10 +225,10 @@ START_TEST(largest_image)
     test_workspace t = test_workspace_of(DROGUE_MAX_SIDE, 1, 4096, 1);
     drogue_image image = {pixels, DROGUE_MAX_SIDE, DROGUE_MAX_SIDE, DROGUE_MAX_SIDE};
     const drogue_mask disc = {DROGUE_MAX_SIDE - 1, DROGUE_MAX_SIDE - 1, 3 * DROGUE_MAX_SIDE};
-    drogue_dark_part part;
+    drogue_inner_part part;
     memset(pixels, 77, (size_t)DROGUE_MAX_SIDE * DROGUE_MAX_SIDE);
     pixels[0] = 78;
-    ck_assert_int_eq(drogue_dark_part_find(&part, &t.workspace, &image, &disc, 1), DROGUE_OK);
+    ck_assert_int_eq(drogue_inner_part_find(&part, &t.workspace, &image, &disc, 1), DROGUE_OK);
     ck_assert_uint_eq(part.threshold, 77);
     ck_assert_uint_ge(part.area_px, (uint32_t)DROGUE_MAX_SIDE * DROGUE_MAX_SIDE - 4u);
     ck_assert_int_le(abs(part.x_px_q16 - (DROGUE_MAX_SIDE - 1) * 32768), 65);

@@ -65,7 +65,7 @@ static int fit_circle(drogue_rim *out, const rays *r)
 }
 
 /* Follow each ray to its largest step of the given sign: 1 from dark to bright, -1 from bright to dark. */
-static void follow_rays(rays *r, const drogue_search_level *level, const drogue_dark_disc *disc, int32_t sign)
+static void follow_rays(rays *r, const drogue_search_level *level, const drogue_search_disc *disc, int32_t sign)
 {
     const int32_t first = (disc->ring_q4 + 8) >> 4;
     const int32_t far = (7 * disc->ring_q4 + 16) >> 5; /* 1.7 radii of the rim: the inner part may lie aside */
@@ -123,7 +123,7 @@ static int32_t keep_near(rays *r, const drogue_rim *c, int64_t tolerance_q8)
 }
 
 /* Rim about a dark disc by steps of one sign: its score, 0 when there is none. */
-static uint32_t find_by_sign(drogue_rim *rim, const drogue_search_level *level, const drogue_dark_disc *disc,
+static uint32_t find_by_sign(drogue_rim *rim, const drogue_search_level *level, const drogue_search_disc *disc,
                              int32_t sign)
 {
     static const int32_t tolerances_q8[3] = {90, 56, 40};
@@ -149,7 +149,7 @@ static uint32_t find_by_sign(drogue_rim *rim, const drogue_search_level *level, 
     return (uint32_t)(count * count * (step / count + (disc->contrast > 64 ? 64 : disc->contrast)));
 }
 
-uint32_t drogue_rim_find(drogue_rim *out, const drogue_search_level *level, const drogue_dark_disc *disc)
+uint32_t drogue_rim_find(drogue_rim *out, const drogue_search_level *level, const drogue_search_disc *disc)
 {
     drogue_rim falling;
     const uint32_t rises = find_by_sign(out, level, disc, 1);

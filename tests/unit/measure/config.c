@@ -35,7 +35,7 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.min_cover_q16, q16_of(0.45));
     ck_assert_int_eq(c.recentre_cover_q16, q16_of(0.85));
     ck_assert_int_eq(c.optics_blur_px_q16, q16_of(0.6));
-    ck_assert_uint_eq(c.min_dark_area_px, 9);
+    ck_assert_uint_eq(c.min_inner_area_px, 9);
     ck_assert_int_eq(c.min_inner_contrast, 6);
     ck_assert_int_eq(c.inner_gate_px_q16, q16_of(1.5));
     ck_assert_int_eq(c.inner_gate_q16, q16_of(0.05));
