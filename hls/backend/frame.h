@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "../bench/bench.h"
-#include "../bench/dark.h"
+#include "../bench/inner.h"
 #include "backend.h"
 #include "drogue/decide.h"
 #include "drogue/inner.h"
