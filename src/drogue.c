@@ -91,24 +91,29 @@ static drogue_region region_about(const drogue_ellipse *e, const drogue_region *
 
 /* A frame on its way. */
 typedef struct frame {
+    drogue_result *out;
+    drogue_workspace *workspace;
+    const drogue_setup *setup;
+    const drogue_image *image;
     drogue_image view; /* the region's pixels */
     drogue_mask mask;
     drogue_outline outline;
 } frame;
 
-static drogue_status find_outline(drogue_result *out, frame *f, drogue_workspace *workspace,
-                                  const drogue_config *config, const drogue_image *image, const drogue_region *region)
+static drogue_status find_outline(frame *f, const drogue_region *region)
 {
-    drogue_status status = place_region(&out->region, &f->mask, image, region);
+    drogue_result *out = f->out;
+    drogue_status status = place_region(&out->region, &f->mask, f->image, region);
     if (status != DROGUE_OK) {
         return status;
     }
-    f->view.data = drogue_image_row(image, out->region.y_px) + out->region.x_px;
+    f->view.data = drogue_image_row(f->image, out->region.y_px) + out->region.x_px;
     f->view.width_px = out->region.width_px;
     f->view.height_px = out->region.height_px;
-    f->view.stride = image->stride;
-    status = run_frontend(&out->list, workspace, config, &f->view, &f->mask);
-    return status == DROGUE_OK ? drogue_outline_find(&f->outline, workspace, &out->list, &f->mask, config) : status;
+    f->view.stride = f->image->stride;
+    status = run_frontend(&out->list, f->workspace, f->setup->config, &f->view, &f->mask);
+    return status == DROGUE_OK ? drogue_outline_find(&f->outline, f->workspace, &out->list, &f->mask, f->setup->config)
+                               : status;
 }
 
 /* Is one ellipse about where the other is, and about as large: within a third of its semi-axis? Each in the coordinates
@@ -127,13 +132,12 @@ static int about_the_same(const drogue_ellipse *e, const drogue_region *at, cons
 
 /* An outline that the ring mask cuts is looked for once more in a region that suits it; when that finds nothing, another
  * one or less of it, what was found first stands. */
-static drogue_status find_outline_twice(drogue_result *out, frame *f, drogue_workspace *workspace,
-                                        const drogue_config *config, const drogue_image *image,
-                                        const drogue_region *region)
+static drogue_status find_outline_twice(frame *f, const drogue_region *region)
 {
-    const drogue_status first = find_outline(out, f, workspace, config, image, region);
+    const drogue_config *config = f->setup->config;
+    const drogue_status first = find_outline(f, region);
     const drogue_ellipse was = f->outline.ellipse;
-    const drogue_region was_at = out->region;
+    const drogue_region was_at = f->out->region;
     const drogue_q16 cover_q16 = f->outline.cover_q16;
     drogue_region better;
     if ((first != DROGUE_OK && first != DROGUE_E_NO_ELLIPSE) ||
@@ -142,12 +146,11 @@ static drogue_status find_outline_twice(drogue_result *out, frame *f, drogue_wor
         return first;
     }
     better = region_about(&was, &was_at);
-    if ((uint32_t)better.width_px <= workspace->capacity.width_px &&
-        find_outline(out, f, workspace, config, image, &better) == DROGUE_OK && f->outline.cover_q16 >= cover_q16 &&
-        about_the_same(&f->outline.ellipse, &out->region, &was, &was_at)) {
+    if ((uint32_t)better.width_px <= f->workspace->capacity.width_px && find_outline(f, &better) == DROGUE_OK &&
+        f->outline.cover_q16 >= cover_q16 && about_the_same(&f->outline.ellipse, &f->out->region, &was, &was_at)) {
         return DROGUE_OK;
     }
-    return find_outline(out, f, workspace, config, image, region);
+    return find_outline(f, region);
 }
 
 static drogue_q16 shifted(drogue_q16 v_px_q16, int32_t by_px)
@@ -170,72 +173,96 @@ static void describe(drogue_result *out, const drogue_outline *outline)
 }
 
 /* Find the inner part where a pose expects it, weigh it, and see which pose it is nearer to. */
-static drogue_status find_inner(drogue_result *out, drogue_joint_inner *weighed, uint32_t *nearer, const frame *f,
-                                const drogue_pose poses[2], drogue_workspace *workspace, const drogue_config *config,
-                                const drogue_camera *camera, const drogue_model *model)
+static drogue_status find_inner(drogue_evidence *evidence, const frame *f)
 {
+    drogue_result *out = f->out;
     const drogue_mask disc = drogue_inner_disc(&f->outline.ellipse);
-    drogue_ellipse expected[2];
+    drogue_inner_evidence inner;
+    drogue_inner_expected expected;
     uint32_t which;
-    const uint32_t count = drogue_inner_expect(expected, poses, camera, model, out->region.x_px, out->region.y_px);
-    drogue_status status = drogue_mask_valid(&disc) ? drogue_inner_find(&out->inner, &which, workspace, &f->view, &disc,
-                                                                        config->min_inner_area_px, expected, count)
-                                                    : DROGUE_E_NO_INNER_PART;
+    drogue_status status = DROGUE_E_NO_INNER_PART;
+    memset(&inner, 0, sizeof inner);
+    drogue_inner_expect(&expected, evidence->poses, f->setup, out->region.x_px, out->region.y_px);
+    if (drogue_mask_valid(&disc)) {
+        status = drogue_inner_find(&inner.part, &which, f->workspace, &f->view, &disc, &expected);
+    }
     if (status == DROGUE_OK) {
-        *nearer = drogue_inner_weigh(weighed, out, &expected[which], &f->outline.ellipse, poses, config, camera, model);
-    } else {
-        memset(&out->inner, 0, sizeof out->inner);
+        drogue_inner_weigh(&inner, &out->region, &expected.disc[which], &f->outline.ellipse, evidence->poses, f->setup);
+        evidence->inner = inner.weighed;
+        evidence->nearer = inner.nearer;
+        out->inner = inner.part;
+        out->has_inner = inner.weighed.std_px_q16 > 0;
+        out->ambiguity_q16 = inner.ambiguity_q16;
     }
     return status == DROGUE_E_NO_INNER_PART ? DROGUE_OK : status;
 }
 
-static drogue_status measure(drogue_result *out, drogue_workspace *workspace, const drogue_config *config,
-                             const drogue_camera *camera, const drogue_model *model, const drogue_image *image,
-                             const drogue_region *region)
+/* Decide between the poses; the result has what was decided. */
+static drogue_status decide(drogue_result *out, const drogue_evidence *evidence, const drogue_setup *setup)
 {
-    drogue_joint_inner inner = {0, 0, 0};
-    uint32_t nearer = 0;
-    frame f;
-    drogue_pose poses[2];
-    drogue_status status;
-    memset(&f, 0, sizeof f);
-    status = find_outline_twice(out, &f, workspace, config, image, region);
+    drogue_decision decision;
+    drogue_status status = drogue_decide(&decision, evidence, setup);
+    if (status == DROGUE_OK) {
+        out->pose = decision.pose;
+        out->alternative = decision.alternative;
+        out->orientation_resolved = decision.orientation_resolved;
+        memcpy(out->covariance_q48, decision.covariance_q48, sizeof out->covariance_q48);
+        memcpy(out->position_std_m_q32, decision.position_std_m_q32, sizeof out->position_std_m_q32);
+        out->axis_std_rad_q32 = decision.axis_std_rad_q32;
+    }
+    return status;
+}
+
+static drogue_status measure(frame *f, const drogue_region *region)
+{
+    const drogue_setup *setup = f->setup;
+    drogue_result *out = f->out;
+    drogue_evidence evidence;
+    drogue_status status = find_outline_twice(f, region);
     if (status != DROGUE_OK) {
         return status;
     }
-    describe(out, &f.outline);
-    if (drogue_camera_distorts(camera)) {
-        status = drogue_outline_undistorted(&out->ideal, &f.outline, workspace, &out->list, config, camera,
-                                            out->region.x_px, out->region.y_px);
+    describe(out, &f->outline);
+    if (drogue_camera_distorts(setup->camera)) {
+        status = drogue_outline_undistorted(&out->ideal, &f->outline, f->workspace, &out->list, setup, out->region.x_px,
+                                            out->region.y_px);
         if (status != DROGUE_OK) {
             memset(&out->ideal, 0, sizeof out->ideal);
             return DROGUE_E_NO_ELLIPSE;
         }
     }
-    status = drogue_pose_from_ellipse(poses, &out->ideal, camera, model->rim_radius_m_q16);
-    if (status == DROGUE_OK && model->inner_radius_m_q16 > 0) {
-        status = find_inner(out, &inner, &nearer, &f, poses, workspace, config, camera, model);
+    memset(&evidence, 0, sizeof evidence);
+    evidence.ideal = out->ideal;
+    evidence.support = &f->outline.support;
+    status = drogue_pose_from_ellipse(evidence.poses, &out->ideal, setup->camera, setup->model->rim_radius_m_q16);
+    if (status == DROGUE_OK && setup->model->inner_radius_m_q16 > 0) {
+        status = find_inner(&evidence, f);
     }
-    return status == DROGUE_OK ? drogue_decide(out, poses, nearer, &f.outline.support, &inner, config, camera, model)
-                               : status;
+    return status == DROGUE_OK ? decide(out, &evidence, setup) : status;
 }
 
-drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_config *config,
-                             const drogue_camera *camera, const drogue_model *model, const drogue_image *image,
-                             const drogue_region *region)
+static int valid(const drogue_image *image, const drogue_setup *setup)
 {
+    return image->data != NULL && image->width_px >= 1 && image->height_px >= 1 && image->stride >= image->width_px &&
+           setup->camera->fx_px_q16 > 0 && setup->camera->fy_px_q16 > 0 && setup->model->rim_radius_m_q16 > 0 &&
+           setup->model->inner_radius_m_q16 >= 0 && drogue_config_valid(setup->config);
+}
+
+drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
+                             const drogue_image *image, const drogue_region *region)
+{
+    frame f;
     int k;
     memset(out, 0, sizeof *out);
     out->ambiguity_q16 = DROGUE_Q16_ONE;
     for (k = 0; k < 4; k++) {
         out->arcs[k] = DROGUE_NO_ARC;
     }
-    if (image->data == NULL || image->width_px < 1 || image->height_px < 1 || image->stride < image->width_px ||
-        camera->fx_px_q16 <= 0 || camera->fy_px_q16 <= 0 || model->rim_radius_m_q16 <= 0 ||
-        model->inner_radius_m_q16 < 0 || !drogue_config_valid(config)) {
-        out->status = DROGUE_E_ARGUMENT;
-    } else {
-        out->status = measure(out, workspace, config, camera, model, image, region);
-    }
+    memset(&f, 0, sizeof f);
+    f.out = out;
+    f.workspace = workspace;
+    f.setup = setup;
+    f.image = image;
+    out->status = valid(image, setup) ? measure(&f, region) : DROGUE_E_ARGUMENT;
     return out->status;
 }

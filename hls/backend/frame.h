@@ -97,7 +97,7 @@ static inline int frame_refused(const frame *f)
     drogue_workspace none = f->workspace;
     drogue_result r;
     none.capacity.width_px = 0; /* the next thing that it would answer */
-    return drogue_measure(&r, &none, &f->p.config, &f->p.camera, &f->p.model, &f->image, &f->asked) ==
+    return drogue_measure(&r, &none, &(drogue_setup){&f->p.camera, &f->p.model, &f->p.config}, &f->image, &f->asked) ==
            DROGUE_E_ARGUMENT;
 }
 
@@ -111,15 +111,15 @@ static inline drogue_status frame_find_poses(frame *f, drogue_pose poses[2])
     r->ellipse.yc_px_q16 = drogue_q16_add(r->ellipse.yc_px_q16, drogue_q16_from_int(p->y_px));
     r->ideal = r->ellipse;
     if (drogue_camera_distorts(&p->camera) &&
-        drogue_outline_undistorted(&r->ideal, &f->outline, &f->workspace, &f->list, &p->config, &p->camera, p->x_px,
-                                   p->y_px) != DROGUE_OK) {
+        drogue_outline_undistorted(&r->ideal, &f->outline, &f->workspace, &f->list,
+                                   &(drogue_setup){&p->camera, &p->model, &p->config}, p->x_px, p->y_px) != DROGUE_OK) {
         memset(&r->ideal, 0, sizeof r->ideal);
         return DROGUE_E_NO_ELLIPSE;
     }
     return drogue_pose_from_ellipse(poses, &r->ideal, &p->camera, p->model.rim_radius_m_q16);
 }
 
-static inline void frame_put_outline(frame *f, const drogue_pose poses[2], const drogue_ellipse discs[2],
+static inline void frame_put_outline(frame *f, const drogue_pose poses[2], const drogue_inner_expected *expected,
                                      const drogue_mask *disc)
 {
     const drogue_outline *o = &f->outline;
@@ -137,7 +137,7 @@ static inline void frame_put_outline(frame *f, const drogue_pose poses[2], const
     w[DROGUE_HLS_O_BAND] = o->band_px_q16;
     for (k = 0; k < 2; k++) {
         drogue_hls_pack_pose(w + DROGUE_HLS_O_POSES + 8 * k, &poses[k]);
-        drogue_hls_pack_ellipse(w + DROGUE_HLS_O_EXPECTED + 5 * k, &discs[k]);
+        drogue_hls_pack_ellipse(w + DROGUE_HLS_O_EXPECTED + 5 * k, &expected->disc[k]);
     }
     w[DROGUE_HLS_O_DISC] = disc->centre2_x;
     w[DROGUE_HLS_O_DISC + 1] = disc->centre2_y;
@@ -154,11 +154,11 @@ static inline void frame_put_outline(frame *f, const drogue_pose poses[2], const
 static inline void frame_find_outline(frame *f)
 {
     drogue_pose poses[2];
-    drogue_ellipse discs[2];
+    drogue_inner_expected expected;
     drogue_mask disc = {0, 0, 0};
     drogue_status status = f->front == DROGUE_OK && frame_refused(f) ? DROGUE_E_ARGUMENT : f->front;
     memset(poses, 0, sizeof poses);
-    memset(discs, 0, sizeof discs);
+    memset(&expected, 0, sizeof expected);
     memset(f->outline.arcs, 0xFF, sizeof f->outline.arcs);
     if (status == DROGUE_OK) {
         status = drogue_outline_find(&f->outline, &f->workspace, &f->list, &f->p.mask, &f->p.config);
@@ -172,19 +172,22 @@ static inline void frame_find_outline(frame *f)
         if (!drogue_mask_valid(&disc)) {
             memset(&disc, 0, sizeof disc);
         }
-        f->words[DROGUE_HLS_O_EXPECTED_COUNT] =
-            (int32_t)drogue_inner_expect(discs, poses, &f->p.camera, &f->p.model, f->p.x_px, f->p.y_px);
+        drogue_inner_expect(&expected, poses, &(drogue_setup){&f->p.camera, &f->p.model, &f->p.config}, f->p.x_px,
+                            f->p.y_px);
+        f->words[DROGUE_HLS_O_EXPECTED_COUNT] = (int32_t)expected.count;
     }
     f->words[DROGUE_HLS_O_STATUS] = (int32_t)status;
     f->result.status = status;
-    frame_put_outline(f, poses, discs, &disc);
+    frame_put_outline(f, poses, &expected, &disc);
 }
 
 /* The inner disc, where the outline says. */
 static inline void frame_find_inner(int32_t dark[DROGUE_HLS_INNER_WORDS], const frame *f)
 {
-    const drogue_ellipse expected[2] = {drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED),
-                                        drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5)};
+    const drogue_inner_expected expected = {{drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED),
+                                             drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5)},
+                                            (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT],
+                                            f->p.config.min_inner_area_px};
     drogue_workspace workspace = f->workspace;
     drogue_mask disc;
     drogue_inner_part part;
@@ -199,8 +202,7 @@ static inline void frame_find_inner(int32_t dark[DROGUE_HLS_INNER_WORDS], const 
         dark[DROGUE_HLS_D_STATUS] = DROGUE_E_ARGUMENT; /* which nobody is to look at */
         return;
     }
-    status = drogue_inner_find(&part, &which, &workspace, &f->view, &disc, f->p.config.min_inner_area_px, expected,
-                               (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT]);
+    status = drogue_inner_find(&part, &which, &workspace, &f->view, &disc, &expected);
     bench_put_inner(dark, (uint32_t)status, &part, which);
 }
 

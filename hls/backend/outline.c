@@ -13,8 +13,7 @@ typedef struct frame {
     drogue_outline outline;
     drogue_ellipse ideal;
     drogue_pose poses[2];
-    drogue_ellipse expected[2];
-    uint32_t expected_count;
+    drogue_inner_expected expected;
     drogue_mask disc;
 } frame;
 
@@ -57,13 +56,13 @@ static inline int read_lists(drogue_edge edges[DROGUE_HLS_EDGES], drogue_arc arc
 static drogue_status find(frame *f, const drogue_workspace *workspace, const drogue_edge_list *list,
                           const drogue_hls_parameters *p)
 {
+    const drogue_setup setup = {&p->camera, &p->model, &p->config};
     drogue_status status;
     f->ideal = f->outline.ellipse;
     f->ideal.xc_px_q16 = drogue_q16_add(f->ideal.xc_px_q16, drogue_q16_from_int(p->x_px));
     f->ideal.yc_px_q16 = drogue_q16_add(f->ideal.yc_px_q16, drogue_q16_from_int(p->y_px));
     if (drogue_camera_distorts(&p->camera) &&
-        drogue_outline_undistorted(&f->ideal, &f->outline, workspace, list, &p->config, &p->camera, p->x_px, p->y_px) !=
-            DROGUE_OK) {
+        drogue_outline_undistorted(&f->ideal, &f->outline, workspace, list, &setup, p->x_px, p->y_px) != DROGUE_OK) {
         memset(&f->ideal, 0, sizeof f->ideal);
         return DROGUE_E_NO_ELLIPSE;
     }
@@ -73,7 +72,7 @@ static drogue_status find(frame *f, const drogue_workspace *workspace, const dro
         if (!drogue_mask_valid(&f->disc)) {
             memset(&f->disc, 0, sizeof f->disc);
         }
-        f->expected_count = drogue_inner_expect(f->expected, f->poses, &p->camera, &p->model, p->x_px, p->y_px);
+        drogue_inner_expect(&f->expected, f->poses, &setup, p->x_px, p->y_px);
     }
     return status;
 }
@@ -115,9 +114,9 @@ static void put(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const frame *f)
     words[DROGUE_HLS_O_BAND] = o->band_px_q16;
     drogue_hls_pack_pose(words + DROGUE_HLS_O_POSES, &f->poses[0]);
     drogue_hls_pack_pose(words + DROGUE_HLS_O_POSES + 8, &f->poses[1]);
-    words[DROGUE_HLS_O_EXPECTED_COUNT] = (int32_t)f->expected_count;
-    drogue_hls_pack_ellipse(words + DROGUE_HLS_O_EXPECTED, &f->expected[0]);
-    drogue_hls_pack_ellipse(words + DROGUE_HLS_O_EXPECTED + 5, &f->expected[1]);
+    words[DROGUE_HLS_O_EXPECTED_COUNT] = (int32_t)f->expected.count;
+    drogue_hls_pack_ellipse(words + DROGUE_HLS_O_EXPECTED, &f->expected.disc[0]);
+    drogue_hls_pack_ellipse(words + DROGUE_HLS_O_EXPECTED + 5, &f->expected.disc[1]);
     words[DROGUE_HLS_O_DISC] = f->disc.centre2_x;
     words[DROGUE_HLS_O_DISC + 1] = f->disc.centre2_y;
     words[DROGUE_HLS_O_DISC + 2] = f->disc.longest_px;

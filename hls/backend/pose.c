@@ -7,13 +7,6 @@
 #include "drogue/decide.h"
 #include "drogue/inner.h"
 
-/* What the second step needs of the first. */
-typedef struct first_step {
-    drogue_ellipse ellipse; /* as seen, coordinates of the region */
-    drogue_pose poses[2];
-    drogue_support support;
-} first_step;
-
 static void get_support(drogue_support *support, const int32_t words[DROGUE_HLS_OUTLINE_WORDS])
 {
     int k;
@@ -42,21 +35,21 @@ static uint32_t get_inner(drogue_inner_part *part, const int32_t words[DROGUE_HL
 }
 
 static void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS],
-                int64_t std[DROGUE_HLS_STD_WORDS], const drogue_result *r)
+                int64_t std[DROGUE_HLS_STD_WORDS], const drogue_inner_evidence *inner, const drogue_decision *r)
 {
     int i;
     int j;
-    words[DROGUE_HLS_R_HAS_INNER] = r->has_inner;
-    words[DROGUE_HLS_R_INNER] = r->inner.x_px_q16;
-    words[DROGUE_HLS_R_INNER + 1] = r->inner.y_px_q16;
-    words[DROGUE_HLS_R_INNER + 2] = (int32_t)r->inner.area_px;
-    words[DROGUE_HLS_R_INNER + 3] = r->inner.spread_px_q16;
-    words[DROGUE_HLS_R_INNER + 4] = r->inner.threshold;
-    words[DROGUE_HLS_R_INNER + 5] = r->inner.contrast;
+    words[DROGUE_HLS_R_HAS_INNER] = inner->weighed.std_px_q16 > 0;
+    words[DROGUE_HLS_R_INNER] = inner->part.x_px_q16;
+    words[DROGUE_HLS_R_INNER + 1] = inner->part.y_px_q16;
+    words[DROGUE_HLS_R_INNER + 2] = (int32_t)inner->part.area_px;
+    words[DROGUE_HLS_R_INNER + 3] = inner->part.spread_px_q16;
+    words[DROGUE_HLS_R_INNER + 4] = inner->part.threshold;
+    words[DROGUE_HLS_R_INNER + 5] = inner->part.contrast;
     drogue_hls_pack_pose(words + DROGUE_HLS_R_POSE, &r->pose);
     drogue_hls_pack_pose(words + DROGUE_HLS_R_ALTERNATIVE, &r->alternative);
     words[DROGUE_HLS_R_RESOLVED] = r->orientation_resolved;
-    words[DROGUE_HLS_R_AMBIGUITY] = r->ambiguity_q16;
+    words[DROGUE_HLS_R_AMBIGUITY] = inner->ambiguity_q16;
     for (i = 0; i < 5; i++) {
         for (j = 0; j <= i; j++) {
             covariance[i * (i + 1) / 2 + j] = r->covariance_q48[i][j];
@@ -69,56 +62,62 @@ static void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covariance[DROGU
 }
 
 /* Weigh the inner part, if there is one, and decide. */
-static drogue_status solve(drogue_result *out, const first_step *f, const drogue_hls_parameters *p,
-                           const int32_t outline[DROGUE_HLS_OUTLINE_WORDS], const int32_t dark[DROGUE_HLS_INNER_WORDS])
+static drogue_status solve(drogue_decision *out, drogue_inner_evidence *inner, drogue_evidence *evidence,
+                           const drogue_hls_parameters *p, const int32_t outline[DROGUE_HLS_OUTLINE_WORDS],
+                           const int32_t words[DROGUE_HLS_INNER_WORDS])
 {
-    drogue_joint_inner inner = {0, 0, 0};
-    uint32_t nearer = 0;
+    const drogue_setup setup = {&p->camera, &p->model, &p->config};
     drogue_status status = DROGUE_E_NO_INNER_PART;
     if (p->model.inner_radius_m_q16 > 0 && outline[DROGUE_HLS_O_DISC + 2] > 0) {
-        status = (drogue_status)((uint32_t)dark[DROGUE_HLS_D_STATUS] & DROGUE_HLS_STATUS);
+        status = (drogue_status)((uint32_t)words[DROGUE_HLS_D_STATUS] & DROGUE_HLS_STATUS);
     }
     if (status == DROGUE_OK) {
-        const uint32_t which = get_inner(&out->inner, dark);
+        const uint32_t which = get_inner(&inner->part, words);
+        const drogue_region region = {p->x_px, p->y_px, 0, 0};
         const drogue_ellipse expected = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED + 5 * which);
-        nearer = drogue_inner_weigh(&inner, out, &expected, &f->ellipse, f->poses, &p->config, &p->camera, &p->model);
+        const drogue_ellipse ellipse = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_ELLIPSE);
+        drogue_inner_weigh(inner, &region, &expected, &ellipse, evidence->poses, &setup);
+        evidence->inner = inner->weighed;
+        evidence->nearer = inner->nearer;
     } else if (status != DROGUE_E_NO_INNER_PART) {
         return status;
     }
-    return drogue_decide(out, f->poses, nearer, &f->support, &inner, &p->config, &p->camera, &p->model);
+    return drogue_decide(out, evidence, &setup);
 }
 
 void drogue_hls_pose(const int32_t parameters[DROGUE_HLS_PARAMETERS], const int32_t outline[DROGUE_HLS_OUTLINE_WORDS],
-                     const int32_t dark[DROGUE_HLS_INNER_WORDS], int32_t result[DROGUE_HLS_RESULT_WORDS],
+                     const int32_t inner[DROGUE_HLS_INNER_WORDS], int32_t result[DROGUE_HLS_RESULT_WORDS],
                      int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS], int64_t std[DROGUE_HLS_STD_WORDS])
 {
 #ifndef __BAMBU__ /* registers; the other arrays are memory ports, which is the default */
 #pragma HLS interface mode = s_axilite port = parameters
 #pragma HLS interface mode = s_axilite port = outline
-#pragma HLS interface mode = s_axilite port = dark
+#pragma HLS interface mode = s_axilite port = inner
 #pragma HLS interface mode = s_axilite port = result
 #pragma HLS interface mode = s_axilite port = covariance
 #pragma HLS interface mode = s_axilite port = std
 #pragma HLS interface mode = s_axilite port = return
 #endif
     drogue_hls_parameters p;
-    first_step f;
-    drogue_result out;
+    drogue_support support;
+    drogue_evidence evidence;
+    drogue_inner_evidence found;
+    drogue_decision out;
     uint32_t bits = (uint32_t)outline[DROGUE_HLS_O_STATUS];
     drogue_hls_unpack_parameters(&p, parameters);
     memset(&out, 0, sizeof out);
-    out.ambiguity_q16 = DROGUE_Q16_ONE;
+    memset(&found, 0, sizeof found);
+    memset(&evidence, 0, sizeof evidence);
+    found.ambiguity_q16 = DROGUE_Q16_ONE;
     if ((bits & DROGUE_HLS_STATUS) == DROGUE_OK) {
-        out.region.x_px = p.x_px;
-        out.region.y_px = p.y_px;
-        out.ideal = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_IDEAL);
-        f.ellipse = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_ELLIPSE);
-        drogue_hls_unpack_pose(&f.poses[0], outline + DROGUE_HLS_O_POSES);
-        drogue_hls_unpack_pose(&f.poses[1], outline + DROGUE_HLS_O_POSES + 8);
-        get_support(&f.support, outline);
-        bits |= (uint32_t)dark[DROGUE_HLS_D_STATUS] & ~DROGUE_HLS_STATUS;
-        bits |= (uint32_t)solve(&out, &f, &p, outline, dark);
+        evidence.ideal = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_IDEAL);
+        drogue_hls_unpack_pose(&evidence.poses[0], outline + DROGUE_HLS_O_POSES);
+        drogue_hls_unpack_pose(&evidence.poses[1], outline + DROGUE_HLS_O_POSES + 8);
+        get_support(&support, outline);
+        evidence.support = &support;
+        bits |= (uint32_t)inner[DROGUE_HLS_D_STATUS] & ~DROGUE_HLS_STATUS;
+        bits |= (uint32_t)solve(&out, &found, &evidence, &p, outline, inner);
     }
     result[DROGUE_HLS_R_STATUS] = (int32_t)bits;
-    put(result, covariance, std, &out);
+    put(result, covariance, std, &found, &out);
 }

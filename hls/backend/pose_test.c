@@ -16,34 +16,50 @@ static int64_t std_q32[DROGUE_HLS_STD_WORDS];
 /* The library's second half. */
 static void find_pose(frame *f)
 {
-    drogue_joint_inner inner = {0, 0, 0};
+    const drogue_setup setup = {&f->p.camera, &f->p.model, &f->p.config};
+    drogue_inner_evidence inner;
+    drogue_evidence evidence;
+    drogue_decision decision;
     drogue_result *r = &f->result;
-    drogue_pose poses[2];
     drogue_status status = DROGUE_E_NO_INNER_PART;
-    uint32_t nearer = 0;
     if (r->status != DROGUE_OK) {
         return;
     }
-    drogue_hls_unpack_pose(&poses[0], f->words + DROGUE_HLS_O_POSES);
-    drogue_hls_unpack_pose(&poses[1], f->words + DROGUE_HLS_O_POSES + 8);
+    memset(&evidence, 0, sizeof evidence);
+    evidence.ideal = r->ideal;
+    evidence.support = &f->outline.support;
+    drogue_hls_unpack_pose(&evidence.poses[0], f->words + DROGUE_HLS_O_POSES);
+    drogue_hls_unpack_pose(&evidence.poses[1], f->words + DROGUE_HLS_O_POSES + 8);
     if (f->words[DROGUE_HLS_O_DISC + 2] > 0) {
         status = (drogue_status)dark[DROGUE_HLS_D_STATUS];
     }
     if (status == DROGUE_OK) {
         const drogue_ellipse e =
             drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5 * dark[DROGUE_HLS_D_WHICH]);
-        r->inner.x_px_q16 = dark[DROGUE_HLS_D_X];
-        r->inner.y_px_q16 = dark[DROGUE_HLS_D_Y];
-        r->inner.area_px = (uint32_t)dark[DROGUE_HLS_D_AREA];
-        r->inner.spread_px_q16 = dark[DROGUE_HLS_D_SPREAD];
-        r->inner.threshold = (uint8_t)dark[DROGUE_HLS_D_THRESHOLD];
-        r->inner.contrast = (uint8_t)dark[DROGUE_HLS_D_CONTRAST];
-        nearer = drogue_inner_weigh(&inner, r, &e, &f->outline.ellipse, poses, &f->p.config, &f->p.camera, &f->p.model);
+        inner.part.x_px_q16 = dark[DROGUE_HLS_D_X];
+        inner.part.y_px_q16 = dark[DROGUE_HLS_D_Y];
+        inner.part.area_px = (uint32_t)dark[DROGUE_HLS_D_AREA];
+        inner.part.spread_px_q16 = dark[DROGUE_HLS_D_SPREAD];
+        inner.part.threshold = (uint8_t)dark[DROGUE_HLS_D_THRESHOLD];
+        inner.part.contrast = (uint8_t)dark[DROGUE_HLS_D_CONTRAST];
+        drogue_inner_weigh(&inner, &f->region, &e, &f->outline.ellipse, evidence.poses, &setup);
+        evidence.inner = inner.weighed;
+        evidence.nearer = inner.nearer;
+        r->inner = inner.part;
+        r->has_inner = inner.weighed.std_px_q16 > 0;
+        r->ambiguity_q16 = inner.ambiguity_q16;
     }
     r->status = status == DROGUE_E_NO_INNER_PART ? DROGUE_OK : status;
     if (r->status == DROGUE_OK) {
-        r->status =
-            drogue_decide(r, poses, nearer, &f->outline.support, &inner, &f->p.config, &f->p.camera, &f->p.model);
+        r->status = drogue_decide(&decision, &evidence, &setup);
+    }
+    if (r->status == DROGUE_OK) {
+        r->pose = decision.pose;
+        r->alternative = decision.alternative;
+        r->orientation_resolved = decision.orientation_resolved;
+        memcpy(r->covariance_q48, decision.covariance_q48, sizeof r->covariance_q48);
+        memcpy(r->position_std_m_q32, decision.position_std_m_q32, sizeof r->position_std_m_q32);
+        r->axis_std_rad_q32 = decision.axis_std_rad_q32;
     }
 }
 

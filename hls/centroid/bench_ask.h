@@ -9,7 +9,7 @@
 #include "bench/inner.h"
 #include "bench/sim.h"
 #include "centroid.h"
-#include "drogue/centroid.h"
+#include "drogue/inner.h"
 
 enum { MOST_PIXELS = DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT, GUARD = 0x5A5A5A5A };
 
@@ -22,9 +22,7 @@ static const char *const words[DROGUE_HLS_INNER_WORDS] = {"status", "x",        
 typedef struct question {
     drogue_image image;
     drogue_mask disc;
-    uint32_t min_area;
-    drogue_ellipse expected[DROGUE_HLS_DISCS];
-    uint32_t count;
+    drogue_inner_expected expected;
 } question;
 
 static unsigned answers[DROGUE_STATUS_COUNT]; /* how many of each status */
@@ -57,7 +55,7 @@ static void ask_block(int32_t dark[DROGUE_HLS_INNER_WORDS], const question *q)
     const size_t sent = fits(q) ? send(q) : 0;
     int k;
     for (k = 0; k < DROGUE_HLS_DISCS; k++) {
-        drogue_hls_pack_ellipse(expected + k * DROGUE_HLS_ELLIPSE_WORDS, &q->expected[k]);
+        drogue_hls_pack_ellipse(expected + k * DROGUE_HLS_ELLIPSE_WORDS, &q->expected.disc[k]);
     }
     for (k = 0; k < DROGUE_HLS_INNER_WORDS; k++) {
         out[k] = GUARD; /* all are written */
@@ -66,7 +64,7 @@ static void ask_block(int32_t dark[DROGUE_HLS_INNER_WORDS], const question *q)
     SIM_ARRAY(1, expected);
     SIM_ARRAY(2, out);
     drogue_hls_centroid(stream, expected, out, q->image.width_px, q->image.height_px, q->disc.centre2_x,
-                        q->disc.centre2_y, q->disc.longest_px, q->min_area, q->count);
+                        q->disc.centre2_y, q->disc.longest_px, q->expected.min_area_px, q->expected.count);
     memcpy(dark, out, sizeof out);
 }
 
@@ -79,7 +77,7 @@ static void ask_library(int32_t dark[DROGUE_HLS_INNER_WORDS], const question *q)
     uint32_t which = 0;
     drogue_status status = drogue_workspace_init(&workspace, memory, sizeof memory, &capacity);
     if (status == DROGUE_OK) {
-        status = drogue_inner_find(&part, &which, &workspace, &q->image, &q->disc, q->min_area, q->expected, q->count);
+        status = drogue_inner_find(&part, &which, &workspace, &q->image, &q->disc, &q->expected);
     } else {
         memset(&part, 0, sizeof part);
     }
@@ -114,9 +112,9 @@ static void expect_middle(question *q)
 {
     const drogue_q16 x = q->disc.centre2_x * (DROGUE_Q16_ONE / 2);
     const drogue_q16 y = q->disc.centre2_y * (DROGUE_Q16_ONE / 2);
-    q->expected[0] = circle(x, y, drogue_q16_div(q->disc.longest_px, 5));
-    q->expected[1] = circle(x + DROGUE_Q16_ONE, y, drogue_q16_div(q->disc.longest_px, 8));
-    q->count = 2;
+    q->expected.disc[0] = circle(x, y, drogue_q16_div(q->disc.longest_px, 5));
+    q->expected.disc[1] = circle(x + DROGUE_Q16_ONE, y, drogue_q16_div(q->disc.longest_px, 8));
+    q->expected.count = 2;
 }
 
 #endif

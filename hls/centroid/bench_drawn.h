@@ -80,15 +80,15 @@ static void draw_random(question *q, pattern kind, int32_t most_px)
         q->disc.centre2_y = (int32_t)random_below(spread + 8) - 4;
     }
     q->disc.longest_px = 1 + (int32_t)random_below(random_below(4) == 0 ? 1u << 20 : 2 * spread);
-    q->min_area = random_below(20);
-    q->count = random_below(8) == 0 ? 0 : 1 + random_below(2);
+    q->expected.min_area_px = random_below(20);
+    q->expected.count = random_below(8) == 0 ? 0 : 1 + random_below(2);
     for (i = 0; i < DROGUE_HLS_DISCS; i++) {
-        q->expected[i] = circle(random_q16(width), random_q16(height), DROGUE_Q16_ONE + random_q16(most_px));
+        q->expected.disc[i] = circle(random_q16(width), random_q16(height), DROGUE_Q16_ONE + random_q16(most_px));
         if (random_below(2) == 0) {
-            q->expected[i].xc_px_q16 = q->disc.centre2_x * (DROGUE_Q16_ONE / 2) + random_q16(4);
-            q->expected[i].yc_px_q16 = q->disc.centre2_y * (DROGUE_Q16_ONE / 2) - random_q16(4);
+            q->expected.disc[i].xc_px_q16 = q->disc.centre2_x * (DROGUE_Q16_ONE / 2) + random_q16(4);
+            q->expected.disc[i].yc_px_q16 = q->disc.centre2_y * (DROGUE_Q16_ONE / 2) - random_q16(4);
         }
-        q->expected[i].b_px_q16 -= (drogue_q16)random_below((uint32_t)q->expected[i].b_px_q16);
+        q->expected.disc[i].b_px_q16 -= (drogue_q16)random_below((uint32_t)q->expected.disc[i].b_px_q16);
     }
     draw(q, kind, width, height);
 }

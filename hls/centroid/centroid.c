@@ -196,8 +196,7 @@ static void weigh(drogue_inner_part *part, const uint8_t *pixels, uint32_t at, i
 /* All five passes; without a part the last three are taken all the same, for nothing. Each kind of pass is called in one
  * place: one piece of hardware. */
 static uint32_t find(drogue_inner_part *out, uint32_t *which, const uint8_t *pixels, int32_t width, int32_t height,
-                     const drogue_mask *disc, uint32_t min_area, const drogue_ellipse expected[DROGUE_HLS_DISCS],
-                     uint32_t count)
+                     const drogue_mask *disc, const drogue_inner_expected *expected)
 {
     const uint32_t frame = (uint32_t)(width * height);
     drogue_mask window = *disc;
@@ -217,8 +216,8 @@ static uint32_t find(drogue_inner_part *out, uint32_t *which, const uint8_t *pix
             drogue_hls_take_components(pixels, at, width, height, left, window.centre2_x, window.centre2_y,
                                        part.threshold, &full);
             at += frame;
-            status = drogue_hls_choose_components(&part, which, min_area, expected, count);
-            a_px_q16 = expected[*which].a_px_q16;
+            status = drogue_hls_choose_components(&part, which, expected);
+            a_px_q16 = expected->disc[*which].a_px_q16;
             drogue_inner_window(&window, &part, a_px_q16, DROGUE_INNER_WIDE);
         }
     }
@@ -263,17 +262,19 @@ void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_INNER_PASSES * DROGUE_H
 #pragma HLS interface port = return mode = s_axilite
 #endif
     drogue_inner_part part = {0, 0, 0, 0, 0, 0};
-    drogue_ellipse discs[DROGUE_HLS_DISCS];
+    drogue_inner_expected sought;
     const drogue_mask disc = {centre2_x, centre2_y, longest_px};
     uint32_t which = 0;
     uint32_t status;
     int32_t k;
     for (k = 0; k < DROGUE_HLS_DISCS; k++) {
-        discs[k] = drogue_hls_unpack_ellipse(&expected[k * DROGUE_HLS_ELLIPSE_WORDS]);
+        sought.disc[k] = drogue_hls_unpack_ellipse(&expected[k * DROGUE_HLS_ELLIPSE_WORDS]);
     }
+    sought.count = count;
+    sought.min_area_px = min_area;
     status = (uint32_t)check(width_px, height_px, &disc, count);
     if (status == DROGUE_OK) {
-        status = find(&part, &which, pixels, width_px, height_px, &disc, min_area, discs, count);
+        status = find(&part, &which, pixels, width_px, height_px, &disc, &sought);
     }
     dark[DROGUE_HLS_D_STATUS] = (int32_t)status;
     dark[DROGUE_HLS_D_X] = part.x_px_q16;

@@ -226,9 +226,9 @@ void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, int32_t widt
     *full = r.full;
 }
 
-drogue_status drogue_hls_choose_components(drogue_inner_part *part, uint32_t *which, uint32_t min_area,
-                                           const drogue_ellipse expected[2], uint32_t count)
+drogue_status drogue_hls_choose_components(drogue_inner_part *part, uint32_t *which,
+                                           const drogue_inner_expected *expected)
 {
     drogue_inner_join(parent, area, x_sum, y_sum, label_count);
-    return drogue_inner_choose(part, which, area, x_sum, y_sum, label_count, min_area, expected, count);
+    return drogue_inner_choose(part, which, area, x_sum, y_sum, label_count, expected);
 }

@@ -18,7 +18,7 @@ void drogue_hls_take_components(const uint8_t *pixels, uint32_t at, int32_t widt
                                 int32_t centre2_x, int32_t centre2_y, uint8_t threshold, uint32_t *full);
 
 /* Choose among them, as drogue_inner_choose(). */
-drogue_status drogue_hls_choose_components(drogue_inner_part *part, uint32_t *which, uint32_t min_area,
-                                           const drogue_ellipse expected[2], uint32_t count);
+drogue_status drogue_hls_choose_components(drogue_inner_part *part, uint32_t *which,
+                                           const drogue_inner_expected *expected);
 
 #endif

@@ -18,7 +18,7 @@ static int take_case(question *q, bench *b, const conf_case *c)
     q->disc.centre2_x = p[0];
     q->disc.centre2_y = p[1];
     q->disc.longest_px = p[2];
-    q->min_area = (uint32_t)p[3];
+    q->expected.min_area_px = (uint32_t)p[3];
     if (q->image.height_px > DROGUE_HLS_HEIGHT) {
         bench_skip(b, "higher than DROGUE_HLS_HEIGHT");
         return 0;
@@ -55,11 +55,11 @@ static void disc_vectors(bench *b)
         if (!take_case(&q, b, c)) {
             continue;
         }
-        q.count = (uint32_t)discs->count / 4;
-        for (i = 0; i < q.count; i++) {
+        q.expected.count = (uint32_t)discs->count / 4;
+        for (i = 0; i < q.expected.count; i++) {
             const int32_t *w = bench_words32(discs) + 4 * i;
-            q.expected[i] = circle(w[0], w[1], w[2]);
-            q.expected[i].b_px_q16 = w[3];
+            q.expected.disc[i] = circle(w[0], w[1], w[2]);
+            q.expected.disc[i].b_px_q16 = w[3];
         }
         compare(b, dark, &q);
         check_disc(b, dark, c);
@@ -80,7 +80,8 @@ static void centroid_vectors(bench *b)
 }
 
 /* What drogue_measure() asks of the inner part's search, put together again from its result. */
-static void question_of(question *q, const drogue_result *r, const drogue_camera *camera, const drogue_model *model)
+static void question_of(question *q, const drogue_result *r, const drogue_camera *camera, const drogue_model *model,
+                        const drogue_config *config)
 {
     drogue_ellipse outline = r->ellipse;
     drogue_pose poses[2];
@@ -89,7 +90,8 @@ static void question_of(question *q, const drogue_result *r, const drogue_camera
     q->disc = drogue_inner_disc(&outline);
     if (outline.b_px_q16 > 0 && model->inner_radius_m_q16 > 0 &&
         drogue_pose_from_ellipse(poses, &r->ideal, camera, model->rim_radius_m_q16) == DROGUE_OK) {
-        q->count = drogue_inner_expect(q->expected, poses, camera, model, r->region.x_px, r->region.y_px);
+        drogue_inner_expect(&q->expected, poses, &(drogue_setup){camera, model, config}, r->region.x_px,
+                            r->region.y_px);
     } else {
         q->disc = drogue_mask_of_size(q->image.width_px, q->image.height_px);
         expect_middle(q);
@@ -131,7 +133,7 @@ static void frame_vectors(bench *b)
                          drogue_workspace_init(&workspace, memory, sizeof memory, &capacity) == DROGUE_OK)) {
             return;
         }
-        (void)drogue_measure(&result, &workspace, &config, &camera, &model, &image, &region);
+        (void)drogue_measure(&result, &workspace, &(drogue_setup){&camera, &model, &config}, &image, &region);
         memset(&q, 0, sizeof q);
         q.image = image;
         if (result.region.width_px > 0) {
@@ -143,8 +145,8 @@ static void frame_vectors(bench *b)
             bench_skip(b, "larger than DROGUE_HLS_WIDTH or _HEIGHT");
             continue;
         }
-        q.min_area = config.min_inner_area_px;
-        question_of(&q, &result, &camera, &model);
+        q.expected.min_area_px = config.min_inner_area_px;
+        question_of(&q, &result, &camera, &model, &config);
         compare(b, dark, &q);
         check_frame(b, dark, c, &result.region);
     }
@@ -177,7 +179,7 @@ static void refusals(bench *b)
     bench_word(b, "status of too high a region", dark[DROGUE_HLS_D_STATUS],
                DROGUE_HLS_HEIGHT < DROGUE_MAX_SIDE ? DROGUE_E_WORKSPACE : DROGUE_E_ARGUMENT);
     q.image.height_px = 4;
-    q.count = DROGUE_HLS_DISCS + 1;
+    q.expected.count = DROGUE_HLS_DISCS + 1;
     ask_block(dark, &q);
     bench_word(b, "status of too many discs", dark[DROGUE_HLS_D_STATUS], DROGUE_E_ARGUMENT);
     b->cases += 8;

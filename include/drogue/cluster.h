@@ -3,19 +3,13 @@
 #ifndef DROGUE_CLUSTER_H
 #define DROGUE_CLUSTER_H
 
-#include "drogue/types.h"
+#include "drogue/config.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-typedef struct drogue_cluster_config {
-    drogue_q16 centre_px_q16; /* T_d */
-    drogue_q16 a_px_q16;      /* T_a */
-    drogue_q16 b_px_q16;      /* T_b */
-    drogue_q16 angle_rad_q16; /* T_rho; angles are compared modulo pi */
-    drogue_q16 round_q16;     /* angles are not compared when both axis ratios exceed this: a circle has none */
-} drogue_cluster_config;
+#define DROGUE_MAX_CANDIDATES 25 /* 6 pairs of quadrants with two arcs each, and the first arcs of all quadrants */
 
 typedef struct drogue_candidate {
     drogue_ellipse ellipse;

@@ -3,13 +3,27 @@
 #ifndef DROGUE_CONFIG_H
 #define DROGUE_CONFIG_H
 
-#include "drogue/cluster.h"
-#include "drogue/quality.h"
 #include "drogue/types.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* How a fit is scored: quality.h. */
+typedef struct drogue_quality_config {
+    drogue_q16 fit_error_px_q16; /* points this near the ellipse count as on it: Th_error = 2 fit_error / a in (10) */
+    drogue_q16 k1_q16;           /* (14): decay of the score of flat ellipses, [0, 64] */
+    drogue_q16 k2_q16;           /* (14): axis ratio at which that score is 0, [0, 1) */
+} drogue_quality_config;
+
+/* When two ellipses are one: cluster.h. */
+typedef struct drogue_cluster_config {
+    drogue_q16 centre_px_q16; /* T_d */
+    drogue_q16 a_px_q16;      /* T_a */
+    drogue_q16 b_px_q16;      /* T_b */
+    drogue_q16 angle_rad_q16; /* T_rho; angles are compared modulo pi */
+    drogue_q16 round_q16;     /* angles are not compared when both axis ratios exceed this: a circle has none */
+} drogue_cluster_config;
 
 /* Thresholds; drogue_config_default() fills in the defaults given here. */
 typedef struct drogue_config {
@@ -63,6 +77,13 @@ void drogue_config_default(drogue_config *config);
  * refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px and its uncertainty in [0, 16] px^2, min_fill <=
  * max_fill, outline_shading in (0, 1024], inner_std in (0, 16] px, inner_std_spread in [0, 16], k1 in [0, 64], k2 in [0, 1). */
 int drogue_config_valid(const drogue_config *config);
+
+/* What stays the same from frame to frame, made once and passed from stage to stage. */
+typedef struct drogue_setup {
+    const drogue_camera *camera;
+    const drogue_model *model;
+    const drogue_config *config;
+} drogue_setup;
 
 #ifdef __cplusplus
 }

@@ -11,6 +11,16 @@
 extern "C" {
 #endif
 
+#define DROGUE_HULL_MAX 576 /* vertices of a strictly convex lattice polygon in 2048 x 2048: at most 569 */
+
+/* Point of a convex hull, whole pixels. */
+typedef struct drogue_point {
+    int32_t x;
+    int32_t y;
+} drogue_point;
+
+typedef char drogue_assume_hull_fits[DROGUE_HULL_MAX * sizeof(drogue_point) <= DROGUE_SCRATCH_BYTES ? 1 : -1];
+
 /* Smallest rotated rectangle around an arc's pixels. */
 typedef struct drogue_min_rect {
     drogue_q16 xc_px_q16; /* centre, region coordinates */

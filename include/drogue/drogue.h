@@ -8,20 +8,21 @@
  *     const drogue_capacity capacity = DROGUE_CAPACITY_FOR(256);
  *     drogue_workspace workspace;
  *     drogue_config config;
+ *     const drogue_setup setup = {&camera, &model, &config};
  *     drogue_result result;
  *
  *     drogue_workspace_init(&workspace, memory, sizeof memory, &capacity);
  *     drogue_config_default(&config);
- *     if (drogue_measure(&result, &workspace, &config, &camera, &model, &image, &region) == DROGUE_OK) {
+ *     if (drogue_measure(&result, &workspace, &setup, &image, &region) == DROGUE_OK) {
  *         use(result.pose.position_m_q16);
  *     }
  */
 #ifndef DROGUE_H
 #define DROGUE_H
 
-#include "drogue/centroid.h"
 #include "drogue/config.h"
 #include "drogue/frontend.h"
+#include "drogue/inner.h"
 #include "drogue/outline.h"
 #include "drogue/pose.h"
 
@@ -72,7 +73,8 @@ typedef struct drogue_result {
  *
  *  out        result; every member is defined for every return value, zero where there is nothing to say
  *  workspace  holds the edge points and arcs after the call
- *  model      inner_radius 0: inner part unknown, both poses are given and the orientation stays unresolved
+ *  setup      camera, model, thresholds; the model's inner_radius 0: inner part unknown, both poses are given and the
+ *             orientation stays unresolved
  *  image      the caller's; not written
  *  region     where to look, drogue about its middle, longest side 2 to 3 major semi-axes; may reach past the
  *             image, then the part inside is used and the masks stay where they were
@@ -80,9 +82,8 @@ typedef struct drogue_result {
  *             DROGUE_E_LABELS_FULL, DROGUE_E_EDGES_FULL, DROGUE_E_ARCS_FULL, DROGUE_E_NO_EDGES, DROGUE_E_NO_ARCS,
  *             DROGUE_E_NO_ELLIPSE, DROGUE_E_DOMAIN, DROGUE_E_BEHIND_CAMERA
  */
-drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_config *config,
-                             const drogue_camera *camera, const drogue_model *model, const drogue_image *image,
-                             const drogue_region *region);
+drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
+                             const drogue_image *image, const drogue_region *region);
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,6 @@
 #include <stddef.h>
 
 #include "drogue/canny.h"
-#include "drogue/cluster.h"
 #include "drogue/gradient.h"
 #include "drogue/label.h"
 #include "drogue/mask.h"
@@ -35,50 +34,44 @@ typedef struct drogue_capacity {
 #define DROGUE_LABELS_FOR(side_px) (3u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 140u + 2u)
 #define DROGUE_ARCS_FOR(side_px) ((size_t)96u)
 
-#define DROGUE_HULL_MAX 576 /* vertices of a strictly convex lattice polygon in 2048 x 2048: at most 569 */
-
-#define DROGUE_MAX_CANDIDATES 25 /* 6 pairs of quadrants with two arcs each, and the first arcs of all quadrants */
-
-/* Point of a convex hull, whole pixels. */
-typedef struct drogue_point {
-    int32_t x;
-    int32_t y;
-} drogue_point;
-
 #define DROGUE_FOURS(width_px) (((size_t)(width_px) + 3u) / 4u) /* words that hold a row of pixels */
 
-/* Bytes of the row buffers; the hull, which is needed after them, lies in the same place. */
+/* Bytes of the row buffers. What the outline needs after them lies in the same place: constraints.h and outline.h check
+ * that it fits. */
 #define DROGUE_ROWS_BYTES(width_px)                                                                            \
     ((size_t)(width_px) * (sizeof(drogue_merge) + 18u) +                                                       \
      DROGUE_FOURS(width_px) * (5u * 4u + 3u * 8u + 4u * 8u + 8u * sizeof(drogue_slope)) + 5u * 4u + 3u * 16u + \
      4u * 8u)
-#define DROGUE_HULL_BYTES (DROGUE_HULL_MAX * sizeof(drogue_point))
+#define DROGUE_SCRATCH_BYTES ((size_t)4608)
 
 /* Bytes of memory for a workspace: usable in a static array's size. */
 #define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                         \
     ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels)*16u + 256u * 4u + \
-     (DROGUE_ROWS_BYTES(width_px) > DROGUE_HULL_BYTES ? DROGUE_ROWS_BYTES(width_px) : DROGUE_HULL_BYTES))
+     (DROGUE_ROWS_BYTES(width_px) > DROGUE_SCRATCH_BYTES ? DROGUE_ROWS_BYTES(width_px) : DROGUE_SCRATCH_BYTES))
 
 /* The same for a region of the given longest side with the capacity that suits it. */
 #define DROGUE_WORKSPACE_BYTES_FOR(side_px) \
     DROGUE_WORKSPACE_BYTES(side_px, DROGUE_EDGES_FOR(side_px), DROGUE_LABELS_FOR(side_px), DROGUE_ARCS_FOR(side_px))
 
+struct drogue_point;     /* constraints.h */
+struct drogue_candidate; /* cluster.h */
+
 /* Line buffers, tables and lists in the caller's memory; set by drogue_workspace_init(). After a frame
  * 'edges' and 'arcs' hold its edge points and arcs; everything else is scratch. */
 typedef struct drogue_workspace {
     drogue_capacity capacity;
-    drogue_edge *edges;           /* edges */
-    drogue_arc *arcs;             /* arcs */
-    uint32_t *component_parent;   /* labels; these four also serve the dark components */
-    uint32_t *component_strong;   /* labels */
-    uint32_t *arc_parent;         /* labels */
-    uint32_t *arc_component;      /* labels */
-    uint32_t *histogram;          /* 256 */
-    drogue_point *hull;           /* DROGUE_HULL_MAX, in the place of the rows below */
-    drogue_candidate *candidates; /* DROGUE_MAX_CANDIDATES, in the place of the hull when that has served */
-    drogue_merge *merges;         /* width */
-    uint32_t *component_rows;     /* 2 x width */
-    uint32_t *arc_rows;           /* 2 x width */
+    drogue_edge *edges;                  /* edges */
+    drogue_arc *arcs;                    /* arcs */
+    uint32_t *component_parent;          /* labels; these four also serve the inner part's components */
+    uint32_t *component_strong;          /* labels */
+    uint32_t *arc_parent;                /* labels */
+    uint32_t *arc_component;             /* labels */
+    uint32_t *histogram;                 /* 256 */
+    struct drogue_point *hull;           /* DROGUE_HULL_MAX, in the place of the rows below */
+    struct drogue_candidate *candidates; /* DROGUE_MAX_CANDIDATES, in the place of the hull when that has served */
+    drogue_merge *merges;                /* width */
+    uint32_t *component_rows;            /* 2 x width */
+    uint32_t *arc_rows;                  /* 2 x width */
     uint8_t *
         raw_rows; /* 5 x (fours + 1) words, ring of input rows, pixel 0 at byte 2; aligned for uint32_t, like the next */
     uint8_t *smooth_rows;     /* 3 x 2 (fours + 2) words, ring of rows of lanes, pixel 0 at word 2 */

@@ -4,14 +4,19 @@
 #ifndef DROGUE_OUTLINE_H
 #define DROGUE_OUTLINE_H
 
+#include "drogue/cluster.h"
 #include "drogue/config.h"
 #include "drogue/constraints.h"
 #include "drogue/frontend.h"
+#include "drogue/quality.h"
 #include "drogue/support.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+typedef char
+    drogue_assume_candidates_fit[DROGUE_MAX_CANDIDATES * sizeof(drogue_candidate) <= DROGUE_SCRATCH_BYTES ? 1 : -1];
 
 typedef struct drogue_outline {
     drogue_ellipse ellipse;   /* region coordinates, as seen, what blur took put back */
@@ -45,8 +50,7 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
  */
 drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outline *outline,
                                          const drogue_workspace *workspace, const drogue_edge_list *list,
-                                         const drogue_config *config, const drogue_camera *camera, int32_t x_px,
-                                         int32_t y_px);
+                                         const drogue_setup *setup, int32_t x_px, int32_t y_px);
 
 #ifdef __cplusplus
 }

@@ -3,17 +3,11 @@
 #ifndef DROGUE_QUALITY_H
 #define DROGUE_QUALITY_H
 
-#include "drogue/types.h"
+#include "drogue/config.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef struct drogue_quality_config {
-    drogue_q16 fit_error_px_q16; /* points this near the ellipse count as on it: Th_error = 2 fit_error / a in (10) */
-    drogue_q16 k1_q16;           /* (14): decay of the score of flat ellipses, [0, 64] */
-    drogue_q16 k2_q16;           /* (14): axis ratio at which that score is 0, [0, 1) */
-} drogue_quality_config;
 
 /* The ellipse in the form that points are tested with; c, s are cosine and sine of its angle. */
 typedef struct drogue_ellipse_frame {

@@ -72,8 +72,7 @@ int32_t drogue_search_end(drogue_search *search);
  *          status of the last, DROGUE_E_REGION where the part itself is too large
  */
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
-                             const drogue_config *config, const drogue_camera *camera, const drogue_model *model,
-                             const drogue_image *image, const drogue_region *region);
+                             const drogue_setup *setup, const drogue_image *image, const drogue_region *region);
 
 #ifdef __cplusplus
 }

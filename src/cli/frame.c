@@ -109,7 +109,7 @@ int frame_measure(drogue_result *out, frame_workspace *w, const options *o, cons
     if (frame_workspace_fit(w, path, width > 0 ? width : 1, height > 0 ? height : 1, config.min_arc_px)) {
         return EXIT_BAD;
     }
-    (void)drogue_measure(out, &w->workspace, &config, &o->camera, &o->model, &image, region);
+    (void)drogue_measure(out, &w->workspace, &(drogue_setup){&o->camera, &o->model, &config}, &image, region);
     return EXIT_MEASURED;
 }
 
@@ -130,7 +130,7 @@ int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w,
     if (fit_whole(w, o, path, grey)) {
         return EXIT_BAD;
     }
-    (void)drogue_acquire(out, &w->search, &w->workspace, &config, &o->camera, &o->model, &image, NULL);
+    (void)drogue_acquire(out, &w->search, &w->workspace, &(drogue_setup){&o->camera, &o->model, &config}, &image, NULL);
     *region = out->status == DROGUE_OK ? out->region : whole_image(grey);
     return EXIT_MEASURED;
 }

@@ -46,8 +46,8 @@ drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, s
     at += labels * sizeof(uint32_t);
     workspace->histogram = (uint32_t *)(void *)at;
     at += 256 * sizeof(uint32_t);
-    workspace->hull = (drogue_point *)(void *)at; /* the rows have served when it comes */
-    workspace->candidates = (drogue_candidate *)(void *)at;
+    workspace->hull = (struct drogue_point *)(void *)at; /* the rows have served when it comes */
+    workspace->candidates = (struct drogue_candidate *)(void *)at;
     workspace->merges = (drogue_merge *)(void *)at;
     at += width * sizeof(drogue_merge);
     workspace->component_rows = (uint32_t *)(void *)at;

@@ -94,17 +94,16 @@ static int32_t mean_level(const uint32_t *histogram, uint32_t first, uint32_t en
 }
 
 drogue_status drogue_inner_choose(drogue_inner_part *out, uint32_t *which, const uint32_t *area, const uint32_t *x_sum,
-                                  const uint32_t *y_sum, uint32_t labels, uint32_t min_area,
-                                  const drogue_ellipse *expected, uint32_t count)
+                                  const uint32_t *y_sum, uint32_t labels, const drogue_inner_expected *expected)
 {
     drogue_inner_part part = *out;
     drogue_q16 least = DROGUE_Q16_MAX;
     uint32_t i;
     *which = 0;
-    for (i = 0; i < count; i++) {
+    for (i = 0; i < expected->count; i++) {
         drogue_q16 off;
-        components_within(&part, area, x_sum, y_sum, labels, min_area, &expected[i]);
-        off = misfit(&part, &expected[i]);
+        components_within(&part, area, x_sum, y_sum, labels, expected->min_area_px, &expected->disc[i]);
+        off = misfit(&part, &expected->disc[i]);
         if (part.area_px > 0 && off < least) {
             least = off;
             *out = part;

@@ -56,18 +56,18 @@ static void weigh_about(drogue_inner_part *part, uint32_t *histogram, const drog
 }
 
 drogue_status drogue_inner_find(drogue_inner_part *out, uint32_t *which, drogue_workspace *workspace,
-                                const drogue_image *image, const drogue_mask *disc, uint32_t min_area,
-                                const drogue_ellipse *expected, uint32_t count)
+                                const drogue_image *image, const drogue_mask *disc,
+                                const drogue_inner_expected *expected)
 {
     drogue_inner_pass pass;
     drogue_status status = drogue_inner_components(&pass, out, workspace, image, disc);
     *which = 0;
     if (status == DROGUE_OK) {
         status = drogue_inner_choose(out, which, workspace->component_strong, workspace->arc_parent,
-                                     workspace->arc_component, pass.labels.count, min_area, expected, count);
+                                     workspace->arc_component, pass.labels.count, expected);
     }
     if (status == DROGUE_OK) {
-        weigh_about(out, workspace->histogram, image, expected[*which].a_px_q16);
+        weigh_about(out, workspace->histogram, image, expected->disc[*which].a_px_q16);
     }
     return status;
 }

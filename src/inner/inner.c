@@ -7,21 +7,22 @@
 #include "drogue/quality.h"
 #include "drogue/undistort.h"
 
-uint32_t drogue_inner_expect(drogue_ellipse expected[2], const drogue_pose poses[2], const drogue_camera *camera,
-                             const drogue_model *model, int32_t x_px, int32_t y_px)
+void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose poses[2], const drogue_setup *setup,
+                         int32_t x_px, int32_t y_px)
 {
-    uint32_t count = 0;
     int i;
+    memset(expected, 0, sizeof *expected);
+    expected->min_area_px = setup->config->min_inner_area_px;
     for (i = 0; i < 2; i++) {
-        drogue_ellipse *e = &expected[count];
-        if (drogue_inner_disc_image(e, &poses[i], camera, model) == DROGUE_OK && e->a_px_q16 >= DROGUE_Q16_ONE &&
-            drogue_distort_point(&e->xc_px_q16, &e->yc_px_q16, camera) == DROGUE_OK) {
+        drogue_ellipse *e = &expected->disc[expected->count];
+        if (drogue_inner_disc_image(e, &poses[i], setup->camera, setup->model) == DROGUE_OK &&
+            e->a_px_q16 >= DROGUE_Q16_ONE &&
+            drogue_distort_point(&e->xc_px_q16, &e->yc_px_q16, setup->camera) == DROGUE_OK) {
             e->xc_px_q16 = drogue_q16_sub(e->xc_px_q16, drogue_q16_from_int(x_px));
             e->yc_px_q16 = drogue_q16_sub(e->yc_px_q16, drogue_q16_from_int(y_px));
-            count++;
+            expected->count++;
         }
     }
-    return count;
 }
 
 drogue_mask drogue_inner_disc(const drogue_ellipse *outline)
@@ -77,27 +78,24 @@ drogue_q16 drogue_inner_std(const drogue_inner_part *part, const drogue_ellipse 
     return drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)(share * share + least * least + spread * spread)));
 }
 
-uint32_t drogue_inner_weigh(drogue_joint_inner *weighed, drogue_result *out, const drogue_ellipse *expected,
-                            const drogue_ellipse *outline, const drogue_pose poses[2], const drogue_config *config,
-                            const drogue_camera *camera, const drogue_model *model)
+void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_region *region, const drogue_ellipse *expected,
+                        const drogue_ellipse *outline, const drogue_pose poses[2], const drogue_setup *setup)
 {
+    drogue_inner_part *part = &evidence->part;
+    drogue_joint_inner *weighed = &evidence->weighed;
     drogue_choice choice;
-    weighed->std_px_q16 = drogue_inner_std(&out->inner, expected, outline, config);
-    weighed->x_px_q16 = out->inner.x_px_q16 =
-        drogue_q16_add(out->inner.x_px_q16, drogue_q16_from_int(out->region.x_px));
-    weighed->y_px_q16 = out->inner.y_px_q16 =
-        drogue_q16_add(out->inner.y_px_q16, drogue_q16_from_int(out->region.y_px));
-    if (drogue_undistort_point(&weighed->x_px_q16, &weighed->y_px_q16, camera) != DROGUE_OK ||
-        drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, model->inner_depth_m_q16, camera) !=
-            DROGUE_OK) {
+    weighed->std_px_q16 = drogue_inner_std(part, expected, outline, setup->config);
+    weighed->x_px_q16 = part->x_px_q16 = drogue_q16_add(part->x_px_q16, drogue_q16_from_int(region->x_px));
+    weighed->y_px_q16 = part->y_px_q16 = drogue_q16_add(part->y_px_q16, drogue_q16_from_int(region->y_px));
+    if (drogue_undistort_point(&weighed->x_px_q16, &weighed->y_px_q16, setup->camera) != DROGUE_OK ||
+        drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, setup->model->inner_depth_m_q16,
+                           setup->camera) != DROGUE_OK) {
         weighed->std_px_q16 = 0; /* beyond the lens model, or behind the camera for one of the poses */
         choice.index = 0;
     }
-    if (weighed->std_px_q16 > 0) {
-        out->has_inner = 1;
-        out->ambiguity_q16 = choice.ambiguity_q16;
-    } else { /* what is dark orders the poses, but is not to be believed */
-        memset(&out->inner, 0, sizeof out->inner);
+    evidence->nearer = choice.index;
+    evidence->ambiguity_q16 = weighed->std_px_q16 > 0 ? choice.ambiguity_q16 : DROGUE_Q16_ONE;
+    if (weighed->std_px_q16 == 0) { /* what is dark orders the poses, but is not to be believed */
+        memset(part, 0, sizeof *part);
     }
-    return choice.index;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Otsu 1979, exact: variances are compared as fractions. */
-#include "drogue/centroid.h"
+#include "drogue/inner.h"
 #include "drogue/wide.h"
 
 /* A variance as a fraction p^2 / q and the product of such a p^2 with another q: high * 2^52 + low. */

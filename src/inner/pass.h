@@ -3,7 +3,7 @@
 #ifndef DROGUE_INNER_PASS_H
 #define DROGUE_INNER_PASS_H
 
-#include "drogue/centroid.h"
+#include "drogue/inner.h"
 
 /* Components of the opened binary image with area and coordinate sums, in the tables of the workspace. The sums
  * fit 32 bits: those over all pixels of 2048 x 2048 do. */
@@ -87,8 +87,7 @@ void drogue_inner_join(uint32_t *parent, uint32_t *area, uint32_t *x_sum, uint32
  *  return  DROGUE_OK, DROGUE_E_NO_INNER_PART
  */
 drogue_status drogue_inner_choose(drogue_inner_part *out, uint32_t *which, const uint32_t *area, const uint32_t *x_sum,
-                                  const uint32_t *y_sum, uint32_t labels, uint32_t min_area,
-                                  const drogue_ellipse *expected, uint32_t count);
+                                  const uint32_t *y_sum, uint32_t labels, const drogue_inner_expected *expected);
 
 /* Disc about the part of a multiple of the expected semi-axis, and a pixel: WIDE to find its threshold, then NARROW to
  * weigh it. */

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-static void put_covariance(drogue_result *out, const drogue_joint *joint)
+static void put_covariance(drogue_decision *out, const drogue_joint *joint)
 {
     const drogue_wide *yaw = &joint->covariance[DROGUE_PACKED(3, 3)];
     drogue_wide t;
@@ -51,23 +51,24 @@ static int same_solution(const drogue_joint *p, const drogue_pose *q)
 
 /* Solve for outline and inner part from the nearer pose, and far enough from the other one to know how much worse it is;
  * the other way round when it is better. 0 when they contradict each other; 'resolved' tells whether that decides. */
-static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved, const drogue_pose poses[2],
-                          const drogue_joint_outline *outline, const drogue_joint_inner *inner,
-                          const drogue_config *config, const drogue_camera *camera, const drogue_model *model)
+static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved, const drogue_joint_outline *outline,
+                          const drogue_evidence *seen, const drogue_setup *setup)
 {
     drogue_pose other; /* what matters of the solution not taken */
     drogue_wide chi2;
     drogue_status near_status;
-    const drogue_status far_status =
-        drogue_joint_solve(best, &poses[1 - *index], outline, inner, camera, model, OTHER_STEPS);
+    const drogue_status far_status = drogue_joint_solve(best, &seen->poses[1 - *index], outline, &seen->inner,
+                                                        setup->camera, setup->model, OTHER_STEPS);
     other = best->pose;
     chi2 = best->chi2;
-    near_status = drogue_joint_solve(best, &poses[*index], outline, inner, camera, model, STEPS);
+    near_status =
+        drogue_joint_solve(best, &seen->poses[*index], outline, &seen->inner, setup->camera, setup->model, STEPS);
     if (far_status == DROGUE_OK && (near_status != DROGUE_OK || drogue_wide_cmp(chi2, best->chi2) < 0)) {
         other = best->pose;
         chi2 = best->chi2;
         *index = 1 - *index;
-        if (drogue_joint_solve(best, &poses[*index], outline, inner, camera, model, STEPS) != DROGUE_OK) {
+        if (drogue_joint_solve(best, &seen->poses[*index], outline, &seen->inner, setup->camera, setup->model, STEPS) !=
+            DROGUE_OK) {
             return 0;
         }
     } else if (near_status != DROGUE_OK) {
@@ -75,36 +76,34 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
     }
     drogue_wide_difference(&chi2, &chi2, &best->chi2);
     *resolved = far_status != DROGUE_OK || near_status != DROGUE_OK || same_solution(best, &other) ||
-                drogue_wide_cmp(chi2, drogue_wide_from_q16(config->min_chi2_gap_q16)) >= 0;
-    return drogue_wide_cmp(best->chi2, drogue_wide_from_q16(config->max_chi2_q16)) <= 0;
+                drogue_wide_cmp(chi2, drogue_wide_from_q16(setup->config->min_chi2_gap_q16)) >= 0;
+    return drogue_wide_cmp(best->chi2, drogue_wide_from_q16(setup->config->max_chi2_q16)) <= 0;
 }
 
-drogue_status drogue_decide(drogue_result *out, const drogue_pose poses[2], uint32_t nearer,
-                            const drogue_support *support, const drogue_joint_inner *inner, const drogue_config *config,
-                            const drogue_camera *camera, const drogue_model *model)
+drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup)
 {
     const drogue_joint_inner none = {0, 0, 0};
     drogue_joint_outline outline;
     drogue_joint joint;
-    uint32_t index = nearer;
+    uint32_t index = evidence->nearer;
     int32_t resolved = 0;
     memset(&joint, 0, sizeof joint);
-    outline.ellipse = out->ideal;
-    if (drogue_joint_outline_covariance(&outline, support, config->outline_shading_q16,
-                                        config->optics_blur_std_px2_q16) != DROGUE_OK) {
+    outline.ellipse = evidence->ideal;
+    if (drogue_joint_outline_covariance(&outline, evidence->support, setup->config->outline_shading_q16,
+                                        setup->config->optics_blur_std_px2_q16) != DROGUE_OK) {
         return DROGUE_E_DOMAIN;
     }
-    if (inner->std_px_q16 == 0 ||
-        !solve_together(&joint, &index, &resolved, poses, &outline, inner, config, camera, model)) {
+    if (evidence->inner.std_px_q16 == 0 || !solve_together(&joint, &index, &resolved, &outline, evidence, setup)) {
         resolved = 0;
-        index = nearer;
-        if (drogue_joint_solve(&joint, &poses[nearer], &outline, &none, camera, model, 0) != DROGUE_OK) {
+        index = evidence->nearer;
+        if (drogue_joint_solve(&joint, &evidence->poses[index], &outline, &none, setup->camera, setup->model, 0) !=
+            DROGUE_OK) {
             return DROGUE_E_DOMAIN;
         }
     }
     out->orientation_resolved = resolved;
     out->pose = joint.pose;
-    out->alternative = poses[1 - index];
+    out->alternative = evidence->poses[1 - index];
     put_covariance(out, &joint);
     return DROGUE_OK;
 }

@@ -43,8 +43,7 @@ static drogue_status search_part(drogue_search *search, const drogue_image *imag
 }
 
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
-                             const drogue_config *config, const drogue_camera *camera, const drogue_model *model,
-                             const drogue_image *image, const drogue_region *region)
+                             const drogue_setup *setup, const drogue_image *image, const drogue_region *region)
 {
     drogue_region part;
     drogue_region whole;
@@ -75,9 +74,8 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         return status;
     }
     for (i = 0; i <= search->count; i++) {
-        (void)drogue_measure(out, workspace, config, camera, model, image,
-                             i < search->count ? &search->best[i].region : &whole);
-        if (settles(out, model)) {
+        (void)drogue_measure(out, workspace, setup, image, i < search->count ? &search->best[i].region : &whole);
+        if (settles(out, setup->model)) {
             return DROGUE_OK;
         }
         if (worth(out) > most) {
@@ -86,7 +84,7 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         }
     }
     if (most > 0 && best < search->count) { /* again, so that the workspace holds its points */
-        (void)drogue_measure(out, workspace, config, camera, model, image, &search->best[best].region);
+        (void)drogue_measure(out, workspace, setup, image, &search->best[best].region);
     }
     return out->status;
 }

@@ -242,7 +242,7 @@ static int looks_whole(const drogue_result *result)
 
 /* Look where the drogue is expected, then where it may be. 1 when a search found it. */
 static int look(drogue_result *result, const drogue_region *region, const drogue_track *track,
-                drogue_workspace *workspace, drogue_search *search, const drogue_config *config,
+                drogue_workspace *workspace, drogue_search *search, const drogue_setup *setup,
                 const drogue_image *image)
 {
     const int lost = track->state == DROGUE_LOST;
@@ -250,13 +250,12 @@ static int look(drogue_result *result, const drogue_region *region, const drogue
     memset(result, 0, sizeof *result);
     result->status = DROGUE_E_REGION;
     if (region->width_px > 0) {
-        (void)drogue_measure(result, workspace, config, &track->camera, &track->model, image, region);
+        (void)drogue_measure(result, workspace, setup, image, region);
     }
     if (result->status == DROGUE_OK || (!lost && !track->search)) {
         return 0;
     }
-    (void)drogue_acquire(&found, search, workspace, config, &track->camera, &track->model, image,
-                         lost ? NULL : &track->reach);
+    (void)drogue_acquire(&found, search, workspace, setup, image, lost ? NULL : &track->reach);
     if (found.status == DROGUE_OK || region->width_px <= 0) {
         *result = found;
         return 1;
@@ -279,14 +278,17 @@ drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *regi
                                       drogue_workspace *workspace, drogue_search *search, const drogue_config *config,
                                       const drogue_image *image, uint32_t dt_us)
 {
+    drogue_setup setup;
+    setup.camera = &track->camera;
+    setup.model = &track->model;
+    setup.config = config;
     drogue_track_begin(region, track, dt_us);
-    if (in_doubt(track) &&
-        drogue_acquire(result, search, workspace, config, &track->camera, &track->model, image, NULL) == DROGUE_OK &&
+    if (in_doubt(track) && drogue_acquire(result, search, workspace, &setup, image, NULL) == DROGUE_OK &&
         result->orientation_resolved) {
         track->state = DROGUE_LOST; /* begin anew from this */
         return drogue_track_end(track, result);
     }
-    if (look(result, region, track, workspace, search, config, image) && track->state == DROGUE_LOST &&
+    if (look(result, region, track, workspace, search, &setup, image) && track->state == DROGUE_LOST &&
         track->model.inner_radius_m_q16 > 0 && !looks_whole(result)) {
         return track->state;
     }

@@ -53,7 +53,8 @@ Measurement measure(const cv::Mat &image, const Camera &camera, const drogue_mod
         throw std::runtime_error("workspace refused");
     }
     drogue_config_default(&config);
-    m.ok = drogue_measure(&m.raw, &workspace, &config, &q_camera, &model, &q_image, &q_region) == DROGUE_OK;
+    const drogue_setup setup = {&q_camera, &model, &config};
+    m.ok = drogue_measure(&m.raw, &workspace, &setup, &q_image, &q_region) == DROGUE_OK;
     m.seen = from_library(m.raw.ellipse);
     m.ideal = from_library(m.raw.ideal);
     m.pose = from_library(m.raw.pose);

@@ -93,31 +93,45 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
         to_q16(camera.fx_px), to_q16(camera.fy_px), to_q16(camera.cx_px), to_q16(camera.cy_px), 0, 0, 0, 0, 0};
     drogue_joint_inner inner = {result.inner.x_px_q16, result.inner.y_px_q16, 0};
     drogue_choice choice = {};
-    drogue_ellipse expected[2];
-    drogue_pose poses[2];
+    drogue_inner_expected expected;
+    drogue_evidence evidence = {};
+    const drogue_setup setup = {&q_camera, &model, &edges.config};
     result.ellipse = ellipse;
     result.ellipse.xc_px_q16 = drogue_q16_add(ellipse.xc_px_q16, drogue_q16_from_int(edges.origin_px.x));
     result.ellipse.yc_px_q16 = drogue_q16_add(ellipse.yc_px_q16, drogue_q16_from_int(edges.origin_px.y));
     result.ideal = result.ellipse;
-    result.status = drogue_pose_from_ellipse(poses, &result.ideal, &q_camera, model.rim_radius_m_q16);
+    result.status = drogue_pose_from_ellipse(evidence.poses, &result.ideal, &q_camera, model.rim_radius_m_q16);
     if (result.status != DROGUE_OK) {
         return;
     }
-    const uint32_t count = drogue_inner_expect(expected, poses, &q_camera, &model, 0, 0);
+    drogue_inner_expect(&expected, evidence.poses, &setup, 0, 0);
     const auto miss = [&](const drogue_ellipse &e) {
         return std::hypot(from_q16(e.xc_px_q16) - from_q16(inner.x_px_q16),
                           from_q16(e.yc_px_q16) - from_q16(inner.y_px_q16));
     };
-    if (count > 0 && result.has_inner != 0) {
-        const drogue_ellipse &disc = count == 2 && miss(expected[1]) < miss(expected[0]) ? expected[1] : expected[0];
+    if (expected.count > 0 && result.has_inner != 0) {
+        const drogue_ellipse &disc = expected.count == 2 && miss(expected.disc[1]) < miss(expected.disc[0])
+                                         ? expected.disc[1]
+                                         : expected.disc[0];
         inner.std_px_q16 = drogue_inner_std(&result.inner, &disc, &result.ellipse, &edges.config);
     }
     if (result.has_inner != 0) {
-        result.status =
-            drogue_choose_pose(&choice, poses, inner.x_px_q16, inner.y_px_q16, model.inner_depth_m_q16, &q_camera);
+        result.status = drogue_choose_pose(&choice, evidence.poses, inner.x_px_q16, inner.y_px_q16,
+                                           model.inner_depth_m_q16, &q_camera);
     }
     if (result.status == DROGUE_OK) {
-        result.status = drogue_decide(&result, poses, choice.index, &support, &inner, &edges.config, &q_camera, &model);
+        drogue_decision decision;
+        evidence.nearer = choice.index;
+        evidence.ideal = result.ideal;
+        evidence.support = &support;
+        evidence.inner = inner;
+        result.status = drogue_decide(&decision, &evidence, &setup);
+        result.pose = decision.pose;
+        result.alternative = decision.alternative;
+        result.orientation_resolved = decision.orientation_resolved;
+        std::memcpy(result.covariance_q48, decision.covariance_q48, sizeof result.covariance_q48);
+        std::memcpy(result.position_std_m_q32, decision.position_std_m_q32, sizeof result.position_std_m_q32);
+        result.axis_std_rad_q32 = decision.axis_std_rad_q32;
     }
 }
 

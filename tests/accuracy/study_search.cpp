@@ -86,7 +86,8 @@ Found search_frame(const Trial &t)
                   DROGUE_OK &&
               drogue_search_init(&search, search_memory.data(), search_memory.size(), image.cols) == DROGUE_OK);
     drogue_config_default(&config);
-    (void)drogue_acquire(&result, &search, &workspace, &config, &camera, &t.model, &view, nullptr);
+    const drogue_setup setup = {&camera, &t.model, &config};
+    (void)drogue_acquire(&result, &search, &workspace, &setup, &view, nullptr);
     found.rank = rank_of(search, t.rim, frame.tl());
     if (result.status == DROGUE_OK) {
         const double limit = std::max(1.0, 0.03 * t.rim.a_px);

@@ -179,19 +179,21 @@ int stage_disc(stage_run *r)
     int32_t *out = stage_output32(r, "part", 9);
     drogue_workspace workspace;
     drogue_inner_part part;
-    drogue_ellipse expected[2];
+    drogue_inner_expected expected;
     drogue_mask disc;
     uint32_t which;
     size_t i;
     if (!stage_mask(&disc, p) || p[3] < 0 || count < 1 || count > 2) {
         return CONF_E_MALFORMED;
     }
+    memset(&expected, 0, sizeof expected);
+    expected.count = (uint32_t)count;
+    expected.min_area_px = (uint32_t)p[3];
     for (i = 0; i < count; i++, w += 4) {
-        memset(&expected[i], 0, sizeof expected[i]);
-        expected[i].xc_px_q16 = w[0];
-        expected[i].yc_px_q16 = w[1];
-        expected[i].a_px_q16 = w[2];
-        expected[i].b_px_q16 = w[3];
+        expected.disc[i].xc_px_q16 = w[0];
+        expected.disc[i].yc_px_q16 = w[1];
+        expected.disc[i].a_px_q16 = w[2];
+        expected.disc[i].b_px_q16 = w[3];
         if (w[2] < DROGUE_Q16_ONE || w[2] > DROGUE_Q16(2048, 1) || w[3] < 1 || w[3] > w[2]) {
             return CONF_E_MALFORMED;
         }
@@ -199,8 +201,7 @@ int stage_disc(stage_run *r)
     if (out == NULL || !stage_workspace(r, &workspace, image.width_px)) {
         return CONF_E_MEMORY;
     }
-    out[0] =
-        (int32_t)drogue_inner_find(&part, &which, &workspace, &image, &disc, (uint32_t)p[3], expected, (uint32_t)count);
+    out[0] = (int32_t)drogue_inner_find(&part, &which, &workspace, &image, &disc, &expected);
     out[1] = part.threshold;
     if (out[0] == DROGUE_OK) {
         out[2] = (int32_t)part.area_px;
@@ -208,7 +209,7 @@ int stage_disc(stage_run *r)
         out[4] = part.y_px_q16;
         out[5] = part.spread_px_q16;
         out[6] = (int32_t)which;
-        out[7] = drogue_inner_fill(&part, &expected[which]);
+        out[7] = drogue_inner_fill(&part, &expected.disc[which]);
         out[8] = part.contrast;
     }
     return 0;

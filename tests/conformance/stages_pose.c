@@ -202,7 +202,7 @@ int stage_frame(stage_run *r)
         return CONF_E_MEMORY;
     }
     drogue_config_default(&config);
-    (void)drogue_measure(&result, &workspace, &config, &camera, &model, &image, &region);
+    (void)drogue_measure(&result, &workspace, &(drogue_setup){&camera, &model, &config}, &image, &region);
     put_frame(frame, &result);
     put_detail(detail, &result);
     put_covariance(covariance, std, &result);

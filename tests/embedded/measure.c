@@ -39,7 +39,7 @@ static int prepare(need *out, const frame *f)
 static void run(need *n, const frame *f)
 {
     const drogue_region whole = {0, 0, f->image.width_px, f->image.height_px};
-    (void)drogue_measure(&result, &n->workspace, &config, &f->camera, &f->model, &f->image, &whole);
+    (void)drogue_measure(&result, &n->workspace, &(drogue_setup){&f->camera, &f->model, &config}, &f->image, &whole);
 }
 
 static void print_q16(const char *name, drogue_q16 value)

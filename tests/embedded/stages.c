@@ -7,6 +7,7 @@
 #include "counter.h"
 #include "drogue/drogue.h"
 #include "drogue/ellipse.h"
+#include "drogue/inner.h"
 #include "drogue/joint.h"
 
 const char *const stage_names[STAGE_COUNT] = {"front_end", "constraints", "fit",   "outline",
@@ -70,11 +71,10 @@ WRAP(FIT, drogue_status, drogue_ellipse_fit, (drogue_ellipse *a, const drogue_mo
 WRAP(OUTLINE, drogue_status, drogue_outline_find, (drogue_outline *a, const drogue_workspace *b,
      const drogue_edge_list *c, const drogue_mask *d, const drogue_config *e), (a, b, c, d, e))
 WRAP(OUTLINE, drogue_status, drogue_outline_undistorted, (drogue_ellipse *a, const drogue_outline *b,
-     const drogue_workspace *c, const drogue_edge_list *d, const drogue_config *e, const drogue_camera *f, int32_t g,
-     int32_t h), (a, b, c, d, e, f, g, h))
+     const drogue_workspace *c, const drogue_edge_list *d, const drogue_setup *e, int32_t f, int32_t g),
+     (a, b, c, d, e, f, g))
 WRAP(INNER, drogue_status, drogue_inner_find, (drogue_inner_part *a, uint32_t *b, drogue_workspace *c,
-     const drogue_image *d, const drogue_mask *e, uint32_t f, const drogue_ellipse *g, uint32_t h),
-     (a, b, c, d, e, f, g, h))
+     const drogue_image *d, const drogue_mask *e, const drogue_inner_expected *f), (a, b, c, d, e, f))
 WRAP(POSE, drogue_status, drogue_pose_from_ellipse, (drogue_pose a[2], const drogue_ellipse *b, const drogue_camera *c,
      drogue_q16 d), (a, b, c, d))
 WRAP(POSE, drogue_status, drogue_choose_pose, (drogue_choice *a, const drogue_pose b[2], drogue_q16 c, drogue_q16 d,

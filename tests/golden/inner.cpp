@@ -4,7 +4,7 @@
 #include "reference.hpp"
 #include "workspace.h"
 
-#include "drogue/centroid.h"
+#include "drogue/inner.h"
 
 namespace {
 
@@ -46,16 +46,17 @@ struct DiscReports {
              const std::vector<drogue_ellipse> &expected, const std::string &name)
     {
         std::vector<reference::Ellipse> model;
+        drogue_inner_expected task = {{}, (std::uint32_t)expected.size(), 1};
         drogue_inner_part got;
         std::uint32_t which;
+        std::copy(expected.begin(), expected.end(), task.disc);
         for (const drogue_ellipse &e : expected) {
             model.push_back({real_of_q16(e.xc_px_q16), real_of_q16(e.yc_px_q16), real_of_q16(e.a_px_q16),
                              real_of_q16(e.b_px_q16), 0});
         }
         const reference::InnerDisc m =
             reference::inner_disc(pixels, disc.centre2_x, disc.centre2_y, disc.longest_px, 1, model);
-        const drogue_status status =
-            drogue_inner_find(&got, &which, workspace, view, &disc, 1, expected.data(), (std::uint32_t)expected.size());
+        const drogue_status status = drogue_inner_find(&got, &which, workspace, view, &disc, &task);
         choice.add((status == DROGUE_OK) == m.found && (!m.found || (int)which == m.which) ? 0 : 1, name);
         threshold.add(std::abs(got.threshold - m.threshold), name);
         if (m.found && status == DROGUE_OK) {

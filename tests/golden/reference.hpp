@@ -66,7 +66,7 @@ struct InnerDisc {
     int contrast;      /* between the means above and below the threshold, each rounded down */
     Real fill;         /* area over that of the expected disc */
 };
-/* The inner disc where one of the expected ones lies, as drogue/centroid.h describes it. */
+/* The inner disc where one of the expected ones lies, as drogue/inner.h describes it. */
 InnerDisc inner_disc(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area,
                      const std::vector<Ellipse> &expected);
 

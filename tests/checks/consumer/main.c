@@ -33,7 +33,7 @@ int main(int argc, char **argv)
     status = drogue_workspace_init(&workspace, memory, sizeof memory, &capacity);
     if (status == DROGUE_OK) {
         drogue_config_default(&config);
-        status = drogue_measure(&result, &workspace, &config, &camera, &model, &image, &region);
+        status = drogue_measure(&result, &workspace, &(drogue_setup){&camera, &model, &config}, &image, &region);
     }
     printf("consumer: drogue %s says of a blank image: %s\n", drogue_version(), drogue_status_name(status));
     return status == DROGUE_E_NO_EDGES ? 0 : 1;

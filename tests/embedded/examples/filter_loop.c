@@ -49,7 +49,8 @@ int main(void)
         drogue_image image = capture(number);
         drogue_region region;
         drogue_track_begin(&region, &track, FRAME_US);
-        (void)drogue_measure(&result, &workspace, &config, &frame_demo->camera, &frame_demo->model, &image, &region);
+        (void)drogue_measure(&result, &workspace, &(drogue_setup){&frame_demo->camera, &frame_demo->model, &config},
+                             &image, &region);
         coasted += drogue_track_end(&track, &result) == DROGUE_COASTING; /* it reads result.status */
         drogue_track_get(&estimate, &track);
         printf("frame %2d: %-10s %-8s position %ld %ld %ld mm\n", number, drogue_status_name(result.status),

@@ -27,10 +27,11 @@ int main(void)
     const frame *demo = frame_demo;
     /* Where to look: the drogue about the middle, the longest side 2 to 3 of its semi-axes. */
     const drogue_region region = {0, 0, demo->image.width_px, demo->image.height_px};
+    const drogue_setup setup = {&demo->camera, &demo->model, &config};
     drogue_status status = drogue_workspace_init(&workspace, memory, sizeof memory, &capacity);
     if (status == DROGUE_OK) {
         drogue_config_default(&config);
-        status = drogue_measure(&result, &workspace, &config, &demo->camera, &demo->model, &demo->image, &region);
+        status = drogue_measure(&result, &workspace, &setup, &demo->image, &region);
     }
     printf("status %s\n", drogue_status_name(status));
     if (status != DROGUE_OK) {

@@ -7,8 +7,7 @@
 drogue_status decisions_outline_find(drogue_outline *, const drogue_workspace *, const drogue_edge_list *,
                                      const drogue_mask *, const drogue_config *);
 drogue_status decisions_outline_undistorted(drogue_ellipse *, const drogue_outline *, const drogue_workspace *,
-                                            const drogue_edge_list *, const drogue_config *, const drogue_camera *,
-                                            int32_t, int32_t);
+                                            const drogue_edge_list *, const drogue_setup *, int32_t, int32_t);
 #include "../../../src/outline/outline.c"
 
 /* As refit() in outline.c, written down on the way. */

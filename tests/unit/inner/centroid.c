@@ -2,7 +2,7 @@
 /* Otsu's threshold as exact fractions, and the inner part against one image operation after the other. */
 #include "suite.h"
 
-#include "drogue/centroid.h"
+#include "drogue/inner.h"
 #include "images.h"
 #include "inner_model.h"
 #include "workspace.h"

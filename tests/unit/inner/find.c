@@ -2,7 +2,7 @@
 /* The inner disc where it is expected: against exact sums, crossed by ribs, beside larger dark regions, cut by the image. */
 #include "suite.h"
 
-#include "drogue/centroid.h"
+#include "drogue/inner.h"
 #include "images.h"
 #include "inner_model.h"
 #include "workspace.h"
@@ -27,10 +27,15 @@ static drogue_status find(drogue_inner_part *out, uint32_t *which, const drogue_
                           const drogue_ellipse *expected, uint32_t count)
 {
     test_workspace t = test_workspace_of(WIDTH, 1, WIDTH * HEIGHT / 4 + 2, 1);
+    drogue_inner_expected sought;
     drogue_status status;
     memset(out, 0x5A, sizeof *out);
     *which = 99;
-    status = drogue_inner_find(out, which, &t.workspace, &image, disc, min_area, expected, count);
+    memset(&sought, 0, sizeof sought);
+    memcpy(sought.disc, expected, count * sizeof *expected);
+    sought.count = count;
+    sought.min_area_px = min_area;
+    status = drogue_inner_find(out, which, &t.workspace, &image, disc, &sought);
     MUST(guarded_intact(&t.memory), "wrote outside the workspace");
     test_workspace_free(&t);
     return status;
@@ -478,11 +483,14 @@ START_TEST(arguments)
     ck_assert_int_eq(find(&part, &which, &bad, 1, &expected, 1), DROGUE_E_ARGUMENT);
     ck_assert_uint_eq(which, 0);
     none.data = NULL;
-    ck_assert_int_eq(drogue_inner_find(&part, &which, &few.workspace, &none, &everywhere, 1, &expected, 1),
+    ck_assert_int_eq(drogue_inner_find(&part, &which, &few.workspace, &none, &everywhere,
+                                       &(drogue_inner_expected){{expected, expected}, 1, 1}),
                      DROGUE_E_ARGUMENT);
-    ck_assert_int_eq(drogue_inner_find(&part, &which, &t.workspace, &image, &everywhere, 1, &expected, 1),
+    ck_assert_int_eq(drogue_inner_find(&part, &which, &t.workspace, &image, &everywhere,
+                                       &(drogue_inner_expected){{expected, expected}, 1, 1}),
                      DROGUE_E_WORKSPACE);
-    ck_assert_int_eq(drogue_inner_find(&part, &which, &few.workspace, &image, &everywhere, 1, &expected, 1),
+    ck_assert_int_eq(drogue_inner_find(&part, &which, &few.workspace, &image, &everywhere,
+                                       &(drogue_inner_expected){{expected, expected}, 1, 1}),
                      DROGUE_E_LABELS_FULL);
     ck_assert(guarded_intact(&few.memory));
     test_workspace_free(&t);

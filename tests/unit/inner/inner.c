@@ -28,8 +28,9 @@ START_TEST(expected_where_the_poses_show_it)
     for (i = 0; i < 2000; i++) {
         field f = usual_field();
         const int32_t x_px = rng_range(&rng, 0, 1000), y_px = rng_range(&rng, 0, 1000);
+        drogue_config config;
         drogue_pose poses[2];
-        drogue_ellipse got[2];
+        drogue_inner_expected got;
         ellipse_real truth[2];
         if (i & 1) {
             f.camera.k1_q16 = q16_of(rng_real(&rng, -0.1, 0.1));
@@ -45,15 +46,17 @@ START_TEST(expected_where_the_poses_show_it)
             poses[k] = pose_of(&p);
             ck_assert(field_inner(&truth[k], &f, &p));
         }
-        MUST(drogue_inner_expect(got, poses, &f.camera, &f.model, x_px, y_px) == 2, "case %d: not both", i);
+        drogue_config_default(&config);
+        drogue_inner_expect(&got, poses, &(drogue_setup){&f.camera, &f.model, &config}, x_px, y_px);
+        MUST(got.count == 2 && got.min_area_px == config.min_inner_area_px, "case %d: not both", i);
         for (k = 0; k < 2; k++) {
             drogue_q16 u = q16_of(truth[k].xc), v = q16_of(truth[k].yc);
             ck_assert_int_eq(drogue_distort_point(&u, &v, &f.camera), DROGUE_OK);
             /* the pose was rounded: 2^-17 m or rad at its distance */
-            MUST(hypot(real_of_q16(got[k].xc_px_q16) + x_px - real_of_q16(u),
-                       real_of_q16(got[k].yc_px_q16) + y_px - real_of_q16(v)) < 0.02,
+            MUST(hypot(real_of_q16(got.disc[k].xc_px_q16) + x_px - real_of_q16(u),
+                       real_of_q16(got.disc[k].yc_px_q16) + y_px - real_of_q16(v)) < 0.02,
                  "case %d: disc %d is elsewhere", i, k);
-            MUST(fabs(real_of_q16(got[k].a_px_q16) / truth[k].a - 1) < 0.15, "case %d: size", i);
+            MUST(fabs(real_of_q16(got.disc[k].a_px_q16) / truth[k].a - 1) < 0.15, "case %d: size", i);
         }
     }
 }
@@ -64,17 +67,24 @@ START_TEST(poses_that_show_none)
     const pose_real good = {{0.1, 0.2, 6, 0.1, 0.1}}, far = {{0, 0, 200, 0, 0}}, behind = {{0, 0, 6, 0, 0}};
     field f = usual_field();
     drogue_pose poses[2];
-    drogue_ellipse one[2], got[2];
+    drogue_config config;
+    const drogue_setup setup = {&f.camera, &f.model, &config};
+    drogue_inner_expected one, got;
+    drogue_config_default(&config);
     poses[0] = poses[1] = pose_of(&good);
-    ck_assert_uint_eq(drogue_inner_expect(one, poses, &f.camera, &f.model, 0, 0), 2);
+    drogue_inner_expect(&one, poses, &setup, 0, 0);
+    ck_assert_uint_eq(one.count, 2);
     poses[0] = pose_of(&far); /* 0.9 px */
-    ck_assert_uint_eq(drogue_inner_expect(got, poses, &f.camera, &f.model, 0, 0), 1);
-    ck_assert_int_eq(memcmp(&got[0], &one[0], sizeof got[0]), 0); /* the other one comes first */
+    drogue_inner_expect(&got, poses, &setup, 0, 0);
+    ck_assert_uint_eq(got.count, 1);
+    ck_assert_int_eq(memcmp(&got.disc[0], &one.disc[0], sizeof got.disc[0]), 0); /* the other one comes first */
     poses[1] = pose_of(&far);
-    ck_assert_uint_eq(drogue_inner_expect(got, poses, &f.camera, &f.model, 0, 0), 0);
+    drogue_inner_expect(&got, poses, &setup, 0, 0);
+    ck_assert_uint_eq(got.count, 0);
     f.model.inner_depth_m_q16 = q16_of(-7);
     poses[0] = poses[1] = pose_of(&behind);
-    ck_assert_uint_eq(drogue_inner_expect(got, poses, &f.camera, &f.model, 0, 0), 0);
+    drogue_inner_expect(&got, poses, &setup, 0, 0);
+    ck_assert_uint_eq(got.count, 0);
 }
 END_TEST
 

@@ -240,11 +240,13 @@ static void run_all(uint64_t seed, int runs, int *measured, int *statuses)
                   : test_workspace_ample(MOST_SIDE, MOST_SIDE);
         memset(&r, 0x5A, sizeof r);
         memset(&again, 0xA5, sizeof again);
-        MUST(drogue_measure(&r, &t.workspace, &h.config, &h.camera, &h.model, &h.image, &h.region) == r.status,
+        MUST(drogue_measure(&r, &t.workspace, &(drogue_setup){&h.camera, &h.model, &h.config}, &h.image, &h.region) ==
+                 r.status,
              "run %d: two statuses", i);
         MUST(guarded_intact(&t.memory), "run %d: wrote outside the workspace", i);
         check_result(&r, &h, i);
-        (void)drogue_measure(&again, &t.workspace, &h.config, &h.camera, &h.model, &h.image, &h.region);
+        (void)drogue_measure(&again, &t.workspace, &(drogue_setup){&h.camera, &h.model, &h.config}, &h.image,
+                             &h.region);
         MUST(r.status == again.status && memcmp(&r.ellipse, &again.ellipse, sizeof r.ellipse) == 0 &&
                  memcmp(&r.pose, &again.pose, sizeof r.pose) == 0 &&
                  memcmp(r.covariance_q48, again.covariance_q48, sizeof r.covariance_q48) == 0,

@@ -82,7 +82,7 @@ static drogue_status measure(drogue_result *out, test_workspace *t, const drogue
     const drogue_camera camera = the_camera();
     drogue_status status;
     memset(out, 0x5A, sizeof *out);
-    status = drogue_measure(out, &t->workspace, config, &camera, m, &image, region);
+    status = drogue_measure(out, &t->workspace, &(drogue_setup){&camera, m, config}, &image, region);
     MUST(status == out->status, "status returned and status noted differ");
     MUST(guarded_intact(&t->memory), "wrote outside the workspace");
     return status;
@@ -215,15 +215,19 @@ START_TEST(arguments)
     drogue_result r;
     drogue_config_default(&config);
     bad_image.data = NULL;
-    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &config, &camera, &model, &bad_image, &whole), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &bad_image, &whole),
+                     DROGUE_E_ARGUMENT);
     bad_image = image;
     bad_image.stride = WIDTH - 1;
-    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &config, &camera, &model, &bad_image, &whole), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &bad_image, &whole),
+                     DROGUE_E_ARGUMENT);
     bad_image = image;
     bad_image.height_px = 0;
-    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &config, &camera, &model, &bad_image, &whole), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &bad_image, &whole),
+                     DROGUE_E_ARGUMENT);
     bad_camera.fx_px_q16 = 0;
-    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &config, &bad_camera, &model, &image, &whole), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&bad_camera, &model, &config}, &image, &whole),
+                     DROGUE_E_ARGUMENT);
     bad_model.rim_radius_m_q16 = 0;
     ck_assert_int_eq(measure(&r, &t, &config, &bad_model, &whole), DROGUE_E_ARGUMENT);
     bad_model = model;
@@ -609,9 +613,10 @@ START_TEST(outline_across_a_fold)
     draw(&usual);
     camera.fx_px_q16 = camera.fy_px_q16 = q16_of(150);
     camera.k1_q16 = q16_of(-0.1);
-    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &c, &camera, &model, &image, &whole), DROGUE_OK);
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &c}, &image, &whole), DROGUE_OK);
     camera.k1_q16 = q16_of(-0.9);
-    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &c, &camera, &model, &image, &whole), DROGUE_E_NO_ELLIPSE);
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &c}, &image, &whole),
+                     DROGUE_E_NO_ELLIPSE);
     ck_assert_int_eq(r.ideal.xc_px_q16, 0);
     ck_assert_int_eq(r.ideal.a_px_q16, 0);
     test_workspace_free(&t);

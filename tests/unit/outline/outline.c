@@ -393,8 +393,9 @@ START_TEST(distortion_is_removed)
         camera = shifted; /* the same camera in coordinates of the whole image */
         camera.cx_px_q16 += x * 65536;
         camera.cy_px_q16 += y * 65536;
-        MUST(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, x, y) == DROGUE_OK, "case %d",
-             i);
+        MUST(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &(drogue_setup){&camera, NULL, &c}, x, y) ==
+                 DROGUE_OK,
+             "case %d", i);
         e.xc += x;
         e.yc += y;
         MUST(apart(&ideal, &e) < tolerance(&e), "case %d: %g px off", i, apart(&ideal, &e));
@@ -415,11 +416,13 @@ START_TEST(undistorted_without_points)
     drogue_outline out;
     ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
     list.edge_count = 0;
-    ck_assert_int_eq(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, 0, 0),
-                     DROGUE_E_TOO_FEW_POINTS);
+    ck_assert_int_eq(
+        drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &(drogue_setup){&camera, NULL, &c}, 0, 0),
+        DROGUE_E_TOO_FEW_POINTS);
     memset(&out.fitted, 0, sizeof out.fitted);
-    ck_assert_int_eq(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &c, &camera, 0, 0),
-                     DROGUE_E_DEGENERATE);
+    ck_assert_int_eq(
+        drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &(drogue_setup){&camera, NULL, &c}, 0, 0),
+        DROGUE_E_DEGENERATE);
     test_workspace_free(&t);
 }
 END_TEST

@@ -7,10 +7,9 @@
 #include "joint_model.h"
 
 typedef struct seen {
-    drogue_result result;
+    drogue_decision result;
     drogue_support support;
-    drogue_joint_inner inner;
-    drogue_pose poses[2];
+    drogue_evidence evidence;
     double outline_px; /* semi-axis */
 } seen;
 
@@ -24,7 +23,7 @@ static int look_at(seen *s, const field *f, const pose_real *p, uint64_t *rng)
     }
     memset(s, 0, sizeof *s);
     s->outline_px = outline.a;
-    s->result.ideal = ellipse_to_q16(&outline);
+    s->evidence.ideal = ellipse_to_q16(&outline);
     s->support.points = 32 * DROGUE_SUPPORT_BINS;
     s->support.gradient = UINT64_C(400) * s->support.points;
     s->support.squares_q32 = (int64_t)(s->support.points * pow(0.1 / outline.a * 65536, 2));
@@ -32,17 +31,23 @@ static int look_at(seen *s, const field *f, const pose_real *p, uint64_t *rng)
         s->support.bin[k].count[0] = 32;
         s->support.bin[k].sum_q16 = (int32_t)(32 * 65536 * rng_real(rng, -0.02, 0.02) / outline.a);
     }
-    s->inner.x_px_q16 = q16_of(inner.xc);
-    s->inner.y_px_q16 = q16_of(inner.yc);
-    s->inner.std_px_q16 = q16_of(0.05);
-    return drogue_pose_from_ellipse(s->poses, &s->result.ideal, &f->camera, f->model.rim_radius_m_q16) == DROGUE_OK;
+    s->evidence.inner.x_px_q16 = q16_of(inner.xc);
+    s->evidence.inner.y_px_q16 = q16_of(inner.yc);
+    s->evidence.inner.std_px_q16 = q16_of(0.05);
+    return drogue_pose_from_ellipse(s->evidence.poses, &s->evidence.ideal, &f->camera, f->model.rim_radius_m_q16) ==
+           DROGUE_OK;
 }
 
 static drogue_status decide(seen *s, const field *f, uint32_t nearer, const drogue_joint_inner *inner)
 {
+    drogue_evidence evidence;
     drogue_config config;
     drogue_config_default(&config);
-    return drogue_decide(&s->result, s->poses, nearer, &s->support, inner, &config, &f->camera, &f->model);
+    s->evidence.nearer = nearer;
+    s->evidence.support = &s->support;
+    evidence = s->evidence;
+    evidence.inner = *inner;
+    return drogue_decide(&s->result, &evidence, &(drogue_setup){&f->camera, &f->model, &config});
 }
 
 /* Between two axes, rad. */
@@ -82,18 +87,20 @@ START_TEST(the_right_pose_from_both_sides)
         const pose_real p = random_pose(&rng, 0.4);
         seen s;
         uint32_t nearer;
-        if (p.v[2] > 8 || !look_at(&s, &f, &p, &rng) || apart(s.poses[0].axis_q16, s.poses[1].axis_q16) < 0.3) {
+        if (p.v[2] > 8 || !look_at(&s, &f, &p, &rng) ||
+            apart(s.evidence.poses[0].axis_q16, s.evidence.poses[1].axis_q16) < 0.3) {
             continue;
         }
         for (nearer = 0; nearer < 2; nearer++) {
             uint32_t right;
-            MUST(decide(&s, &f, nearer, &s.inner) == DROGUE_OK, "case %d refused", i);
+            MUST(decide(&s, &f, nearer, &s.evidence.inner) == DROGUE_OK, "case %d refused", i);
             MUST(s.result.orientation_resolved, "case %d from %u: not resolved", i, (unsigned)nearer);
             MUST(pose_error_lsb(&s.result.pose, &p) < 3000, "case %d from %u: %g LSB off", i, (unsigned)nearer,
                  pose_error_lsb(&s.result.pose, &p));
-            right =
-                apart(s.result.pose.axis_q16, s.poses[1].axis_q16) < apart(s.result.pose.axis_q16, s.poses[0].axis_q16);
-            MUST(nearer != right || memcmp(&s.result.alternative, &s.poses[1 - right], sizeof s.poses[0]) == 0,
+            right = apart(s.result.pose.axis_q16, s.evidence.poses[1].axis_q16) <
+                    apart(s.result.pose.axis_q16, s.evidence.poses[0].axis_q16);
+            MUST(nearer != right ||
+                     memcmp(&s.result.alternative, &s.evidence.poses[1 - right], sizeof s.evidence.poses[0]) == 0,
                  "case %d: alternative", i);
         }
         solved++;
@@ -113,8 +120,8 @@ START_TEST(outline_alone)
     for (nearer = 0; nearer < 2; nearer++) {
         ck_assert_int_eq(decide(&s, &f, nearer, &none), DROGUE_OK);
         ck_assert(!s.result.orientation_resolved);
-        ck_assert(same(&s.result.pose, &s.poses[nearer]));
-        ck_assert_mem_eq(&s.result.alternative, &s.poses[1 - nearer], sizeof s.result.alternative);
+        ck_assert(same(&s.result.pose, &s.evidence.poses[nearer]));
+        ck_assert_mem_eq(&s.result.alternative, &s.evidence.poses[1 - nearer], sizeof s.result.alternative);
         ck_assert_int_gt(s.result.position_std_m_q32[2], 0);
         ck_assert_int_gt(s.result.axis_std_rad_q32, 0);
     }
@@ -128,15 +135,15 @@ START_TEST(contradiction)
     seen s;
     drogue_joint_inner moved;
     look_ahead(&s, &f, 0.25, -0.1);
-    ck_assert_int_eq(decide(&s, &f, 0, &s.inner), DROGUE_OK);
+    ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
     ck_assert(s.result.orientation_resolved);
-    moved = s.inner; /* across the line on which both poses have it, so that no tilt explains it */
+    moved = s.evidence.inner; /* across the line on which both poses have it, so that no tilt explains it */
     moved.x_px_q16 += q16_of(0.3 * s.outline_px);
     moved.y_px_q16 += q16_of(0.75 * s.outline_px);
     ck_assert_int_eq(decide(&s, &f, 1, &moved), DROGUE_OK);
     ck_assert(!s.result.orientation_resolved);
-    ck_assert(same(&s.result.pose, &s.poses[1]));
-    ck_assert_mem_eq(&s.result.alternative, &s.poses[0], sizeof s.result.alternative);
+    ck_assert(same(&s.result.pose, &s.evidence.poses[1]));
+    ck_assert_mem_eq(&s.result.alternative, &s.evidence.poses[0], sizeof s.result.alternative);
 }
 END_TEST
 
@@ -146,7 +153,7 @@ START_TEST(head_on)
     const field f = usual_field();
     seen s;
     look_ahead(&s, &f, 0, 0);
-    ck_assert_int_eq(decide(&s, &f, 0, &s.inner), DROGUE_OK);
+    ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
     ck_assert(s.result.orientation_resolved);
 }
 END_TEST
@@ -158,7 +165,7 @@ START_TEST(no_covariance)
     seen s;
     look_ahead(&s, &f, 0.25, -0.1);
     memset(&s.support, 0, sizeof s.support);
-    ck_assert_int_eq(decide(&s, &f, 0, &s.inner), DROGUE_E_DOMAIN);
+    ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_E_DOMAIN);
 }
 END_TEST
 

@@ -279,8 +279,8 @@ START_TEST(acquire_measures_what_it_finds)
         const drogue_region away = {0, 0, 30, 30}, outside = {-40, 0, 30, 30};
         drogue_result result;
         (void)draw_drogue(&f, centre, 0.2, -0.15, &all_shades[i % 3]);
-        ck_assert_int_eq(drogue_acquire(&result, &r.search.search, &r.workspace.workspace, &r.config, &r.camera, &model,
-                                        &image, NULL),
+        ck_assert_int_eq(drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+                                        &(drogue_setup){&r.camera, &model, &r.config}, &image, NULL),
                          DROGUE_OK);
         MUST(fabs(real_of_q16(result.pose.position_m_q16[0]) - centre[0]) < 0.005 &&
                  fabs(real_of_q16(result.pose.position_m_q16[1]) - centre[1]) < 0.005 &&
@@ -291,11 +291,11 @@ START_TEST(acquire_measures_what_it_finds)
                  fabs(real_of_q16(result.pose.pitch_rad_q16) + 0.15) < 0.02,
              "case %d: yaw %g, pitch %g", i, real_of_q16(result.pose.yaw_rad_q16),
              real_of_q16(result.pose.pitch_rad_q16));
-        ck_assert_int_ne(drogue_acquire(&result, &r.search.search, &r.workspace.workspace, &r.config, &r.camera, &model,
-                                        &image, &away),
+        ck_assert_int_ne(drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+                                        &(drogue_setup){&r.camera, &model, &r.config}, &image, &away),
                          DROGUE_OK);
-        ck_assert_int_eq(drogue_acquire(&result, &r.search.search, &r.workspace.workspace, &r.config, &r.camera, &model,
-                                        &image, &outside),
+        ck_assert_int_eq(drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+                                        &(drogue_setup){&r.camera, &model, &r.config}, &image, &outside),
                          DROGUE_E_REGION);
         ck_assert_int_eq(result.status, DROGUE_E_REGION);
         free_rig(&r);
@@ -322,7 +322,8 @@ START_TEST(frames_larger_than_a_region)
         if (there) {
             (void)draw_drogue(&f, centre, 0, 0, &all_shades[0]);
         }
-        MUST(drogue_acquire(&result, &r.search.search, &r.workspace.workspace, &r.config, &r.camera, &model, &image,
+        MUST(drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+                            &(drogue_setup){&r.camera, &model, &r.config}, &image,
                             NULL) == (there ? DROGUE_OK : DROGUE_E_REGION),
              "case %d: %s, %d sightings", (int)i, drogue_status_name(result.status), (int)r.search.search.count);
         MUST(!there || (fabs(real_of_q16(result.pose.position_m_q16[0]) - centre[0]) < 0.005 &&
