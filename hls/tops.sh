@@ -23,8 +23,7 @@ tops() {
     done
 }
 
-# top NAME: sets function; sources, bench, core, replaced (files, from the project's folder); stages, cosimulated; folder of
-# its scripts
+# top NAME: sets function; sources, bench, core, replaced (files, from the project's folder); stages, cosimulated
 # shellcheck disable=SC2034 # for those who source this
 top() {
     local line
@@ -34,8 +33,4 @@ top() {
     bench=$(sed -E 's|[^ ]+|hls/&|g' <<<"$bench")
     core=$(sed -E 's|[^ ]+|src/&.c|g' <<<"$core")
     replaced=$(sed -E 's|[^ ]+|src/&.c|g' <<<"$replaced")
-    folder=$(dirname "${sources%% *}")
-    if [ "$(basename "$folder")" != "$1" ]; then
-        folder+=/$1
-    fi
 }

@@ -31,7 +31,7 @@ flags=("--top-fname=$function" --std=c99 -O2 --generate-interface=INFER
 # Bambu unrolls loops over the disc's rows into products of their own, and its division by Newton takes 285 multipliers.
 # The back end's many functions stay functions: all in one would not come to an end in an hour.
 case $name in
-centroid) flags+=(--hls-div=as -fno-unroll-loops) ;;
+inner) flags+=(--hls-div=as -fno-unroll-loops) ;;
 outline | pose | eigen | fit | cone | filter) flags+=(-finline-hint-functions --range-analysis-mode=skip --enable-function-proxy) ;;
 esac
 design=()

@@ -4,7 +4,7 @@
 #ifndef DROGUE_HLS_BENCH_INNER_H
 #define DROGUE_HLS_BENCH_INNER_H
 
-#include "../centroid/centroid.h"
+#include "../inner/inner.h"
 #include "drogue/inner.h"
 
 static inline void bench_put_inner(int32_t dark[DROGUE_HLS_INNER_WORDS], uint32_t status, const drogue_inner_part *part,

@@ -1,15 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Writes hls_config.cfg and run_hls.tcl of every top from hls/tops.txt.
-# usage: generate.sh                    into the tops' folders
-#        generate.sh --config NAME      one hls_config.cfg to stdout, with absolute paths, and with the part and clock
-#                                       of DROGUE_HLS_PART and DROGUE_HLS_CLOCK_NS
-#        generate.sh --to FOLDER        all of them below FOLDER, to compare
+# Writes hls_config.cfg and run_hls.tcl of tops from hls/tops.txt into build/hls/vitis/NAME.
+# usage: generate.sh [NAME...]          all of them when none is named
+# Part and clock: DROGUE_HLS_PART, DROGUE_HLS_CLOCK_NS.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . hls/tops.sh
-default_part=xc7z020clg484-1
-default_clock_ns=5
+part=${DROGUE_HLS_PART:-xc7z020clg484-1}
+clock_ns=${DROGUE_HLS_CLOCK_NS:-5}
+root=../../../..
 
 # prefixed KEY ROOT FILE...: lines 'KEYROOT/FILE'
 prefixed() { printf "$1$2/%s\n" "${@:3}"; }
@@ -30,7 +29,7 @@ load() {
     done
 }
 
-# config NAME ROOT PART CLOCK_NS
+# config NAME
 # shellcheck disable=SC2046,SC2086 # lists of files
 config() {
     load "$1"
@@ -40,22 +39,22 @@ config() {
 #   v++ -c --mode hls --config hls_config.cfg --work_dir $1
 #   vitis-run --mode hls --cosim --config hls_config.cfg --work_dir $1
 #   vitis-run --mode hls --package --config hls_config.cfg --work_dir $1
-part=$3
+part=$part
 
 [hls]
-clock=${4}ns
+clock=${clock_ns}ns
 flow_target=vivado
 syn.top=$function
-syn.cflags=$(flags "$2")
-$(prefixed syn.file= "$2" $sources $core)
-tb.cflags=$(flags "$2")
-$(prefixed tb.file= "$2" $(bench_files "$1") $rest)
+syn.cflags=$(flags $root)
+$(prefixed syn.file= $root $sources $core)
+tb.cflags=$(flags $root)
+$(prefixed tb.file= $root $(bench_files "$1") $rest)
 package.output.format=ip_catalog
 package.output.syn=false
 END
 }
 
-# script NAME ROOT
+# script NAME
 # shellcheck disable=SC2046,SC2086
 script() {
     load "$1"
@@ -64,7 +63,7 @@ script() {
 #   vitis-run --mode hls --tcl run_hls.tcl
 set name $1
 set top $function
-set root $2
+set root $root
 set sources {
 $(printf '    %s\n' $sources $core)
 }
@@ -76,19 +75,9 @@ source \$root/hls/vitis/run.tcl
 END
 }
 
-case ${1:-} in
---config)
-    name=$(tops "$2")
-    config "$name" "$PWD" "${DROGUE_HLS_PART:-$default_part}" "${DROGUE_HLS_CLOCK_NS:-$default_clock_ns}"
-    exit
-    ;;
---to) to=$2 ;;
-*) to=. ;;
-esac
-for name in $(all_tops); do
-    top "$name"
-    mkdir -p "$to/$folder"
-    root=$(sed -E 's|[^/]+|..|g' <<<"$folder")
-    config "$name" "$root" "$default_part" "$default_clock_ns" >"$to/$folder/hls_config.cfg"
-    script "$name" "$root" >"$to/$folder/run_hls.tcl"
+chosen=$(tops "$@")
+for name in $chosen; do
+    mkdir -p "build/hls/vitis/$name"
+    config "$name" >"build/hls/vitis/$name/hls_config.cfg"
+    script "$name" >"build/hls/vitis/$name/run_hls.tcl"
 done

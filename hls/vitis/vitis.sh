@@ -16,12 +16,11 @@ if [ ${#steps[@]} -eq 0 ]; then
     steps=(--csim --synthesis --cosim --package)
 fi
 hls/vectors.sh "$name"
-mkdir -p build/hls/vitis
-hls/vitis/generate.sh --config "$name" >"build/hls/vitis/$name.cfg"
-cd build/hls/vitis
+hls/vitis/generate.sh "$name"
+cd "build/hls/vitis/$name"
 for step in "${steps[@]}"; do
     case $step in
-    --synthesis) v++ -c --mode hls --config "$name.cfg" --work_dir "$name" ;;
-    *) vitis-run --mode hls "$step" --config "$name.cfg" --work_dir "$name" ;;
+    --synthesis) v++ -c --mode hls --config hls_config.cfg --work_dir "$name" ;;
+    *) vitis-run --mode hls "$step" --config hls_config.cfg --work_dir "$name" ;;
     esac
 done

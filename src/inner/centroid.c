@@ -100,7 +100,7 @@ drogue_status drogue_inner_choose(drogue_inner_part *out, uint32_t *which, const
     drogue_q16 least = DROGUE_Q16_MAX;
     uint32_t i;
     *which = 0;
-    for (i = 0; i < expected->count; i++) {
+    for (i = 0; i < expected->count; i++) { /* bound: 2 */
         drogue_q16 off;
         components_within(&part, area, x_sum, y_sum, labels, expected->min_area_px, &expected->disc[i]);
         off = misfit(&part, &expected->disc[i]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What is done to every edge point near an ellipse, step by step: here so that loops over points take it in, those of
- * hardware (hls/backend/near.c) a step a turn. */
+ * hardware (hls/outline/near.c) a step a turn. */
 #ifndef DROGUE_BAND_H
 #define DROGUE_BAND_H
 

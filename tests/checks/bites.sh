@@ -17,6 +17,7 @@ run_check() {
     symbols_arm) "$here/symbols.sh" "$tree" arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -Os ;;
     core_rules) "$here/core_rules.sh" "$tree" ;;
     headers) "$here/headers.sh" "$tree" "$cc" "$cxx" ;;
+    rooms) "$here/rooms.sh" "$tree" "$tree/rooms.txt" ;;
     esac
 }
 
@@ -159,6 +160,18 @@ refuses headers 'drogue/bad.h does not compile as C99' include/drogue/bad.h <<'E
 #define BAD_H
 static inline short drogue_bad(int a) { return a; }
 #endif
+E
+
+mkdir "$tree/src/lower" "$tree/src/upper"
+printf '%s\n' 'good drogue/good.h good.c' 'lower lower/*' 'upper upper/*' >"$tree/rooms.txt"
+echo '#include "drogue/good.h"' >"$tree/src/upper/own.h"
+echo '#include "own.h"' >"$tree/src/upper/fine.c"
+run_check rooms || failed=1
+refuses rooms 'lower/bad.c (lower) includes upper/own.h (upper), which comes after it' src/lower/bad.c <<'E'
+#include "upper/own.h"
+E
+refuses rooms 'drogue/bad.h has no room' include/drogue/bad.h <<'E'
+int drogue_bad;
 E
 
 if [ $failed -eq 0 ]; then

@@ -8,7 +8,7 @@
 #define drogue_near_count hardware_near_count
 #define drogue_support_count hardware_support_count
 #define drogue_collect_edges hardware_collect_edges
-#include "../../../hls/backend/near.c"
+#include "../../../hls/outline/near.c"
 #undef drogue_near_count
 #undef drogue_support_count
 #undef drogue_collect_edges

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "../bench/bench.h"
-#include "backend.h"
+#include "../words.h"
 #include "sim.h"
 
 /* The choice between the poses, which is the library's, to complete the vector's words. */

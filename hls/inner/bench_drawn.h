@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Test bench: images drawn, at random or to fill the tables. */
-#ifndef DROGUE_HLS_CENTROID_BENCH_DRAWN_H
-#define DROGUE_HLS_CENTROID_BENCH_DRAWN_H
+#ifndef DROGUE_HLS_INNER_BENCH_DRAWN_H
+#define DROGUE_HLS_INNER_BENCH_DRAWN_H
 
 #include <stdio.h>
 

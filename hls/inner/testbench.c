@@ -249,7 +249,7 @@ static void disc_by_walk(bench *b)
 int main(void)
 {
     bench b;
-    bench_begin(&b, "centroid");
+    bench_begin(&b, "inner");
     first_call(&b);
     disc_vectors(&b);
     b.list = b.index = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Top: the ellipse fit alone, from points. */
-#include "backend.h"
+#include "../words.h"
 #include "drogue/ellipse.h"
 
 int32_t drogue_hls_fit(const uint32_t points[DROGUE_HLS_EDGES], uint32_t count, int32_t frac_bits, int32_t ellipse[5])

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Inner inner part as a block: the region's pixels in, five times over, the part out. No frame store. */
-#ifndef DROGUE_HLS_CENTROID_H
-#define DROGUE_HLS_CENTROID_H
+#ifndef DROGUE_HLS_INNER_H
+#define DROGUE_HLS_INNER_H
 
 #include "../drogue_hls.h"
 
@@ -39,9 +39,9 @@ enum drogue_hls_inner_word {
  *  STATUS      DROGUE_OK, DROGUE_E_NO_INNER_PART, DROGUE_E_LABELS_FULL with DROGUE_HLS_INNER_FULL, DROGUE_E_ARGUMENT,
  *              DROGUE_E_WORKSPACE (a side larger than the block was made for)
  */
-void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_INNER_PASSES * DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
-                         const int32_t expected[DROGUE_HLS_DISCS * DROGUE_HLS_ELLIPSE_WORDS],
-                         int32_t dark[DROGUE_HLS_INNER_WORDS], int32_t width_px, int32_t height_px, int32_t centre2_x,
-                         int32_t centre2_y, int32_t longest_px, uint32_t min_area, uint32_t count);
+void drogue_hls_inner(const uint8_t pixels[DROGUE_HLS_INNER_PASSES * DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
+                      const int32_t expected[DROGUE_HLS_DISCS * DROGUE_HLS_ELLIPSE_WORDS],
+                      int32_t dark[DROGUE_HLS_INNER_WORDS], int32_t width_px, int32_t height_px, int32_t centre2_x,
+                      int32_t centre2_y, int32_t longest_px, uint32_t min_area, uint32_t count);
 
 #endif

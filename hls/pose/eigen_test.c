@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "../bench/bench.h"
-#include "backend.h"
+#include "../words.h"
 #include "drogue/eigen.h"
 #include "sim.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Top: both poses from the ellipse alone. */
-#include "backend.h"
+#include "../words.h"
 
 int32_t drogue_hls_cone(const int32_t ellipse[5], const int32_t camera[4], int32_t radius_m_q16, int32_t poses[16])
 {

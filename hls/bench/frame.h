@@ -6,12 +6,12 @@
 
 #include <string.h>
 
-#include "../bench/bench.h"
-#include "../bench/inner.h"
-#include "backend.h"
+#include "../words.h"
+#include "bench.h"
 #include "drogue/decide.h"
 #include "drogue/inner.h"
 #include "drogue/undistort.h"
+#include "inner.h"
 
 #define FRAME_BYTES DROGUE_WORKSPACE_BYTES(DROGUE_HLS_WIDTH, DROGUE_HLS_EDGES, DROGUE_HLS_LABELS, DROGUE_HLS_ARCS)
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Top: outline and inner part in, pose and covariance out. The same calls as drogue_measure() makes. */
-#include "backend.h"
+#include "../words.h"
 
 #include <string.h>
 

@@ -2,11 +2,11 @@
 /* Tops of the back end and their registers: a frame's edge points and arcs -> drogue_hls_outline() -> where to look for
  * the inner part -> drogue_hls_pose(). Every register is 32 bits wide; 64-bit values take two, the low one first. Real
  * numbers are Q16 where their names in include/drogue say nothing else. */
-#ifndef DROGUE_HLS_BACKEND_H
-#define DROGUE_HLS_BACKEND_H
+#ifndef DROGUE_HLS_WORDS_H
+#define DROGUE_HLS_WORDS_H
 
-#include "../centroid/centroid.h"
 #include "drogue/drogue.h"
+#include "inner/inner.h"
 
 /* What both tops are told. */
 typedef struct drogue_hls_parameters {
@@ -98,7 +98,7 @@ static inline void drogue_hls_unpack_parameters(drogue_hls_parameters *p, const 
 #undef DROGUE_HLS_UNPACK
 }
 
-/* What drogue_hls_outline() leaves: for the second step, for the centroid's top (EXPECTED, DISC), for whoever draws. */
+/* What drogue_hls_outline() leaves: for the second step, for the inner part's top (EXPECTED, DISC), for whoever draws. */
 enum drogue_hls_outline_word {
     DROGUE_HLS_O_STATUS,  /* status register; other than 0 in its low byte: the step ended there */
     DROGUE_HLS_O_FOUND,   /* drogue_status of drogue_outline_find() alone */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Top: edge points and arcs in; outline, both poses and where to look for the inner part out. The same calls as
  * drogue_measure() makes. */
-#include "backend.h"
+#include "../words.h"
 
 #include <string.h>
 

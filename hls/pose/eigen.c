@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Top: the Jacobi eigen-solver alone. */
 #include "drogue/eigen.h"
-#include "backend.h"
+#include "../words.h"
 
 int32_t drogue_hls_eigen(const int64_t matrix[6], int64_t eigen[12])
 {

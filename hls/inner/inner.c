@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The top and the passes that sum: histogram of a disc, darkness in a disc. */
-#include "centroid.h"
+#include "inner.h"
 
 #include "components.h"
 #include "disc_walk.h"
@@ -241,10 +241,10 @@ static drogue_status check(int32_t width, int32_t height, const drogue_mask *dis
     return width > DROGUE_HLS_WIDTH || height > DROGUE_HLS_HEIGHT ? DROGUE_E_WORKSPACE : DROGUE_OK;
 }
 
-void drogue_hls_centroid(const uint8_t pixels[DROGUE_HLS_INNER_PASSES * DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
-                         const int32_t expected[DROGUE_HLS_DISCS * DROGUE_HLS_ELLIPSE_WORDS],
-                         int32_t dark[DROGUE_HLS_INNER_WORDS], int32_t width_px, int32_t height_px, int32_t centre2_x,
-                         int32_t centre2_y, int32_t longest_px, uint32_t min_area, uint32_t count)
+void drogue_hls_inner(const uint8_t pixels[DROGUE_HLS_INNER_PASSES * DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
+                      const int32_t expected[DROGUE_HLS_DISCS * DROGUE_HLS_ELLIPSE_WORDS],
+                      int32_t dark[DROGUE_HLS_INNER_WORDS], int32_t width_px, int32_t height_px, int32_t centre2_x,
+                      int32_t centre2_y, int32_t longest_px, uint32_t min_area, uint32_t count)
 {
 #ifdef __BAMBU__
 #pragma HLS interface port = pixels mode = fifo

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Test bench: a question, put to the block and to the library. */
-#ifndef DROGUE_HLS_CENTROID_BENCH_ASK_H
-#define DROGUE_HLS_CENTROID_BENCH_ASK_H
+#ifndef DROGUE_HLS_INNER_BENCH_ASK_H
+#define DROGUE_HLS_INNER_BENCH_ASK_H
 
 #include <string.h>
 
 #include "bench/bench.h"
 #include "bench/inner.h"
 #include "bench/sim.h"
-#include "centroid.h"
 #include "drogue/inner.h"
+#include "inner.h"
 
 enum { MOST_PIXELS = DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT, GUARD = 0x5A5A5A5A };
 
@@ -63,8 +63,8 @@ static void ask_block(int32_t dark[DROGUE_HLS_INNER_WORDS], const question *q)
     SIM_BYTES(0, sent);
     SIM_ARRAY(1, expected);
     SIM_ARRAY(2, out);
-    drogue_hls_centroid(stream, expected, out, q->image.width_px, q->image.height_px, q->disc.centre2_x,
-                        q->disc.centre2_y, q->disc.longest_px, q->expected.min_area_px, q->expected.count);
+    drogue_hls_inner(stream, expected, out, q->image.width_px, q->image.height_px, q->disc.centre2_x, q->disc.centre2_y,
+                     q->disc.longest_px, q->expected.min_area_px, q->expected.count);
     memcpy(dark, out, sizeof out);
 }
 
