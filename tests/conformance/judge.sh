@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The judge of other people's results, and the command line of the runner.
-# usage: judge.sh CONFORMANCE TINY_VECTORS
+# usage: judge.sh CONFORMANCE TINY_VECTORS README    (of the vectors: what it says of names must hold)
 set -euo pipefail
 conformance=$1
 tiny=$2
+readme=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$tiny" "$work/vectors"
@@ -57,10 +58,11 @@ expect 1 judge arcs "$work" : 'judge: files=2 equal=0 different=0 missing=2'
 echo xxxxxxxx >"$flat/tiny.ellipse.out.hex"
 expect 1 judge ellipse "$flat" : 'tiny.ellipse.out.hex: line 1 is not 8 lower-case hexadecimal digits'
 
-# Images as words: the masks are 33 x 21, 0 or 255; the picture of the centre is inside the disc.
+# Images as words, named as the README says: the masks are 33 x 21, 0 or 255; the picture of the centre is inside the disc.
 rm "$flat"/*.png
+as_words=$(sed -nE 's/.*image `NAME\.png` may be words, `(NAME[^`]*)`.*/\1/p' "$readme")
 for name in ring disc; do
-    seq 693 | sed s,.*,00, >"$flat/tiny.$name.out.hex"
+    seq 693 | sed s,.*,00, >"$flat/${as_words/NAME/tiny.$name.out}"
 done
 expect 1 judge mask "$flat" : 'tiny.disc.out.hex: line 13 (pixel 12, 0): expected ff (255), found 00 (0); 375 of 693' 'different=2'
 sed -i '$d' "$flat/tiny.ring.out.hex"
