@@ -55,7 +55,7 @@ static int read_result(conf_array *result, char reason[VECTORS_TEXT], const char
         return 0;
     }
     return strcmp(path + strlen(path) - strlen(".png"), ".png") == 0 ? vectors_png(result, reason, data, bytes)
-                                                                     : vectors_hex(result, reason, data, bytes);
+                                                                     : vectors_readmemh(result, reason, data, bytes);
 }
 
 /* Line or, in a picture, pixel of the first word that differs. */

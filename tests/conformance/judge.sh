@@ -56,7 +56,34 @@ rm "$flat/tiny.edges.out.hex"
 expect 1 judge arcs "$flat" : 'MISSING arcs/tiny.edges.out.hex' 'judge: files=2 equal=0 different=1 missing=1'
 expect 1 judge arcs "$work" : 'judge: files=2 equal=0 different=0 missing=2'
 echo xxxxxxxx >"$flat/tiny.ellipse.out.hex"
-expect 1 judge ellipse "$flat" : 'tiny.ellipse.out.hex: line 1 is not 8 lower-case hexadecimal digits'
+expect 1 judge ellipse "$flat" : "tiny.ellipse.out.hex: line 1: 'xxxxxxxx' is no hexadecimal number"
+
+# Words as $writememh writes them, and in the other forms that $readmemh takes.
+memory=$work/memory
+mkdir "$memory"
+words() { cat "$same/arcs/tiny.edges.out.hex"; }
+cp "$same/arcs/tiny.arcs.out.hex" "$memory"
+taken() { # TEXT on standard input, taken as the words of tiny.edges
+    cat >"$memory/tiny.edges.out.hex"
+    expect 0 judge arcs "$memory" : 'judge: files=2 equal=2'
+}
+refused() { # REASON: the same for what is not to be taken
+    cat >"$memory/tiny.edges.out.hex"
+    expect 1 judge arcs "$memory" : "tiny.edges.out.hex: $1" 'different=1'
+}
+count=$(words | wc -l)
+shopt -s lastpipe # what a function behind a pipe finds is not lost
+{ echo '// 0x00000000'; words | tr a-f A-F; } | taken
+words | tr '\n' ' ' | taken
+words | sed 's/^\(..\)/\1_/;s/$/\r/' | taken
+{ echo '/* two'; echo ' lines */'; words; echo '// no end of the line'; } | head -c -1 | taken
+{ printf '@%x\n' $((count - 3)); words | tail -n 3; echo '@0'; words | head -n $((count - 3)); } | taken
+words | sed 's/^0*\(.\)/\1/' | taken
+{ words; echo 0; } | refused "line $((count + 1)): more than the $count words expected"
+words | sed '$d' | refused "$count words expected, $((count - 1)) found"
+words | sed '2s/.*/0000000x/' | refused "line 2: '0000000x' is no hexadecimal number"
+words | sed '2s/.*/100000000/' | refused "line 2: '100000000' is no hexadecimal number"
+{ words; echo '/* open'; } | refused 'a comment has no end'
 
 # Images as words, named as the README says: the masks are 33 x 21, 0 or 255; the picture of the centre is inside the disc.
 rm "$flat"/*.png
