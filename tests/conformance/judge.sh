@@ -98,6 +98,9 @@ expect 1 judge mask "$flat" : 'tiny.ring.out.hex: 693 words expected, 692 found'
 # Command line.
 expect 2 judge nothing "$same" : "no stage and no case is named 'nothing'"
 expect 2 judge arcs : 'usage:'
+expect 2 judge arcs "$work/nowhere" : "conformance: $work/nowhere: No such file"
+[ "$(wc -l <"$work/out")" = 1 ] || { echo 'judge: a folder that is not there gives more than a line'; status=1; }
+expect 2 judge arcs "$readme" : "conformance: $readme: is no folder"
 expect 2 nonsense : 'usage:'
 expect 2 --stage nothing : 'there is no stage nothing'
 expect 2 --nonsense : 'usage:'
