@@ -6,6 +6,7 @@
 # usage: packaging.sh      DROGUE_PACK_XSD=FILE names PACK.xsd of Open-CMSIS-Pack-Spec where it cannot be downloaded
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit
+. src/sources.sh
 root=$PWD
 work=$root/build/packaging
 schema_url=https://raw.githubusercontent.com/Open-CMSIS-Pack/Open-CMSIS-Pack-Spec/v1.7.36/schema/PACK.xsd
@@ -166,7 +167,8 @@ assert build['srcFilter'] == ['+<*>', '-<cli/>'], build
 print(build['srcDir'], build['includeDir'])
 END
     )
-    gcc -std=c99 -I "$1/${folders#* }" "$1/${folders% *}"/*.c tests/checks/consumer/main.c -o "$work/consumer"
+    core_files "$1" '*.c' >"$work/sources"
+    gcc -std=c99 -I "$1/${folders#* }" @"$work/sources" tests/checks/consumer/main.c -o "$work/consumer"
     "$work/consumer" "$version"
 }
 
