@@ -14,7 +14,8 @@ static drogue_config config;
 static drogue_result result;
 
 /* 800 px of focal length; a rim of 0.35 m and an inner part of 0.175 m, 0.02 m behind it. */
-static const drogue_camera camera = {DROGUE_Q16(800, 1), DROGUE_Q16(800, 1), DROGUE_Q16(255, 2), DROGUE_Q16(255, 2), 0, 0, 0, 0, 0};
+static const drogue_camera camera = {
+    DROGUE_Q16(800, 1), DROGUE_Q16(800, 1), DROGUE_Q16(255, 2), DROGUE_Q16(255, 2), 0, 0, 0, 0, 0};
 static const drogue_model model = {DROGUE_Q16(35, 100), DROGUE_Q16(175, 1000), DROGUE_Q16(2, 100)};
 
 /* In place of a camera: a drogue at 3.5 m, seen head-on: a grey ring with a dark disc in it before a bright sky, every
