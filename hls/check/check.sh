@@ -10,6 +10,7 @@ invoked_in=$PWD
 cd "$(dirname "$0")/../.."
 . hls/tops.sh
 work=${DROGUE_HLS_CHECK_DIR:-build/hls/check}
+export PYTHONDONTWRITEBYTECODE=1 # findings.py imports ir.py: nothing is left beside them
 
 # Variables in registers, loops in normal form, nothing inlined or unrolled: each loop of the source is there once.
 # fix-irreducible makes loops of what gotos with two entries make.

@@ -53,6 +53,9 @@ expect_files() {
 }
 expect_files 'arithmetic/eigen arithmetic/fixed inner/otsu arithmetic/wide' '^hls/tops.txt:0: sources: eigen: src/inner/otsu.c is listed'
 expect_files 'arithmetic/eigen arithmetic/wide' '^[a-z/]+\.c:[0-9]+: external: .* has no source here$'
+ok=1
+[ ! -e ../__pycache__ ] || ok=0
+verdict 'nothing is left in the tree' $ok
 
 if [ $failures -eq 0 ]; then
     echo 'hls check: self-test passed'

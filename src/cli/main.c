@@ -5,6 +5,7 @@
 #include "cli.h"
 #include "commands.h"
 #include "drogue/drogue.h"
+#include "outputs.h"
 
 static const char USAGE[] =
     "drogue measures the pose of a refuelling drogue from one grey image.\n"
@@ -45,7 +46,7 @@ static const char USAGE[] =
 int main(int argc, char **argv)
 {
     options o;
-    if (options_parse(&o, argc, argv)) {
+    if (options_parse(&o, argc, argv) || outputs_check(&o)) {
         return EXIT_BAD;
     }
     switch (o.command) {

@@ -9,6 +9,7 @@
 #include "drogue/track.h"
 #include "frame.h"
 #include "json.h"
+#include "outputs.h"
 #include "overlay.h"
 
 typedef struct sequence {
@@ -42,17 +43,11 @@ static int begin_sequence(sequence *s, const char *path, const picture *grey)
 static int draw_frame(const sequence *s, int number, const picture *grey, const drogue_region *region,
                       const drogue_result *result, drogue_track_state state)
 {
-    const char *out = s->o->overlay;
-    size_t length = strlen(out) + 16;
-    const char *slash = strrchr(out, '/');
-    const char *dot = strrchr(slash != NULL ? slash : out, '.');
-    int stem = dot != NULL ? (int)(dot - out) : (int)strlen(out);
-    char *path = malloc(length);
+    char *path = output_numbered(s->o->overlay, number);
     int code;
     if (path == NULL) {
-        return complain(out, "out of memory");
+        return EXIT_BAD;
     }
-    snprintf(path, length, "%.*s-%04d%s", stem, out, number, out + stem);
     code = overlay_write(path, s->o, grey, region, &s->w.workspace, result, drogue_track_state_name(state));
     free(path);
     return code;

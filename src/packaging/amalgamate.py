@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""The library as two files to drop into a project: drogue.h with all public headers, drogue.c with all sources.
+"""The library as two files to drop into a project: drogue/drogue.h with all public headers, drogue.c with all sources.
 
 usage: amalgamate.py FOLDER
 
@@ -94,19 +94,20 @@ def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
-    head = (f'/* SPDX-License-Identifier: Apache-2.0 */\n/* Drogue {version()} in two files, drogue.h and drogue.c, made by '
-            'amalgamate.py from the sources: change those. */\n')
+    head = (f'/* SPDX-License-Identifier: Apache-2.0 */\n/* Drogue {version()} in two files, drogue/drogue.h and drogue.c, made '
+            'by amalgamate.py from the sources: change those. */\n')
     headers = Writer()
     for path in sorted((ROOT / 'include/drogue').glob('*.h')):
         headers.add(path)
     core = Writer(headers.written)
     for path, text in sources().items():
         core.add(path, text)
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / 'drogue.h').write_text(f'{head}#ifndef DROGUE_IN_TWO_FILES_H\n#define DROGUE_IN_TWO_FILES_H\n\n'
-                                     f'{headers.text}\n#endif\n')
-    (folder / 'drogue.c').write_text(f'{head}#include "drogue.h"\n\n{core.text}')
-    print(f'amalgamate: {folder}/drogue.h and drogue.c, drogue {version()}')
+    include = folder / 'drogue'  # so that the library's include lines are the same in this form
+    include.mkdir(parents=True, exist_ok=True)
+    (include / 'drogue.h').write_text(f'{head}#ifndef DROGUE_IN_TWO_FILES_H\n#define DROGUE_IN_TWO_FILES_H\n\n'
+                                      f'{headers.text}\n#endif\n')
+    (folder / 'drogue.c').write_text(f'{head}#include "drogue/drogue.h"\n\n{core.text}')
+    print(f'amalgamate: {folder}/drogue.c and drogue/drogue.h, drogue {version()}')
 
 
 if __name__ == '__main__':

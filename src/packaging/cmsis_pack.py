@@ -29,7 +29,7 @@ def main():
         for file in package.iter('file'):
             name = file.get('name')
             if not name.endswith('/'):
-                made = pathlib.Path(work) / pathlib.Path(name).name
+                made = pathlib.Path(work) / name.removeprefix('source/')
                 pack.write(made if made.exists() else ROOT / name, name)
     print(f'cmsis_pack: {target}')
 

@@ -2,8 +2,10 @@
 /* Comparison of result files with the bit-exact tier, file by file, word by word. */
 #include "judge.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #define MAX_PATH 1024
 
@@ -55,7 +57,7 @@ static int read_result(conf_array *result, char reason[VECTORS_TEXT], const char
         return 0;
     }
     return strcmp(path + strlen(path) - strlen(".png"), ".png") == 0 ? vectors_png(result, reason, data, bytes)
-                                                                     : vectors_hex(result, reason, data, bytes);
+                                                                     : vectors_readmemh(result, reason, data, bytes);
 }
 
 /* Line or, in a picture, pixel of the first word that differs. */
@@ -109,11 +111,28 @@ static void judge_file(tally *t, const char *folder, const conf_array *expected,
     }
 }
 
+static int is_folder(const char *path)
+{
+    struct stat s;
+    if (stat(path, &s) != 0) {
+        fprintf(stderr, "conformance: %s: %s\n", path, strerror(errno));
+        return 0;
+    }
+    if (!S_ISDIR(s.st_mode)) {
+        fprintf(stderr, "conformance: %s: is no folder\n", path);
+        return 0;
+    }
+    return 1;
+}
+
 int judge(const vectors *v, const char *what, const char *folder)
 {
     tally t = {0, 0, 0, 0};
     size_t i;
     int k;
+    if (!is_folder(folder)) {
+        return 2;
+    }
     for (i = 0; i < v->count; i++) {
         const vectors_case *c = &v->cases[i];
         if (strcmp(what, c->run.stage) == 0 || strcmp(what, c->run.id) == 0) {

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The judge of other people's results, and the command line of the runner.
-# usage: judge.sh CONFORMANCE TINY_VECTORS
+# usage: judge.sh CONFORMANCE TINY_VECTORS README    (of the vectors: what it says of names must hold)
 set -euo pipefail
 conformance=$1
 tiny=$2
+readme=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$tiny" "$work/vectors"
@@ -55,12 +56,40 @@ rm "$flat/tiny.edges.out.hex"
 expect 1 judge arcs "$flat" : 'MISSING arcs/tiny.edges.out.hex' 'judge: files=2 equal=0 different=1 missing=1'
 expect 1 judge arcs "$work" : 'judge: files=2 equal=0 different=0 missing=2'
 echo xxxxxxxx >"$flat/tiny.ellipse.out.hex"
-expect 1 judge ellipse "$flat" : 'tiny.ellipse.out.hex: line 1 is not 8 lower-case hexadecimal digits'
+expect 1 judge ellipse "$flat" : "tiny.ellipse.out.hex: line 1: 'xxxxxxxx' is no hexadecimal number"
 
-# Images as words: the masks are 33 x 21, 0 or 255; the picture of the centre is inside the disc.
+# Words as $writememh writes them, and in the other forms that $readmemh takes.
+memory=$work/memory
+mkdir "$memory"
+words() { cat "$same/arcs/tiny.edges.out.hex"; }
+cp "$same/arcs/tiny.arcs.out.hex" "$memory"
+taken() { # TEXT on standard input, taken as the words of tiny.edges
+    cat >"$memory/tiny.edges.out.hex"
+    expect 0 judge arcs "$memory" : 'judge: files=2 equal=2'
+}
+refused() { # REASON: the same for what is not to be taken
+    cat >"$memory/tiny.edges.out.hex"
+    expect 1 judge arcs "$memory" : "tiny.edges.out.hex: $1" 'different=1'
+}
+count=$(words | wc -l)
+shopt -s lastpipe # what a function behind a pipe finds is not lost
+{ echo '// 0x00000000'; words | tr a-f A-F; } | taken
+words | tr '\n' ' ' | taken
+words | sed 's/^\(..\)/\1_/;s/$/\r/' | taken
+{ echo '/* two'; echo ' lines */'; words; echo '// no end of the line'; } | head -c -1 | taken
+{ printf '@%x\n' $((count - 3)); words | tail -n 3; echo '@0'; words | head -n $((count - 3)); } | taken
+words | sed 's/^0*\(.\)/\1/' | taken
+{ words; echo 0; } | refused "line $((count + 1)): more than the $count words expected"
+words | sed '$d' | refused "$count words expected, $((count - 1)) found"
+words | sed '2s/.*/0000000x/' | refused "line 2: '0000000x' is no hexadecimal number"
+words | sed '2s/.*/100000000/' | refused "line 2: '100000000' is no hexadecimal number"
+{ words; echo '/* open'; } | refused 'a comment has no end'
+
+# Images as words, named as the README says: the masks are 33 x 21, 0 or 255; the picture of the centre is inside the disc.
 rm "$flat"/*.png
+as_words=$(sed -nE 's/.*image `NAME\.png` may be words, `(NAME[^`]*)`.*/\1/p' "$readme")
 for name in ring disc; do
-    seq 693 | sed s,.*,00, >"$flat/tiny.$name.out.hex"
+    seq 693 | sed s,.*,00, >"$flat/${as_words/NAME/tiny.$name.out}"
 done
 expect 1 judge mask "$flat" : 'tiny.disc.out.hex: line 13 (pixel 12, 0): expected ff (255), found 00 (0); 375 of 693' 'different=2'
 sed -i '$d' "$flat/tiny.ring.out.hex"
@@ -69,6 +98,9 @@ expect 1 judge mask "$flat" : 'tiny.ring.out.hex: 693 words expected, 692 found'
 # Command line.
 expect 2 judge nothing "$same" : "no stage and no case is named 'nothing'"
 expect 2 judge arcs : 'usage:'
+expect 2 judge arcs "$work/nowhere" : "conformance: $work/nowhere: No such file"
+[ "$(wc -l <"$work/out")" = 1 ] || { echo 'judge: a folder that is not there gives more than a line'; status=1; }
+expect 2 judge arcs "$readme" : "conformance: $readme: is no folder"
 expect 2 nonsense : 'usage:'
 expect 2 --stage nothing : 'there is no stage nothing'
 expect 2 --nonsense : 'usage:'

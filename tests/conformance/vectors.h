@@ -29,8 +29,14 @@ void vectors_free(void);
 /* A whole file, a 0 byte behind it; NULL and a reason when it cannot be read. */
 char *vectors_file(size_t *bytes, char reason[VECTORS_TEXT], const char *path);
 
+/* Put word i of so many bits. */
+void vectors_store(void *data, size_t i, uint64_t word, int bits);
+
 /* Words of a .hex file: 'count' words of array->bits; 0 and a reason when the text is not that. */
 int vectors_hex(conf_array *array, char reason[VECTORS_TEXT], const char *text, size_t bytes);
+
+/* The same from what a simulation wrote: any text that $readmemh takes, every word given. */
+int vectors_readmemh(conf_array *array, char reason[VECTORS_TEXT], const char *text, size_t bytes);
 
 /* Grey levels of a PNG of array->width_px x height_px; 0 and a reason when it is not that. */
 int vectors_png(conf_array *array, char reason[VECTORS_TEXT], const void *file, size_t bytes);

@@ -77,7 +77,7 @@ char *vectors_file(size_t *bytes, char reason[VECTORS_TEXT], const char *path)
 
 static int digit(char c) { return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1; }
 
-static void store(void *data, size_t i, uint64_t word, int bits)
+void vectors_store(void *data, size_t i, uint64_t word, int bits)
 {
     switch (bits) {
     case 8: ((uint8_t *)data)[i] = (uint8_t)word; break;
@@ -116,7 +116,7 @@ int vectors_hex(conf_array *array, char reason[VECTORS_TEXT], const char *text, 
         for (k = 0; k < digits; k++) {
             word = word << 4 | (uint64_t)digit(line[k]);
         }
-        store(data, at, word, array->bits);
+        vectors_store(data, at, word, array->bits);
     }
     array->data = data;
     return 1;

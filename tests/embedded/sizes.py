@@ -12,7 +12,7 @@ import sys
 from functools import lru_cache
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-BEGIN, END = '<!-- sizes: ./run sizes --update -->', '<!-- end of sizes -->'
+PAGE = ROOT / 'README.md'
 
 
 def tool(name, *arguments):
@@ -217,27 +217,48 @@ def check_only_ellipse(library, folder):
     return bool(names) and not foreign
 
 
+def workspace_table():
+    """RAM by side of the region, the same on every target: what ./run ram prints."""
+    program = ROOT / 'build/workspace_table'
+    subprocess.run(['cc', '-std=c99', '-I', ROOT / 'include', ROOT / 'tests/bench/workspace_table.c', '-o', program], check=True)
+    return subprocess.run([program], check=True, text=True, stdout=subprocess.PIPE).stdout.strip()
+
+
+def place(texts):
+    """Put the texts between their marks in the page; answers what stood there, by name."""
+    page = PAGE.read_text()
+    old = {}
+    for name in ('sizes', 'ram'):
+        begin, end = f'<!-- {name}: ./run sizes --update -->', f'<!-- end of {name} -->'
+        before, found, rest = page.partition(begin)
+        old[name], found_end, after = rest.partition(end)
+        if not found or not found_end:
+            sys.exit(f'sizes: {PAGE.name} has no place for the tables: {begin} ... {end}')
+        if name in texts:
+            page = f'{before}{begin}\n{texts[name]}\n{end}{after}'
+    if texts:
+        PAGE.write_text(page)
+    return old
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     update = '--update' in sys.argv[2:]
     library = Library(folder)
     ram = caller_ram(folder)
-    text = tables(library, ram)
-    readme = ROOT / 'README.md'
-    before, begin, rest = readme.read_text().partition(BEGIN)
-    old, end, after = rest.partition(END)
-    if not begin or not end:
-        sys.exit(f'sizes: README.md has no place for the tables: {BEGIN} ... {END}')
+    measured = {'sizes': tables(library, ram), 'ram': workspace_table()}
+    old = place(measured if update else {})
     if update:
-        readme.write_text(f'{before}{begin}\n{text}\n{end}{after}')
-        print('sizes: written into README.md')
+        print(f'sizes: written into {PAGE.name}')
     good = check_budgets(library, ram, folder)
     good &= check_only_ellipse(library, folder)
-    if not update and compiler() not in old and old.strip():
-        print(f'sizes: not compared with README.md, which is of another compiler than {compiler()}')
-    elif not update and old.strip() != text.strip():
-        good = False
-        print('sizes: the tables in README.md are out of date: ./run sizes --update')
+    if compiler() not in old['sizes'] and old['sizes'].strip():
+        print(f'sizes: not compared with {PAGE.name}, which is of another compiler than {compiler()}')
+        del old['sizes']
+    for name in old:
+        if not update and old[name].strip() != measured[name].strip():
+            good = False
+            print(f'sizes: the table "{name}" in {PAGE.name} is out of date: ./run sizes --update')
     return 0 if good else 1
 
 

@@ -5,14 +5,18 @@ function value(name, i) {
     return "-"
 }
 
+# of a frame at 480 MHz and an instruction a clock
+function milliseconds(count) { return $1 == "host" ? "-" : sprintf("%.1f", count / 480000) }
+
 function thousands(count) { return $1 == "host" ? "-" : sprintf("%.0f", count / 1000) }
 
 BEGIN {
-    heading = "%-13s %-13s %8s %16s %8s %6s %6s %6s %6s %6s %6s %6s %8s %7s %7s\n"
+    heading = "%-14s %-13s %8s %16s %8s %6s %6s %6s %6s %6s %6s %6s %6s %8s %7s %7s\n"
     print "Instructions in thousands, without the stages called; of the front end per pixel, too. RAM: workspace, state, stack."
-    printf heading, "target", "frame", "z, m", "digest", "all, k", "front", "inner", "constr", "fit", "outlin", "pose",
+    print "ms: of all at 480 MHz and one instruction a clock; at another clock or rate in proportion."
+    printf heading, "target", "frame", "z, m", "digest", "all, k", "ms", "front", "inner", "constr", "fit", "outlin", "pose",
         "joint", "back, k", "stack", "RAM"
-    printf heading, "", "", "", "", "", "/px", "/px", "k", "k", "k", "k", "k", "", "bytes", "bytes"
+    printf heading, "", "", "", "", "", "", "/px", "/px", "k", "k", "k", "k", "k", "", "bytes", "bytes"
 }
 
 $3 == "measure" {
@@ -30,7 +34,7 @@ $3 == "stages" {
     pixels = value("pixels")
     back = value("constraints") + value("fit") + value("outline") + value("pose") + value("joint") + value("rest")
     same = digest[key] == digest["host " $2] && digest[key] == value("digest")
-    printf heading, $1, $2, z[key], same ? digest[key] : "DIFFERS", thousands(all[key]),
+    printf heading, $1, $2, z[key], same ? digest[key] : "DIFFERS", thousands(all[key]), milliseconds(all[key]),
         counts ? sprintf("%.1f", value("front_end") / pixels) : "-", counts ? sprintf("%.1f", value("inner") / pixels) : "-",
         thousands(value("constraints")), thousands(value("fit")), thousands(value("outline")), thousands(value("pose")),
         thousands(value("joint")), thousands(back), stack[key], ram[key]

@@ -32,8 +32,14 @@ void fault(void)
     exit(2);
 }
 
+#define CPACR (*(volatile uint32_t *)0xE000ED88)
+
 void reset(void)
 {
+#ifdef __ARM_FP /* hard float: the unit is off after reset, and its first use would be a fault */
+    CPACR |= 0xFu << 20;
+    __asm__ volatile("dsb\nisb");
+#endif
     memcpy(data_begin, data_image, (size_t)(data_end - data_begin));
     memset(bss_begin, 0, (size_t)(bss_end - bss_begin));
     initialise_monitor_handles();

@@ -6,6 +6,7 @@
 # usage: packaging.sh      DROGUE_PACK_XSD=FILE names PACK.xsd of Open-CMSIS-Pack-Spec where it cannot be downloaded
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit
+. src/sources.sh
 root=$PWD
 work=$root/build/packaging
 schema_url=https://raw.githubusercontent.com/Open-CMSIS-Pack/Open-CMSIS-Pack-Spec/v1.7.36/schema/PACK.xsd
@@ -58,13 +59,10 @@ tool() { [ -x "$work/tools/bin/$1" ]; }
 debian_python=/usr/bin/python3
 has_module() { "$debian_python" -c "import $1" 2>/dev/null; }
 
-# use_two_files FOLDER: a consumer of drogue.h and drogue.c in FOLDER
+# use_two_files FOLDER: a consumer of drogue/drogue.h and drogue.c in FOLDER, by the include line of the README
 use_two_files() {
-    local header
     mkdir -p "$work/shim/drogue"
-    for header in drogue track; do
-        echo '#include <drogue.h>' >"$work/shim/drogue/$header.h"
-    done
+    echo '#include <drogue/drogue.h>' >"$work/shim/drogue/track.h" # it is all in one header
     gcc -std=c99 -O2 -I "$1" -c "$1/drogue.c" -o "$work/two_files.o"
     gcc -std=c99 -I "$work/shim" -I "$1" tests/checks/consumer/main.c "$work/two_files.o" -o "$work/consumer"
     "$work/consumer" "$version"
@@ -73,15 +71,15 @@ use_two_files() {
 two_files_compile() {
     local compiler
     for compiler in 'gcc -O2' 'clang -O2' 'arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -Os'; do
-        $compiler "${warnings[@]}" -c "$work/two/drogue.c" -o "$work/two.o"
+        $compiler "${warnings[@]}" -I "$work/two" -c "$work/two/drogue.c" -o "$work/two.o"
     done
-    g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -fsyntax-only -x c++ "$work/two/drogue.h"
+    g++ -std=c++11 -pedantic -Wall -Wextra -Wconversion -Wshadow -Werror -fsyntax-only -x c++ "$work/two/drogue/drogue.h"
 }
 
 two_files_symbols() {
     mkdir -p "$work/tree/src" "$work/tree/include"
     cp "$work/two/drogue.c" "$work/tree/src"
-    cp "$work/two/drogue.h" "$work/tree/include"
+    cp -R "$work/two/drogue" "$work/tree/include"
     tests/checks/symbols.sh "$work/tree" gcc -O2
     tests/checks/symbols.sh "$work/tree" arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -Os
 }
@@ -169,7 +167,8 @@ assert build['srcFilter'] == ['+<*>', '-<cli/>'], build
 print(build['srcDir'], build['includeDir'])
 END
     )
-    gcc -std=c99 -I "$1/${folders#* }" "$1/${folders% *}"/*.c tests/checks/consumer/main.c -o "$work/consumer"
+    core_files "$1" '*.c' >"$work/sources"
+    gcc -std=c99 -I "$1/${folders#* }" @"$work/sources" tests/checks/consumer/main.c -o "$work/consumer"
     "$work/consumer" "$version"
 }
 
