@@ -51,7 +51,8 @@ int64_t drogue_shr_round_s64(int64_t v, int n);
 /* |v|, defined for INT64_MIN too. */
 static inline uint64_t drogue_abs_u64(int64_t v) { return v < 0 ? (uint64_t)0 - (uint64_t)v : (uint64_t)v; }
 
-/* Leading zero bits of v, 64 for 0. */
+/* Leading zero bits of v; 32 (64) for 0. */
+int drogue_clz_u32(uint32_t v);
 int drogue_clz_u64(uint64_t v);
 
 /* Saturated. */

@@ -17,36 +17,34 @@ static const uint32_t cordic_angle_q32[CORDIC_STEPS] = {
 /* 1 / product of sqrt(1 + 4^-i): what a vector must start with to end up of length 1, Q40 */
 static const int64_t cordic_gain_q40 = INT64_C(667681663043);
 
-int drogue_clz_u64(uint64_t v)
+int drogue_clz_u32(uint32_t v)
 {
     int n = 0;
     if (v == 0) {
-        return 64;
+        return 32;
     }
-    if ((v >> 32) == 0) {
-        n += 32;
-        v <<= 32;
-    }
-    if ((v >> 48) == 0) {
+    if (v >> 16 == 0) {
         n += 16;
         v <<= 16;
     }
-    if ((v >> 56) == 0) {
+    if (v >> 24 == 0) {
         n += 8;
         v <<= 8;
     }
-    if ((v >> 60) == 0) {
+    if (v >> 28 == 0) {
         n += 4;
         v <<= 4;
     }
-    if ((v >> 62) == 0) {
+    if (v >> 30 == 0) {
         n += 2;
         v <<= 2;
     }
-    if ((v >> 63) == 0) {
-        n += 1;
-    }
-    return n;
+    return v >> 31 == 0 ? n + 1 : n;
+}
+
+int drogue_clz_u64(uint64_t v)
+{
+    return v >> 32 != 0 ? drogue_clz_u32((uint32_t)(v >> 32)) : 32 + drogue_clz_u32((uint32_t)v);
 }
 
 int64_t drogue_shr_round_s64(int64_t v, int n) { return n == 0 ? v : (v >> n) + ((v >> (n - 1)) & 1); }
