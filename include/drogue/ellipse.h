@@ -5,13 +5,19 @@
 #define DROGUE_ELLIPSE_H
 
 #include "drogue/types.h"
-#include "drogue/wide.h"
+#include "drogue/real.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 #define DROGUE_MAX_FIT_POINTS (1 << 17) /* points that one set of moments can hold */
+
+/* A sum of up to DROGUE_MAX_FIT_POINTS 64-bit terms, high * 2^32 + low: 96 bits, carries not yet passed on. */
+typedef struct drogue_long_sum {
+    int64_t high;
+    uint64_t low;
+} drogue_long_sum;
 
 /* Sums over points of x^p y^q for p + q <= 4, exact integers; coordinates are 16-bit. m[p][q] would be sparse:
  * the members name p and q. */
@@ -20,20 +26,16 @@ typedef struct drogue_moments {
     int64_t m10, m01;
     int64_t m20, m11, m02;
     int64_t m30, m21, m12, m03;
-    drogue_s128 m40, m31, m22, m13, m04;
+    drogue_long_sum m40, m31, m22, m13, m04;
 } drogue_moments;
 
 void drogue_moments_clear(drogue_moments *m);
 
 /* Add a product of four coordinates. */
-static inline void drogue_s128_accumulate(drogue_s128 *sum, int64_t product)
+static inline void drogue_long_sum_add(drogue_long_sum *sum, int64_t product)
 {
-    const uint64_t low = sum->lo + (uint64_t)product;
-    const int32_t change = (int32_t)(low < (uint64_t)product) + (int32_t)(product >> 63);
-    sum->lo = low;
-    if (change != 0) { /* seldom */
-        sum->hi += change;
-    }
+    sum->high += product >> 32;
+    sum->low += (uint32_t)product;
 }
 
 /* Add one point; x and y in [-32768, 32767], in units of the caller's choice. */
@@ -54,27 +56,34 @@ static inline void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_
     m->m21 += (int64_t)xx * y;
     m->m12 += (int64_t)yy * x;
     m->m03 += (int64_t)yy * y;
-    drogue_s128_accumulate(&m->m40, (int64_t)xx * xx);
-    drogue_s128_accumulate(&m->m31, (int64_t)xx * xy);
-    drogue_s128_accumulate(&m->m22, (int64_t)xx * yy);
-    drogue_s128_accumulate(&m->m13, (int64_t)xy * yy);
-    drogue_s128_accumulate(&m->m04, (int64_t)yy * yy);
+    drogue_long_sum_add(&m->m40, (int64_t)xx * xx);
+    drogue_long_sum_add(&m->m31, (int64_t)xx * xy);
+    drogue_long_sum_add(&m->m22, (int64_t)xx * yy);
+    drogue_long_sum_add(&m->m13, (int64_t)xy * yy);
+    drogue_long_sum_add(&m->m04, (int64_t)yy * yy);
 }
 
 /* Scatter matrix of the monomials 1, x, y, x^2, xy, y^2 about the points' centre, packed by rows of its lower triangle
- * (cholesky.h); x and y have changed roles where the return value is 1, so that x has the larger spread.
+ * (cholesky.h). From each of the last three, 'taken' times 1, x and y is taken in the exact sums. */
+typedef struct drogue_scatter {
+    drogue_real entry[21];
+    int32_t centre[2]; /* mean of x and of y, rounded */
+    int32_t taken[3][3];
+} drogue_scatter;
+
+/* Sums of 96 bits until all that whole numbers explain has been taken, then rounded.
  *
- *  centre  out, mean of x and of y, rounded
  *  m       n >= 1
+ *  return  1 when x and y have changed roles, so that x has the larger spread; not in 'centre'
  */
-int drogue_moments_scatter(drogue_wide scatter[21], int64_t centre[2], const drogue_moments *m);
+int drogue_moments_scatter(drogue_scatter *out, const drogue_moments *m);
 
 /* Centre, semi-axes and angle of a conic about 'centre'; its unit is 2^-frac_bits px.
  *
  *  q       coefficients of 1, x, y, x^2, xy, y^2; those of x^2 and y^2 positive in sum
  *  return  DROGUE_OK, DROGUE_E_DEGENERATE (no ellipse, or one whose parameters leave Q16)
  */
-drogue_status drogue_conic_ellipse(drogue_ellipse *out, const drogue_wide q[6], const int64_t centre[2], int frac_bits);
+drogue_status drogue_conic_ellipse(drogue_ellipse *out, const drogue_real q[6], const int32_t centre[2], int frac_bits);
 
 /* Fit an ellipse to summed moments.
  *
@@ -83,8 +92,8 @@ drogue_status drogue_conic_ellipse(drogue_ellipse *out, const drogue_wide q[6], 
  *  frac_bits  the moments' unit is 2^-frac_bits px; [0, 15]
  *  return     DROGUE_OK, DROGUE_E_TOO_FEW_POINTS, DROGUE_E_DEGENERATE (collinear points, no ellipse, or one
  *             whose parameters leave Q16), DROGUE_E_ARGUMENT
- *  scaling    centred exactly in 128-bit integers, then 62-bit mantissas throughout; no overflow for any input
- *  error      <= 1 LSB for arcs of 90 degrees and more, against exact arithmetic on the same moments
+ *  scaling    centred and freed of its linear part in 96-bit integers, then 31-bit mantissas; no overflow for any input
+ *  error      <= ERRLSB LSB for arcs of 90 degrees and more, against exact arithmetic on the same moments
  *  source     Halir and Flusser 1998; paper (7)-(9) with the corrections of naming and arctangent
  */
 drogue_status drogue_ellipse_fit(drogue_ellipse *out, const drogue_moments *m, int frac_bits);
