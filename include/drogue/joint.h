@@ -18,7 +18,7 @@ extern "C" {
  * r(t) = m0 + m1 cos t + m2 sin t + m3 cos 2t + m4 sin 2t in units of the semi-axes, t the eccentric angle. */
 typedef struct drogue_joint_outline {
     drogue_ellipse ellipse;                    /* undistorted, px of the whole image */
-    drogue_wide covariance[DROGUE_PACKED_MAX]; /* of m0 .. m4, packed */
+    drogue_real covariance[DROGUE_PACKED_MAX]; /* of m0 .. m4, packed */
 } drogue_joint_outline;
 
 /* The inner part as a measurement. */
@@ -30,8 +30,8 @@ typedef struct drogue_joint_inner {
 
 typedef struct drogue_joint {
     drogue_pose pose;
-    drogue_wide covariance[DROGUE_PACKED_MAX]; /* of x, y, z (m), yaw, pitch (rad), packed */
-    drogue_wide chi2;                          /* squared residuals over their variances: 2 degrees of freedom */
+    drogue_real covariance[DROGUE_PACKED_MAX]; /* of x, y, z (m), yaw, pitch (rad), packed */
+    drogue_real chi2;                          /* squared residuals over their variances: 2 degrees of freedom */
 } drogue_joint;
 
 /* Covariance of an outline's parameters from the residuals of its bins, whose scatter about the ellipse measures noise
@@ -55,9 +55,9 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
  *           less than 2^-20 rad and of the distance is the last one. 0: none at all, the start itself. Covariance and
  *           chi2 are those of the point before the last step
  *  return   DROGUE_OK; DROGUE_E_BEHIND_CAMERA (the start too); DROGUE_E_DEGENERATE; DROGUE_E_DOMAIN: farther than 2^16
- *           rim radii, rays more than 64 focal lengths off the axis, slopes above 2^10
- *  scaling  Q42 in 64 bits, lengths in rim radii, products saturated at 2^18, which the limits above keep away; sums of
- *           weighted products exact in 128 bits
+ *           rim radii, rays two focal lengths off the axis, an outline two semi-axes off
+ *  scaling  Q30 and Q29 in 32 bits, lengths in a power of two of the rim radius that follows the distance; sums of products
+ *           exact in 64 bits; normal equations with 31-bit mantissas
  *  error    pose <= 1 LSB against double
  */
 drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,

@@ -189,26 +189,26 @@ static drogue_status collection_fit(drogue_ellipse *out, const drogue_collection
  * at those of the minor. */
 static void undo_blur(drogue_ellipse *e, const drogue_config *config)
 {
-    drogue_wide own;
-    drogue_wide half;
-    drogue_wide axis[2];
-    drogue_wide grown[2];
+    drogue_real own;
+    drogue_real half;
+    drogue_real axis[2];
+    drogue_real grown[2];
     int k;
-    drogue_wide_set_q16(&own, config->smooth ? DROGUE_Q16(82, 100) : DROGUE_Q16(32, 100));
-    drogue_wide_set_q16(&half, config->optics_blur_px_q16);
-    drogue_wide_product(&half, &half, &half);
-    drogue_wide_shift(&half, -1);
-    drogue_wide_sum(&half, &own, &half);
-    drogue_wide_set_q16(&axis[0], e->a_px_q16);
-    drogue_wide_set_q16(&axis[1], e->b_px_q16);
+    drogue_real_set_q16(&own, config->smooth ? DROGUE_Q16(82, 100) : DROGUE_Q16(32, 100));
+    drogue_real_set_q16(&half, config->optics_blur_px_q16);
+    drogue_real_product(&half, &half, &half);
+    drogue_real_shift(&half, -1);
+    drogue_real_sum(&half, &own, &half);
+    drogue_real_set_q16(&axis[0], e->a_px_q16);
+    drogue_real_set_q16(&axis[1], e->b_px_q16);
     for (k = 0; k < 2; k++) {
-        drogue_wide_product(&own, &axis[1 - k], &axis[1 - k]);
-        drogue_wide_product(&grown[k], &half, &axis[k]);
-        drogue_wide_quotient(&grown[k], &grown[k], &own);
-        drogue_wide_sum(&grown[k], &axis[k], &grown[k]);
+        drogue_real_product(&own, &axis[1 - k], &axis[1 - k]);
+        drogue_real_product(&grown[k], &half, &axis[k]);
+        drogue_real_quotient(&grown[k], &grown[k], &own);
+        drogue_real_sum(&grown[k], &axis[k], &grown[k]);
     }
-    e->a_px_q16 = drogue_wide_to_q16(grown[0]);
-    e->b_px_q16 = drogue_wide_to_q16(grown[1]);
+    e->a_px_q16 = drogue_real_to_q16(grown[0]);
+    e->b_px_q16 = drogue_real_to_q16(grown[1]);
 }
 
 /* Collect the edge points that belong to an outline: counts by bin, residuals and moments. Bins have the polarity that

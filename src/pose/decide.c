@@ -6,37 +6,37 @@
 
 static void put_covariance(drogue_decision *out, const drogue_joint *joint)
 {
-    const drogue_wide *yaw = &joint->covariance[DROGUE_PACKED(3, 3)];
-    drogue_wide t;
+    const drogue_real *yaw = &joint->covariance[DROGUE_PACKED(3, 3)];
+    drogue_real t;
     int32_t s_q30;
     int32_t c_q30;
     int i;
     int j;
     for (i = 0; i < 5; i++) {
         for (j = 0; j < 5; j++) {
-            out->covariance_q48[i][j] = drogue_wide_to_s64(joint->covariance[DROGUE_PACKED(i, j)], 48);
+            out->covariance_q48[i][j] = drogue_real_to_s64(joint->covariance[DROGUE_PACKED(i, j)], 48);
         }
     }
     for (i = 0; i < 3; i++) {
-        drogue_wide_root(&t, &joint->covariance[DROGUE_PACKED(i, i)]);
-        out->position_std_m_q32[i] = drogue_wide_to_s64(t, 32);
+        drogue_real_root(&t, &joint->covariance[DROGUE_PACKED(i, i)]);
+        out->position_std_m_q32[i] = drogue_real_to_s64(t, 32);
     }
     drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(joint->pose.pitch_rad_q16, 13));
-    drogue_wide_set(&t, c_q30, -30);
-    drogue_wide_product(&t, &t, &t);
-    drogue_wide_product(&t, yaw, &t);
-    drogue_wide_sum(&t, &t, &joint->covariance[DROGUE_PACKED(4, 4)]);
-    drogue_wide_root(&t, &t);
-    out->axis_std_rad_q32 = drogue_wide_to_s64(t, 32);
+    drogue_real_set(&t, c_q30, -30);
+    drogue_real_product(&t, &t, &t);
+    drogue_real_product(&t, yaw, &t);
+    drogue_real_sum(&t, &t, &joint->covariance[DROGUE_PACKED(4, 4)]);
+    drogue_real_root(&t, &t);
+    out->axis_std_rad_q32 = drogue_real_to_s64(t, 32);
 }
 
 /* Is the difference of two angles within a variance? */
-static int within(drogue_q16 a_rad_q16, drogue_q16 b_rad_q16, const drogue_wide *variance)
+static int within(drogue_q16 a_rad_q16, drogue_q16 b_rad_q16, const drogue_real *variance)
 {
-    drogue_wide d;
-    drogue_wide_set(&d, (int64_t)a_rad_q16 - b_rad_q16, -16);
-    drogue_wide_product(&d, &d, &d);
-    return drogue_wide_cmp(d, *variance) <= 0;
+    drogue_real d;
+    drogue_real_set(&d, (int64_t)a_rad_q16 - b_rad_q16, -16);
+    drogue_real_product(&d, &d, &d);
+    return drogue_real_order(&d, variance) <= 0;
 }
 
 /* Do two solutions differ by less than their standard deviations? Then there is nothing to choose. */
@@ -55,7 +55,8 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
                           const drogue_evidence *seen, const drogue_setup *setup)
 {
     drogue_pose other; /* what matters of the solution not taken */
-    drogue_wide chi2;
+    drogue_real chi2;
+    drogue_real limit;
     drogue_status near_status;
     const drogue_status far_status = drogue_joint_solve(best, &seen->poses[1 - *index], outline, &seen->inner,
                                                         setup->camera, setup->model, OTHER_STEPS);
@@ -63,7 +64,7 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
     chi2 = best->chi2;
     near_status =
         drogue_joint_solve(best, &seen->poses[*index], outline, &seen->inner, setup->camera, setup->model, STEPS);
-    if (far_status == DROGUE_OK && (near_status != DROGUE_OK || drogue_wide_cmp(chi2, best->chi2) < 0)) {
+    if (far_status == DROGUE_OK && (near_status != DROGUE_OK || drogue_real_order(&chi2, &best->chi2) < 0)) {
         other = best->pose;
         chi2 = best->chi2;
         *index = 1 - *index;
@@ -74,10 +75,12 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
     } else if (near_status != DROGUE_OK) {
         return 0;
     }
-    drogue_wide_difference(&chi2, &chi2, &best->chi2);
+    drogue_real_difference(&chi2, &chi2, &best->chi2);
+    drogue_real_set_q16(&limit, setup->config->min_chi2_gap_q16);
     *resolved = far_status != DROGUE_OK || near_status != DROGUE_OK || same_solution(best, &other) ||
-                drogue_wide_cmp(chi2, drogue_wide_from_q16(setup->config->min_chi2_gap_q16)) >= 0;
-    return drogue_wide_cmp(best->chi2, drogue_wide_from_q16(setup->config->max_chi2_q16)) <= 0;
+                drogue_real_order(&chi2, &limit) >= 0;
+    drogue_real_set_q16(&limit, setup->config->max_chi2_q16);
+    return drogue_real_order(&best->chi2, &limit) <= 0;
 }
 
 drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup)

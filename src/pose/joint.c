@@ -13,96 +13,93 @@
 #define RIGHT DROGUE_PACKED(FIT, 0)
 #define CHI2 DROGUE_PACKED(FIT, FIT)
 
-#define STEEPEST (DROGUE_JOINT_ONE << 10) /* semi-axes, or focal lengths, a radius or radian */
-
-/* Is every row small enough for the normal equations? */
-static int measurable(const drogue_joint_rows *rows)
+/* a . b, exact; |a|, |b| <= 2^31, one of them 2^30 */
+static int64_t products(const int32_t a[FIT], const int32_t b[FIT])
 {
-    int p;
-    int i;
-    for (p = 0; p <= FIT; p++) {
-        for (i = 0; i < DROGUE_JOINT_ROWS; i++) {
-            DROGUE_NOTE("joint: row", rows->column[p][i], 61);
-            if (rows->column[p][i] > STEEPEST || rows->column[p][i] < -STEEPEST) {
-                return 0;
-            }
-        }
+    int64_t sum = 0;
+    int k;
+    for (k = 0; k < FIT; k++) {
+        sum += (int64_t)a[k] * b[k];
     }
-    return 1;
+    return sum;
 }
 
 /* Weighted products of all columns with each other, packed: the normal equations, their negative right side, and chi2.
  * Angles get the information 1 / rad^2, which only matters where nothing else says anything. */
-static void normal_equations(drogue_wide normal[CHI2 + 1], const drogue_joint_rows *rows, const drogue_joint_weights *w)
+static void normal_equations(drogue_real normal[CHI2 + 1], const drogue_joint_rows *rows, const drogue_joint_weights *w)
 {
-    const int drop = 50; /* columns below 2^52, weights below 2^58: sums of five, below 2^113, fit 63 bits */
-    drogue_wide one;
-    int64_t weighted[DROGUE_JOINT_ROWS];
+    const drogue_real one = {1 << 30, -30};
     int i;
     int p;
     int q;
-    drogue_wide_set(&one, 1, 0);
     for (p = 0; p <= FIT; p++) {
-        const int64_t *column = rows->column[p];
-        for (i = 0; i < DROGUE_JOINT_ROWS; i++) {
-            weighted[i] = drogue_s128_shr_round(i < FIT ? drogue_joint_products(w->outline[i], column, FIT)
-                                                        : drogue_s128_mul(w->inner[i - FIT], column[i]),
-                                                drop);
+        const drogue_joint_column *column = &rows->column[p];
+        drogue_real inner[2];
+        int32_t weighted[FIT];
+        int64_t sum[FIT];
+        int32_t exponent;
+        for (i = 0; i < FIT; i++) {
+            sum[i] = products(w->outline[i], column->outline);
         }
+        exponent = drogue_joint_squeeze(weighted, sum, FIT) + w->exponent + column->exponent;
+        drogue_real_product(&inner[0], &w->inner[0], &column->inner[0]);
+        drogue_real_product(&inner[1], &w->inner[1], &column->inner[1]);
         for (q = 0; q <= p; q++) {
-            drogue_wide *sum = &normal[DROGUE_PACKED(p, q)];
-            const int64_t *other = rows->column[q];
-            const drogue_s128 total = drogue_s128_add(drogue_joint_products(weighted, other, FIT),
-                                                      drogue_joint_products(weighted + FIT, other + FIT, 2));
-            drogue_wide_set_s128(sum, total.hi, total.lo, w->exponent + drop - 2 * DROGUE_JOINT_FRAC);
+            const drogue_joint_column *other = &rows->column[q];
+            drogue_real *total = &normal[DROGUE_PACKED(p, q)];
+            drogue_real own;
+            drogue_real_set(&own, products(weighted, other->outline), exponent + other->exponent);
+            drogue_real_products(total, &inner[0], &other->inner[0], &inner[1], &other->inner[1]);
+            drogue_real_sum(total, total, &own);
             if (p == q && (p == 3 || p == 4)) {
-                drogue_wide_sum(sum, sum, &one);
+                drogue_real_sum(total, total, &one);
             }
         }
     }
 }
 
-static int64_t limited(int64_t v, int64_t most) { return v > most ? most : v < -most ? -most : v; }
+static int32_t limited(int32_t v, int32_t most) { return v > most ? most : v < -most ? -most : v; }
 
 /* One step, at most half a radian in each angle and half the distance in each direction, so that no step passes the
  * camera. Returns whether it is small. */
-static int move(drogue_joint_state *s, const drogue_wide step[FIT])
+static int move(drogue_joint_state *s, const drogue_real step[FIT])
 {
-    const int64_t half = s->position[2] / 2;
-    const int64_t right_angle = drogue_shl_s64(DROGUE_Q16_HALF_PI, DROGUE_JOINT_FRAC - 16);
-    const int64_t near = s->position[2] >> SETTLED_BITS;
+    const int32_t half = s->position_q30[2] / 2;
+    const int32_t near = s->position_q30[2] >> SETTLED_BITS;
+    const int32_t right_angle_q29 = 843314857;
     int is_small = 1;
     int k;
     for (k = 0; k < 3; k++) {
-        const int64_t v = limited(drogue_wide_to_s64(step[k], DROGUE_JOINT_FRAC), half);
+        const int32_t v = limited(drogue_real_to_s32(step[k], 30 - s->scale), half);
         is_small = is_small && v == limited(v, near);
-        s->position[k] += v;
+        s->position_q30[k] += v; /* below 1, moved by less than a half */
     }
+    drogue_joint_rescale(s);
     for (k = 0; k < 2; k++) {
-        const int64_t v = limited(drogue_wide_to_s64(step[3 + k], DROGUE_JOINT_FRAC), DROGUE_JOINT_ONE);
-        is_small = is_small && v == limited(v, DROGUE_JOINT_ONE >> SETTLED_BITS);
-        s->angle[k] = limited(s->angle[k] + limited(v, DROGUE_JOINT_ONE / 2), right_angle);
+        const int32_t v_q29 = limited(drogue_real_to_s32(step[3 + k], 29), 1 << 28);
+        is_small = is_small && v_q29 == limited(v_q29, 1 << (29 - SETTLED_BITS));
+        s->angle_rad_q29[k] = limited(drogue_sat_s32((int64_t)s->angle_rad_q29[k] + v_q29), right_angle_q29);
     }
     drogue_joint_turn(s);
     return is_small;
 }
 
 /* Inverse of the normal equations; lengths from radii to metres. */
-static void put_covariance(drogue_wide out[DROGUE_PACKED_MAX], const drogue_wide *root, drogue_q16 radius_m_q16)
+static void put_covariance(drogue_real out[DROGUE_PACKED_MAX], const drogue_real *root, drogue_q16 radius_m_q16)
 {
-    drogue_wide radius;
+    drogue_real radius;
     int i;
     int j;
-    drogue_wide_set_q16(&radius, radius_m_q16);
+    drogue_real_set_q16(&radius, radius_m_q16);
     drogue_cholesky_invert(out, root, FIT);
     for (i = 0; i < FIT; i++) {
         for (j = 0; j < 3; j++) {
-            drogue_wide *entry = &out[DROGUE_PACKED(i, j)];
+            drogue_real *entry = &out[DROGUE_PACKED(i, j)];
             if (i >= j) {
-                drogue_wide_product(entry, entry, &radius);
+                drogue_real_product(entry, entry, &radius);
             }
             if (i <= j) {
-                drogue_wide_product(entry, entry, &radius);
+                drogue_real_product(entry, entry, &radius);
             }
         }
     }
@@ -112,23 +109,23 @@ static drogue_status finish(drogue_pose *out, const drogue_joint_state *s, drogu
 {
     int k;
     for (k = 0; k < 3; k++) {
-        const int64_t p_q16 = drogue_mul_shr_round_s64(s->position[k], radius_m_q16, DROGUE_JOINT_FRAC);
+        const int64_t p_q16 = drogue_shr_round_s64((int64_t)s->position_q30[k] * radius_m_q16, 30 - s->scale);
         out->position_m_q16[k] = drogue_sat_s32(p_q16);
-        out->axis_q16[k] = (drogue_q16)drogue_shr_round_s64(s->axis[k], DROGUE_JOINT_FRAC - 16);
+        out->axis_q16[k] = (drogue_q16)drogue_shr_round_s64(s->axis_q30[k], 14);
         if (p_q16 >= DROGUE_Q16_MAX || p_q16 <= DROGUE_Q16_MIN) {
             return DROGUE_E_DOMAIN;
         }
     }
-    out->yaw_rad_q16 = (drogue_q16)drogue_shr_round_s64(s->angle[0], DROGUE_JOINT_FRAC - 16);
-    out->pitch_rad_q16 = (drogue_q16)drogue_shr_round_s64(s->angle[1], DROGUE_JOINT_FRAC - 16);
-    return s->position[2] > 0 ? DROGUE_OK : DROGUE_E_BEHIND_CAMERA;
+    out->yaw_rad_q16 = (drogue_q16)drogue_shr_round_s64(s->angle_rad_q29[0], 13);
+    out->pitch_rad_q16 = (drogue_q16)drogue_shr_round_s64(s->angle_rad_q29[1], 13);
+    return s->position_q30[2] > 0 ? DROGUE_OK : DROGUE_E_BEHIND_CAMERA;
 }
 
 drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,
                                  const drogue_joint_inner *inner, const drogue_camera *camera,
                                  const drogue_model *model, int steps)
 {
-    drogue_wide normal[CHI2 + 1];
+    drogue_real normal[CHI2 + 1];
     drogue_joint_weights weights;
     drogue_joint_frame frame;
     drogue_joint_rows rows;
@@ -140,15 +137,13 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
         status = DROGUE_E_BEHIND_CAMERA;
     }
     if (status == DROGUE_OK) {
-        status = drogue_joint_begin(&s, &frame, start, &outline->ellipse, camera, model);
+        status = drogue_joint_begin(&s, &frame, start, &outline->ellipse, inner, camera, model);
     }
+    memset(&rows, 0, sizeof rows); /* no inner part */
     for (step = 0; !last && status == DROGUE_OK; step++) { /* bound: steps + 1 */
         status = drogue_joint_outline_rows(&rows, &s, &frame);
         if (status == DROGUE_OK && inner->std_px_q16 > 0) {
-            status = drogue_joint_inner_rows(&rows, &s, inner, camera, model);
-        }
-        if (status == DROGUE_OK && !measurable(&rows)) {
-            status = DROGUE_E_DOMAIN;
+            status = drogue_joint_inner_rows(&rows, &s, &frame);
         }
         if (status != DROGUE_OK) {
             break;
@@ -157,11 +152,11 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
         status = drogue_cholesky_factor(normal, FIT);
         last = step == steps;
         if (status == DROGUE_OK && steps > 0) {
-            drogue_wide *down = &normal[RIGHT];
+            drogue_real *down = &normal[RIGHT];
             int k;
             drogue_cholesky_solve(down, normal, FIT);
             for (k = 0; k < FIT; k++) {
-                drogue_wide_negate(&down[k]);
+                drogue_real_negate(&down[k]);
             }
             last = move(&s, down) || last;
         }

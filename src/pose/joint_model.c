@@ -8,291 +8,392 @@
 
 #include <string.h>
 
-#define LARGEST (INT64_C(1) << 60)
-#define FARTHEST (DROGUE_JOINT_ONE << 16) /* radii; an outline of 1 px is nearer with any focal length in Q16 */
-#define WIDEST (DROGUE_JOINT_ONE << 6)    /* focal lengths off the axis */
+#define FARTHEST 16                  /* an outline of 1 px is nearer than 2^16 radii with any focal length in Q16 */
+#define NEAREST (-8)                 /* finest scale of a position */
+#define LIFT_LIMIT (INT64_C(1) << 30) /* 4 radii, Q28 */
 
-static int64_t limited(int64_t v, int64_t most) { return v > most ? most : v < -most ? -most : v; }
+static const drogue_real one = {1 << 30, -30};
 
-/* Q84 -> Q42 */
-static int64_t rounded(drogue_s128 v)
+static int32_t mul_q30(int32_t a, int32_t b) { return (int32_t)drogue_shr_round_s64((int64_t)a * b, 30); }
+
+/* a . b / 2^30; |a| <= 1 Q30 */
+static int32_t dot_q30(const int32_t a_q30[3], const int32_t b[3])
 {
-    const int64_t most = LARGEST >> (64 - DROGUE_JOINT_FRAC);
-    return v.hi >= most ? LARGEST : v.hi < -most ? -LARGEST : drogue_s128_shr_round(v, DROGUE_JOINT_FRAC);
+    return (int32_t)drogue_shr_round_s64(
+        (int64_t)a_q30[0] * b[0] + (int64_t)a_q30[1] * b[1] + (int64_t)a_q30[2] * b[2], 30);
 }
 
-static int64_t dot(const int64_t a[3], const int64_t b[3]) { return rounded(drogue_joint_products(a, b, 3)); }
-
-static int64_t mul(int64_t a, int64_t b) { return rounded(drogue_s128_mul(a, b)); }
-
-/* a b - c d */
-static int64_t det(int64_t a, int64_t b, int64_t c, int64_t d)
+int drogue_joint_squeeze(int32_t *out, const int64_t *in, int n)
 {
-    return rounded(drogue_s128_sub(drogue_s128_mul(a, b), drogue_s128_mul(c, d)));
-}
-
-int64_t drogue_joint_ratio(int64_t num, int64_t den)
-{
-    drogue_wide q;
-    drogue_wide d;
-    drogue_wide_set(&q, num, 0);
-    drogue_wide_set(&d, den, 0);
-    drogue_wide_quotient(&q, &q, &d);
-    return limited(drogue_wide_to_s64(q, DROGUE_JOINT_FRAC), LARGEST);
+    uint64_t all = 0;
+    int shift;
+    int i;
+    for (i = 0; i < n; i++) {
+        all |= drogue_abs_u64(in[i]);
+    }
+    shift = all == 0 ? 0 : 34 - drogue_clz_u64(all);
+    for (i = 0; i < n; i++) {
+        out[i] = (int32_t)(shift > 0 ? drogue_shr_round_s64(in[i], shift) : drogue_shl_s64(in[i], -shift));
+    }
+    return shift;
 }
 
 void drogue_joint_turn(drogue_joint_state *s)
 {
-    const int from_q60 = 60 - DROGUE_JOINT_FRAC;
     int32_t sy;
     int32_t cy;
     int32_t sp;
     int32_t cp;
-    drogue_sincos_q30(&sy, &cy, (int32_t)drogue_shr_round_s64(s->angle[0], DROGUE_JOINT_FRAC - 29));
-    drogue_sincos_q30(&sp, &cp, (int32_t)drogue_shr_round_s64(s->angle[1], DROGUE_JOINT_FRAC - 29));
-    s->axis[0] = drogue_shr_round_s64((int64_t)sy * cp, from_q60);
-    s->axis[1] = drogue_shl_s64(sp, DROGUE_JOINT_FRAC - 30);
-    s->axis[2] = drogue_shr_round_s64((int64_t)cy * cp, from_q60);
-    s->turn[0][0] = s->axis[2];
-    s->turn[0][1] = 0;
-    s->turn[0][2] = -s->axis[0];
-    s->turn[1][0] = -drogue_shr_round_s64((int64_t)sy * sp, from_q60);
-    s->turn[1][1] = drogue_shl_s64(cp, DROGUE_JOINT_FRAC - 30);
-    s->turn[1][2] = -drogue_shr_round_s64((int64_t)cy * sp, from_q60);
+    drogue_sincos_q30(&sy, &cy, s->angle_rad_q29[0]);
+    drogue_sincos_q30(&sp, &cp, s->angle_rad_q29[1]);
+    s->axis_q30[0] = mul_q30(sy, cp);
+    s->axis_q30[1] = sp;
+    s->axis_q30[2] = mul_q30(cy, cp);
+    s->turn_q30[0][0] = s->axis_q30[2];
+    s->turn_q30[0][1] = 0;
+    s->turn_q30[0][2] = -s->axis_q30[0];
+    s->turn_q30[1][0] = -mul_q30(sy, sp);
+    s->turn_q30[1][1] = cp;
+    s->turn_q30[1][2] = -mul_q30(cy, sp);
 }
 
-static int within(const int64_t v[3], int64_t most)
+void drogue_joint_rescale(drogue_joint_state *s)
 {
-    return limited(v[0], most) == v[0] && limited(v[1], most) == v[1] && limited(v[2], most) == v[2];
+    const int64_t position[3] = {s->position_q30[0], s->position_q30[1], s->position_q30[2]};
+    const int shift = drogue_joint_squeeze(s->position_q30, position, 3);
+    s->scale += shift;
+    if (s->scale < NEAREST) {
+        int k;
+        for (k = 0; k < 3; k++) {
+            s->position_q30[k] = (int32_t)drogue_shr_round_s64(s->position_q30[k], NEAREST - s->scale);
+        }
+        s->scale = NEAREST;
+    }
+}
+
+static void ratio_q16(drogue_real *out, int64_t num, drogue_q16 den)
+{
+    drogue_real d;
+    drogue_real_set(out, num, 0);
+    drogue_real_set(&d, den, 0);
+    drogue_real_quotient(out, out, &d);
 }
 
 static drogue_status place(drogue_joint_state *s, const drogue_pose *pose, const drogue_model *model)
 {
+    drogue_real position[3];
     int k;
+    s->scale = NEAREST;
     for (k = 0; k < 3; k++) {
-        s->position[k] = drogue_joint_ratio(pose->position_m_q16[k], model->rim_radius_m_q16);
+        ratio_q16(&position[k], pose->position_m_q16[k], model->rim_radius_m_q16);
+        if (position[k].mantissa != 0 && position[k].exponent + 31 > s->scale) {
+            s->scale = position[k].exponent + 31;
+        }
     }
-    s->angle[0] = drogue_shl_s64(pose->yaw_rad_q16, DROGUE_JOINT_FRAC - 16);
-    s->angle[1] = drogue_shl_s64(pose->pitch_rad_q16, DROGUE_JOINT_FRAC - 16);
+    for (k = 0; k < 3; k++) {
+        s->position_q30[k] = drogue_real_to_s32(position[k], 30 - s->scale);
+    }
+    s->angle_rad_q29[0] = (int32_t)drogue_shl_s64(pose->yaw_rad_q16, 13);
+    s->angle_rad_q29[1] = (int32_t)drogue_shl_s64(pose->pitch_rad_q16, 13);
     drogue_joint_turn(s);
-    return within(s->position, FARTHEST) ? DROGUE_OK : DROGUE_E_DOMAIN;
+    return s->scale <= FARTHEST ? DROGUE_OK : DROGUE_E_DOMAIN;
+}
+
+static void disc_of(drogue_joint_frame *frame, const drogue_model *model)
+{
+    ratio_q16(&frame->depth, model->inner_depth_m_q16, model->rim_radius_m_q16);
+    ratio_q16(&frame->radius, model->inner_radius_m_q16, model->rim_radius_m_q16);
+}
+
+/* Component of a ray, length px times factor Q30 over the focal length; 1 where it is within two focal lengths. */
+static int put_ray(int32_t *out_q29, int64_t length_px_q16, int32_t factor_q30, drogue_q16 focal_px_q16)
+{
+    const int32_t limit = 1 << 30;
+    drogue_real ray;
+    drogue_real factor;
+    ratio_q16(&ray, length_px_q16, focal_px_q16);
+    drogue_real_set(&factor, factor_q30, -30);
+    drogue_real_product(&ray, &ray, &factor);
+    *out_q29 = drogue_real_to_s32(ray, 29);
+    return *out_q29 < limit && *out_q29 > -limit;
 }
 
 drogue_status drogue_joint_begin(drogue_joint_state *state, drogue_joint_frame *frame, const drogue_pose *pose,
-                                 const drogue_ellipse *e, const drogue_camera *camera, const drogue_model *model)
+                                 const drogue_ellipse *e, const drogue_joint_inner *inner, const drogue_camera *camera,
+                                 const drogue_model *model)
 {
-    const int64_t fx_q46 = drogue_shl_s64(camera->fx_px_q16, 30);
-    const int64_t fy_q46 = drogue_shl_s64(camera->fy_px_q16, 30);
+    const drogue_q16 fx = camera->fx_px_q16;
+    const drogue_q16 fy = camera->fy_px_q16;
     int32_t s_q30;
     int32_t c_q30;
+    int near_axis;
     drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
     memset(frame, 0, sizeof *frame);
-    frame->ray[0][0] = drogue_joint_ratio((int64_t)e->a_px_q16 * c_q30, fx_q46);
-    frame->ray[0][1] = drogue_joint_ratio((int64_t)e->a_px_q16 * s_q30, fy_q46);
-    frame->ray[1][0] = drogue_joint_ratio(-(int64_t)e->b_px_q16 * s_q30, fx_q46);
-    frame->ray[1][1] = drogue_joint_ratio((int64_t)e->b_px_q16 * c_q30, fy_q46);
-    frame->ray[2][0] = drogue_joint_ratio((int64_t)e->xc_px_q16 - camera->cx_px_q16, camera->fx_px_q16);
-    frame->ray[2][1] = drogue_joint_ratio((int64_t)e->yc_px_q16 - camera->cy_px_q16, camera->fy_px_q16);
-    frame->ray[2][2] = DROGUE_JOINT_ONE;
-    if (!within(frame->ray[0], WIDEST) || !within(frame->ray[1], WIDEST) || !within(frame->ray[2], WIDEST)) {
+    near_axis = put_ray(&frame->ray_q29[0][0], e->a_px_q16, c_q30, fx);
+    near_axis &= put_ray(&frame->ray_q29[0][1], e->a_px_q16, s_q30, fy);
+    near_axis &= put_ray(&frame->ray_q29[1][0], e->b_px_q16, -s_q30, fx);
+    near_axis &= put_ray(&frame->ray_q29[1][1], e->b_px_q16, c_q30, fy);
+    near_axis &= put_ray(&frame->ray_q29[2][0], (int64_t)e->xc_px_q16 - camera->cx_px_q16, 1 << 30, fx);
+    near_axis &= put_ray(&frame->ray_q29[2][1], (int64_t)e->yc_px_q16 - camera->cy_px_q16, 1 << 30, fy);
+    frame->ray_q29[2][2] = 1 << 29;
+    if (!near_axis) {
         return DROGUE_E_DOMAIN;
     }
+    disc_of(frame, model);
+    ratio_q16(&frame->inner[0], (int64_t)inner->x_px_q16 - camera->cx_px_q16, fx);
+    ratio_q16(&frame->inner[1], (int64_t)inner->y_px_q16 - camera->cy_px_q16, fy);
     return place(state, pose, model);
 }
 
-/* Lift of a ray, or its derivative: (d p - m c, r m). */
+/* Lift of a ray, or its derivative: (d p - m c, r m), Q28. */
 typedef struct lift {
-    int64_t v[4];
+    int32_t v_q28[4];
 } lift;
 
-static void lift_ray(lift *out, int64_t d, const int64_t p[3], int64_t m, const int64_t c[3], int64_t r)
+/* d and c in units of 2^scale radii; 0 when a component is 4 radii or more. */
+static int lift_ray(lift *out, int32_t d_q30, const int32_t p_q29[3], int32_t m_q29, const int32_t c_q30[3], int scale)
 {
+    int fits = 1;
     int k;
     for (k = 0; k < 3; k++) {
-        out->v[k] = det(d, p[k], m, c[k]);
+        const int64_t v_q28 =
+            drogue_shr_round_s64((int64_t)d_q30 * p_q29[k] - (int64_t)m_q29 * c_q30[k], 31 - scale);
+        fits &= v_q28 < LIFT_LIMIT && v_q28 > -LIFT_LIMIT;
+        out->v_q28[k] = (int32_t)v_q28;
     }
-    out->v[3] = mul(r, m);
+    out->v_q28[3] = (int32_t)drogue_shr_round_s64(m_q29, 1);
+    return fits;
 }
 
-/* The form of two lifts: on the circle that of a lift and itself is 0. */
-static int64_t form(const lift *a, const lift *b)
+/* The form of two lifts, Q54: on the circle that of a lift and itself is 0. */
+static int64_t form_q54(const lift *a, const lift *b)
 {
-    return rounded(drogue_s128_sub(drogue_joint_products(a->v, b->v, 3), drogue_s128_mul(a->v[3], b->v[3])));
+    const int64_t form_q56 = (int64_t)a->v_q28[0] * b->v_q28[0] + (int64_t)a->v_q28[1] * b->v_q28[1] +
+                             (int64_t)a->v_q28[2] * b->v_q28[2] - (int64_t)a->v_q28[3] * b->v_q28[3];
+    DROGUE_NOTE("joint: form, Q56", form_q56, 62);
+    return drogue_shr_round_s64(form_q56, 2);
 }
 
 /* Conic of three lifts by themselves, doubled; by their derivatives: its derivative. Packed. */
-static void conic_of(int64_t q[6], const lift a[3], const lift b[3])
+static void conic_of(int64_t q_q54[6], const lift a[3], const lift b[3])
 {
     int i;
     int j;
     for (i = 0; i < 3; i++) {
         for (j = 0; j <= i; j++) {
-            q[DROGUE_PACKED(i, j)] = form(&a[i], &b[j]) + form(&b[i], &a[j]);
+            const int64_t half = form_q54(&a[i], &b[j]);
+            q_q54[DROGUE_PACKED(i, j)] = half + (i == j ? half : form_q54(&b[i], &a[j]));
         }
     }
 }
 
-/* Coefficients of 1, cos t, sin t, cos 2t, sin 2t of a conic on the unit circle, less those of 'residual' for the change
- * of its size, over that size. */
-static void harmonics(int64_t out[DROGUE_JOINT_ROWS], const int64_t q[6], const int64_t residual[DROGUE_JOINT_ROWS],
-                      int64_t over)
+/* Coefficients of 1, cos t, sin t, cos 2t, sin 2t of a conic on the unit circle, and its size: dF/dr there, constant to
+ * first order. Their common exponent returns. */
+static int harmonics(int32_t h[DROGUE_JOINT_FIT + 1], const int64_t q_q54[6])
 {
-    const int64_t radial = q[0] + q[2]; /* dF/dr on the unit circle, constant to first order */
-    int64_t h[DROGUE_JOINT_FIT];
-    int i;
-    h[0] = drogue_shr_round_s64(radial, 1) + q[5];
-    h[1] = 2 * q[3];
-    h[2] = 2 * q[4];
-    h[3] = drogue_shr_round_s64(q[0] - q[2], 1);
-    h[4] = q[1];
-    for (i = 0; i < DROGUE_JOINT_FIT; i++) {
-        out[i] = -mul(limited(h[i], LARGEST) + mul(residual[i], limited(radial, LARGEST)), over);
-    }
+    int64_t wide[DROGUE_JOINT_FIT + 1];
+    wide[5] = q_q54[0] + q_q54[2];
+    wide[0] = drogue_shr_round_s64(wide[5], 1) + q_q54[5];
+    wide[1] = 2 * q_q54[3];
+    wide[2] = 2 * q_q54[4];
+    wide[3] = drogue_shr_round_s64(q_q54[0] - q_q54[2], 1);
+    wide[4] = q_q54[1];
+    return drogue_joint_squeeze(h, wide, DROGUE_JOINT_FIT + 1) - 54;
 }
 
 /* Derivatives of the lifts by parameter p. */
-static void turn_lifts(lift out[3], int p, const drogue_joint_state *s, const drogue_joint_frame *frame)
+static int turn_lifts(lift out[3], int p, const drogue_joint_state *s, const drogue_joint_frame *frame)
 {
-    const int64_t *turn = s->turn[p < 3 ? 0 : p - 3];
-    const int64_t by_d = p < 3 ? s->axis[p] : dot(turn, s->position);
+    static const int32_t nowhere[3] = {0, 0, 0};
+    int fits = 1;
     int i;
     for (i = 0; i < 3; i++) {
-        const int64_t *ray = frame->ray[i];
-        lift_ray(&out[i], by_d, ray, p < 3 ? 0 : dot(ray, turn), s->position, DROGUE_JOINT_ONE);
+        const int32_t *ray = frame->ray_q29[i];
         if (p < 3) {
-            out[i].v[p] -= dot(ray, s->axis);
+            fits &= lift_ray(&out[i], s->axis_q30[p], ray, 0, nowhere, 0);
+            out[i].v_q28[p] -= (int32_t)drogue_shr_round_s64(dot_q30(s->axis_q30, ray), 1);
+        } else {
+            const int32_t *turn = s->turn_q30[p - 3];
+            fits &= lift_ray(&out[i], dot_q30(turn, s->position_q30), ray, dot_q30(turn, ray), s->position_q30,
+                             s->scale);
         }
     }
+    return fits;
 }
 
-/* Where the circle's image lies off the fitted ellipse, r(t) of joint.h, and how that changes with the pose. */
+/* Where the circle's image lies off the fitted ellipse, r(t) of joint.h, and how that changes with the pose: the
+ * harmonics of the form over its size, less what the change of that size takes with it. */
 drogue_status drogue_joint_outline_rows(drogue_joint_rows *out, const drogue_joint_state *s,
                                         const drogue_joint_frame *frame)
 {
-    const int64_t smallest = DROGUE_JOINT_ONE >> 16;
-    const int64_t largest = DROGUE_JOINT_ONE << 7;
-    const int64_t d = dot(s->axis, s->position);
-    int64_t *residual = out->column[DROGUE_JOINT_FIT];
+    const int64_t smallest_q54 = INT64_C(1) << 38;
+    const int32_t d_q30 = dot_q30(s->axis_q30, s->position_q30);
+    drogue_joint_column *const residual = &out->column[DROGUE_JOINT_FIT];
+    int32_t residual_q29[DROGUE_JOINT_FIT];
+    int32_t h[DROGUE_JOINT_FIT + 1];
+    drogue_real over;
+    drogue_real t;
     lift at[3];
     lift by[3];
-    int64_t q[6];
-    int64_t over;
+    int64_t q_q54[6];
+    int fits = s->scale <= FARTHEST;
+    int p;
     int i;
-    for (i = 0; i < 3; i++) {
-        lift_ray(&at[i], d, frame->ray[i], dot(frame->ray[i], s->axis), s->position, DROGUE_JOINT_ONE);
+    for (i = 0; i < 3 && fits; i++) {
+        fits = lift_ray(&at[i], d_q30, frame->ray_q29[i], dot_q30(s->axis_q30, frame->ray_q29[i]), s->position_q30,
+                        s->scale);
     }
-    memset(out, 0, sizeof *out);
-    conic_of(q, at, at);
-    if (!within(s->position, FARTHEST) || q[0] + q[2] < smallest || q[0] + q[2] > largest) {
+    if (!fits) {
         return DROGUE_E_DOMAIN;
     }
-    over = drogue_joint_ratio(DROGUE_JOINT_ONE, q[0] + q[2]);
-    harmonics(residual, q, residual, over); /* which is 0 yet */
+    conic_of(q_q54, at, at);
+    if (q_q54[0] + q_q54[2] < smallest_q54) {
+        return DROGUE_E_DOMAIN;
+    }
+    drogue_real_set(&over, q_q54[0] + q_q54[2], -54);
+    drogue_real_quotient(&over, &one, &over);
+    residual->exponent = harmonics(h, q_q54) + over.exponent + 31;
     for (i = 0; i < DROGUE_JOINT_FIT; i++) {
-        turn_lifts(by, i, s, frame);
-        conic_of(q, at, by);
-        harmonics(out->column[i], q, residual, 2 * over); /* the conic itself is doubled */
+        residual->outline[i] = -(int32_t)drogue_shr_round_s64((int64_t)h[i] * over.mantissa, 31);
+        drogue_real_set(&t, residual->outline[i], residual->exponent);
+        residual_q29[i] = drogue_real_to_s32(t, 29);
+        if (residual_q29[i] >= 1 << 30 || residual_q29[i] <= -(1 << 30)) {
+            return DROGUE_E_DOMAIN; /* two semi-axes off */
+        }
+    }
+    for (p = 0; p < DROGUE_JOINT_FIT; p++) {
+        drogue_joint_column *const column = &out->column[p];
+        if (!turn_lifts(by, p, s, frame)) {
+            return DROGUE_E_DOMAIN;
+        }
+        conic_of(q_q54, at, by);
+        column->exponent = harmonics(h, q_q54) + over.exponent + 33; /* the conic itself is doubled */
+        for (i = 0; i < DROGUE_JOINT_FIT; i++) {
+            const int64_t own = drogue_shl_s64(h[i], 29) + (int64_t)residual_q29[i] * h[DROGUE_JOINT_FIT];
+            column->outline[i] =
+                -(int32_t)drogue_shr_round_s64(drogue_shr_round_s64(own, 30) * over.mantissa, 31);
+            DROGUE_NOTE("joint: row", column->outline[i], 31);
+        }
     }
     return DROGUE_OK;
 }
 
 /* The inner disc as rays: lengths over the depth of its middle. */
 typedef struct disc {
-    int64_t over_depth;
-    int64_t middle[3];
-    int64_t radius;
-    int64_t facing;   /* axis . middle */
-    int64_t image[2]; /* centre of its image, which is not the image of its middle */
+    drogue_real over_depth;
+    drogue_real middle[2];
+    drogue_real axis[3];
+    drogue_real radius;
+    drogue_real image[2]; /* centre of its image, which is not the image of its middle */
 } disc;
 
-static drogue_status see_disc(disc *out, const drogue_joint_state *s, const drogue_model *model)
+/* A circle of radius r about c with axis n touches the planes v where (v.c)^2 = r^2 (|v|^2 - (v.n)^2); the pole of the
+ * line at infinity, v = (0, 0, 1), is the centre of its image. */
+static drogue_status see_disc(disc *out, const drogue_joint_state *s, const drogue_joint_frame *frame)
 {
-    static const int64_t unit[3][3] = {{DROGUE_JOINT_ONE, 0, 0}, {0, DROGUE_JOINT_ONE, 0}, {0, 0, DROGUE_JOINT_ONE}};
-    const int64_t depth = drogue_joint_ratio(model->inner_depth_m_q16, model->rim_radius_m_q16);
-    lift at[3];
-    int64_t q[6];
-    int64_t determinant;
+    drogue_real r2;
+    drogue_real t;
+    drogue_real depth;
+    drogue_real size;
     int k;
     for (k = 0; k < 3; k++) {
-        out->middle[k] = s->position[k] + mul(depth, s->axis[k]);
+        drogue_real_set(&out->axis[k], s->axis_q30[k], -30);
     }
-    if (out->middle[2] <= 0) {
+    drogue_real_set(&depth, s->position_q30[2], s->scale - 30);
+    drogue_real_products(&depth, &depth, &one, &frame->depth, &out->axis[2]);
+    if (depth.mantissa <= 0) {
         return DROGUE_E_BEHIND_CAMERA;
     }
-    out->over_depth = drogue_joint_ratio(DROGUE_JOINT_ONE, out->middle[2]);
-    for (k = 0; k < 3; k++) {
-        out->middle[k] = mul(out->middle[k], out->over_depth);
+    drogue_real_quotient(&out->over_depth, &one, &depth);
+    drogue_real_product(&out->radius, &frame->radius, &out->over_depth);
+    drogue_real_product(&r2, &out->radius, &out->radius);
+    drogue_real_products(&size, &out->axis[0], &out->axis[0], &out->axis[1], &out->axis[1]);
+    drogue_real_determinant(&size, &one, &one, &size, &r2);
+    drogue_real_product(&r2, &r2, &out->axis[2]);
+    for (k = 0; k < 2; k++) {
+        drogue_real_set(&t, s->position_q30[k], s->scale - 30);
+        drogue_real_products(&t, &t, &one, &frame->depth, &out->axis[k]);
+        drogue_real_product(&out->middle[k], &t, &out->over_depth);
+        if ((out->middle[k].mantissa != 0 && out->middle[k].exponent > -30) || size.mantissa <= 0) { /* two focal lengths off the axis */
+            return DROGUE_E_DOMAIN;
+        }
+        drogue_real_products(&t, &out->middle[k], &one, &r2, &out->axis[k]);
+        drogue_real_quotient(&out->image[k], &t, &size);
     }
-    out->radius = mul(drogue_joint_ratio(model->inner_radius_m_q16, model->rim_radius_m_q16), out->over_depth);
-    out->facing = dot(s->axis, out->middle);
-    for (k = 0; k < 3; k++) {
-        lift_ray(&at[k], out->facing, unit[k], s->axis[k], out->middle, out->radius);
-    }
-    conic_of(q, at, at);
-    determinant = det(q[0], q[2], q[1], q[1]);
-    if (!within(out->middle, WIDEST) || determinant <= 0) {
-        return DROGUE_E_DOMAIN;
-    }
-    out->image[0] = drogue_joint_ratio(det(q[1], q[4], q[2], q[3]), determinant);
-    out->image[1] = drogue_joint_ratio(det(q[1], q[3], q[0], q[4]), determinant);
     return DROGUE_OK;
 }
 
 /* The inner part's rows: image of the disc's centroid less the measured one; slopes are those of its middle. */
 drogue_status drogue_joint_inner_rows(drogue_joint_rows *out, const drogue_joint_state *s,
-                                      const drogue_joint_inner *inner, const drogue_camera *camera,
-                                      const drogue_model *model)
+                                      const drogue_joint_frame *frame)
 {
-    const int64_t depth = drogue_joint_ratio(model->inner_depth_m_q16, model->rim_radius_m_q16);
-    int64_t measured[2];
     disc seen;
-    const drogue_status status = see_disc(&seen, s, model);
+    const drogue_status status = see_disc(&seen, s, frame);
     int i;
     int p;
     if (status != DROGUE_OK) {
         return status;
     }
-    measured[0] = drogue_joint_ratio((int64_t)inner->x_px_q16 - camera->cx_px_q16, camera->fx_px_q16);
-    measured[1] = drogue_joint_ratio((int64_t)inner->y_px_q16 - camera->cy_px_q16, camera->fy_px_q16);
     for (i = 0; i < 2; i++) {
-        int64_t *const row = &out->column[0][DROGUE_JOINT_FIT + i];
-        row[DROGUE_JOINT_FIT * DROGUE_JOINT_ROWS] = seen.image[i] - measured[i];
-        for (p = 0; p < DROGUE_JOINT_FIT; p++) {
-            /* change of the disc's middle along x or y, and along z */
-            const int64_t across = p < 3 ? (p == i ? DROGUE_JOINT_ONE : 0) : mul(depth, s->turn[p - 3][i]);
-            const int64_t along = p < 3 ? (p == 2 ? DROGUE_JOINT_ONE : 0) : mul(depth, s->turn[p - 3][2]);
-            row[p * DROGUE_JOINT_ROWS] = mul(across - mul(seen.image[i], along), seen.over_depth);
+        drogue_real_difference(&out->column[DROGUE_JOINT_FIT].inner[i], &seen.image[i], &frame->inner[i]);
+        for (p = 0; p < 2; p++) {
+            drogue_real_copy(&out->column[p].inner[i], &seen.over_depth);
+            if (p != i) {
+                drogue_real_set(&out->column[p].inner[i], 0, 0);
+            }
+        }
+        drogue_real_product(&out->column[2].inner[i], &seen.image[i], &seen.over_depth);
+        drogue_real_negate(&out->column[2].inner[i]);
+        for (p = 3; p < DROGUE_JOINT_FIT; p++) { /* change of the disc's middle across and along the ray */
+            drogue_real *const slope = &out->column[p].inner[i];
+            drogue_real across;
+            drogue_real along;
+            drogue_real_set(&across, s->turn_q30[p - 3][i], -30);
+            drogue_real_set(&along, s->turn_q30[p - 3][2], -30);
+            drogue_real_determinant(slope, &across, &one, &seen.image[i], &along);
+            drogue_real_product(slope, slope, &frame->depth);
+            drogue_real_product(slope, slope, &seen.over_depth);
         }
     }
     return DROGUE_OK;
 }
 
-static drogue_q16 pixel_q16(int64_t ray, drogue_q16 focal_px_q16, drogue_q16 centre_px_q16)
+/* ray focal + centre */
+static drogue_q16 pixel_q16(const drogue_real *ray, int64_t focal_px_q16, drogue_q16 centre_px_q16)
 {
-    return drogue_sat_s32(drogue_mul_shr_round_s64(ray, focal_px_q16, DROGUE_JOINT_FRAC) + centre_px_q16);
+    drogue_real t;
+    drogue_real_set(&t, focal_px_q16, -16);
+    drogue_real_product(&t, ray, &t);
+    return drogue_q16_add(drogue_real_to_q16(t), centre_px_q16);
 }
 
 drogue_status drogue_inner_disc_image(drogue_ellipse *out, const drogue_pose *pose, const drogue_camera *camera,
                                       const drogue_model *model)
 {
     drogue_joint_state s;
+    drogue_joint_frame frame;
+    drogue_real facing;
+    drogue_real length;
     disc seen;
     drogue_status status = place(&s, pose, model);
     memset(out, 0, sizeof *out);
+    disc_of(&frame, model);
     if (status == DROGUE_OK) {
-        status = see_disc(&seen, &s, model);
+        status = see_disc(&seen, &s, &frame);
     }
     if (status != DROGUE_OK) {
         return status;
     }
-    out->xc_px_q16 = pixel_q16(seen.image[0], camera->fx_px_q16, camera->cx_px_q16);
-    out->yc_px_q16 = pixel_q16(seen.image[1], camera->fy_px_q16, camera->cy_px_q16);
-    out->a_px_q16 = drogue_sat_s32(
-        drogue_mul_shr_round_s64(seen.radius, (int64_t)camera->fx_px_q16 + camera->fy_px_q16, DROGUE_JOINT_FRAC + 1));
-    seen.facing = drogue_joint_ratio(
-        seen.facing,
-        drogue_wide_to_s64(drogue_wide_sqrt(drogue_wide_from_s64(dot(seen.middle, seen.middle), -DROGUE_JOINT_FRAC)),
-                           DROGUE_JOINT_FRAC));
-    out->b_px_q16 = pixel_q16(seen.facing, out->a_px_q16, 0);
+    out->xc_px_q16 = pixel_q16(&seen.image[0], camera->fx_px_q16, camera->cx_px_q16);
+    out->yc_px_q16 = pixel_q16(&seen.image[1], camera->fy_px_q16, camera->cy_px_q16);
+    drogue_real_shift(&seen.radius, -1);
+    out->a_px_q16 = pixel_q16(&seen.radius, (int64_t)camera->fx_px_q16 + camera->fy_px_q16, 0);
+    drogue_real_products(&facing, &seen.axis[0], &seen.middle[0], &seen.axis[1], &seen.middle[1]);
+    drogue_real_sum(&facing, &facing, &seen.axis[2]);
+    drogue_real_products(&length, &seen.middle[0], &seen.middle[0], &seen.middle[1], &seen.middle[1]);
+    drogue_real_sum(&length, &length, &one);
+    drogue_real_root(&length, &length);
+    drogue_real_quotient(&facing, &facing, &length);
+    out->b_px_q16 = pixel_q16(&facing, out->a_px_q16, 0);
     return out->b_px_q16 > 0 ? DROGUE_OK : DROGUE_E_DOMAIN;
 }

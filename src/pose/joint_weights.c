@@ -4,7 +4,7 @@
 
 #include "joint_model.h"
 
-typedef drogue_wide wide;
+typedef drogue_real real;
 
 /* 1, cos t, sin t, cos 2t, sin 2t at the middle of bin k, Q30. */
 static void basis_of(int64_t basis_q30[DROGUE_JOINT_FIT], uint32_t k)
@@ -27,7 +27,7 @@ static void basis_of(int64_t basis_q30[DROGUE_JOINT_FIT], uint32_t k)
 
 /* Normal equations of the fit, points times products of the basis functions; 'scatter' is the squared residual of the
  * bins' means. Returns the number of bins that hold points. */
-static int32_t sum_bins(wide information[DROGUE_PACKED_MAX], wide *scatter, const drogue_support *support)
+static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, const drogue_support *support)
 {
     int64_t sum_q30[DROGUE_PACKED_MAX];
     int32_t bins = 0;
@@ -35,22 +35,22 @@ static int32_t sum_bins(wide information[DROGUE_PACKED_MAX], wide *scatter, cons
     int i;
     int j;
     memset(sum_q30, 0, sizeof sum_q30);
-    drogue_wide_set(scatter, 0, 0);
+    drogue_real_set(scatter, 0, 0);
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
         const int64_t n = support->bin[k].count[(support->bright_bins >> k) & 1u];
         const int64_t sum_q16 = support->bin[k].sum_q16;
         int64_t basis_q30[DROGUE_JOINT_FIT];
-        wide square;
-        wide points;
+        real square;
+        real points;
         if (n == 0) {
             continue;
         }
         bins++;
         DROGUE_NOTE("joint: squared sum of a bin's offsets, Q32", sum_q16 * sum_q16, 61); /* support.c: 2^30 */
-        drogue_wide_set(&square, sum_q16 * sum_q16, -32);
-        drogue_wide_set(&points, n, 0);
-        drogue_wide_quotient(&square, &square, &points);
-        drogue_wide_sum(scatter, scatter, &square);
+        drogue_real_set(&square, sum_q16 * sum_q16, -32);
+        drogue_real_set(&points, n, 0);
+        drogue_real_quotient(&square, &square, &points);
+        drogue_real_sum(scatter, scatter, &square);
         basis_of(basis_q30, k);
         for (i = 0; i < DROGUE_JOINT_FIT; i++) {
             for (j = 0; j <= i; j++) {
@@ -61,100 +61,96 @@ static int32_t sum_bins(wide information[DROGUE_PACKED_MAX], wide *scatter, cons
         }
     }
     for (i = 0; i < DROGUE_PACKED_MAX; i++) {
-        drogue_wide_set(&information[i], sum_q30[i], -30);
+        drogue_real_set(&information[i], sum_q30[i], -30);
     }
     return bins;
 }
 
 /* Variance of a standard deviation num / den. */
-static void square_ratio(wide *out, const wide *num, const wide *den)
+static void square_ratio(real *out, const real *num, const real *den)
 {
-    drogue_wide_quotient(out, num, den);
-    drogue_wide_product(out, out, out);
+    drogue_real_quotient(out, num, den);
+    drogue_real_product(out, out, out);
 }
 
 drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
                                               drogue_q16 shading_q16, drogue_q16 blur_px2_q16)
 {
-    wide *covariance = outline->covariance;
-    wide information[DROGUE_PACKED_MAX];
-    wide scatter;
-    wide variance;
-    wide a;
-    wide t;
+    real *covariance = outline->covariance;
+    real information[DROGUE_PACKED_MAX];
+    real scatter;
+    real variance;
+    real a;
+    real t;
     int i;
     const int32_t bins = sum_bins(information, &scatter, support);
     if (bins <= DROGUE_JOINT_FIT || support->gradient == 0 ||
         drogue_cholesky_factor(information, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
-    drogue_wide_set(&t, bins - DROGUE_JOINT_FIT, 0);
-    drogue_wide_quotient(&scatter, &scatter, &t);
+    drogue_real_set(&t, bins - DROGUE_JOINT_FIT, 0);
+    drogue_real_quotient(&scatter, &scatter, &t);
     drogue_cholesky_invert(covariance, information, DROGUE_JOINT_FIT);
     for (i = 0; i < DROGUE_PACKED_MAX; i++) {
-        drogue_wide_product(&covariance[i], &covariance[i], &scatter);
+        drogue_real_product(&covariance[i], &covariance[i], &scatter);
     }
     /* shading times points over the semi-axis times the sum of gradients */
-    drogue_wide_set_q16(&a, outline->ellipse.a_px_q16);
-    drogue_wide_set_q16(&variance, shading_q16);
-    drogue_wide_set(&t, support->points, 0);
-    drogue_wide_product(&variance, &variance, &t);
-    drogue_wide_set(&t, (int64_t)support->gradient, 0);
-    drogue_wide_product(&t, &a, &t);
+    drogue_real_set_q16(&a, outline->ellipse.a_px_q16);
+    drogue_real_set_q16(&variance, shading_q16);
+    drogue_real_set(&t, support->points, 0);
+    drogue_real_product(&variance, &variance, &t);
+    drogue_real_set(&t, (int64_t)support->gradient, 0);
+    drogue_real_product(&t, &a, &t);
     square_ratio(&variance, &variance, &t);
     for (i = 0; i < DROGUE_JOINT_FIT; i++) {
-        wide *own = &covariance[DROGUE_PACKED(i, i)];
-        drogue_wide_sum(own, own, &variance);
+        real *own = &covariance[DROGUE_PACKED(i, i)];
+        drogue_real_sum(own, own, &variance);
     }
     /* blur over the product of the semi-axes */
-    drogue_wide_set_q16(&variance, blur_px2_q16);
-    drogue_wide_set_q16(&t, outline->ellipse.b_px_q16);
-    drogue_wide_product(&t, &a, &t);
+    drogue_real_set_q16(&variance, blur_px2_q16);
+    drogue_real_set_q16(&t, outline->ellipse.b_px_q16);
+    drogue_real_product(&t, &a, &t);
     square_ratio(&variance, &variance, &t);
-    drogue_wide_sum(&covariance[0], &covariance[0], &variance);
+    drogue_real_sum(&covariance[0], &covariance[0], &variance);
     return DROGUE_OK;
 }
 
-/* Bring the weights to one scale; those of 2^58 below the largest are 0. */
-static void scale_weights(drogue_joint_weights *out, const wide information[DROGUE_PACKED_MAX], const wide inner[2])
+/* Bring the outline's weights to one scale: those of 2^30 below the largest are 0. */
+static void scale_weights(drogue_joint_weights *out, const real information[DROGUE_PACKED_MAX])
 {
     int32_t top = INT32_MIN;
     int i;
     int j;
-    for (i = 0; i < DROGUE_PACKED_MAX + 2; i++) {
-        const wide *w = i < DROGUE_PACKED_MAX ? &information[i] : &inner[i - DROGUE_PACKED_MAX];
+    for (i = 0; i < DROGUE_PACKED_MAX; i++) {
+        const real *w = &information[i];
         top = w->mantissa != 0 && w->exponent > top ? w->exponent : top;
     }
-    out->exponent = top + 4; /* the largest, below 2^62, comes to lie below 2^58 */
+    out->exponent = top + 1; /* the largest, below 2^31, comes to lie below 2^30 */
     for (i = 0; i < DROGUE_JOINT_FIT; i++) {
         for (j = 0; j < DROGUE_JOINT_FIT; j++) {
-            out->outline[i][j] = drogue_wide_to_s64(information[DROGUE_PACKED(i, j)], -out->exponent);
+            out->outline[i][j] = drogue_real_to_s32(information[DROGUE_PACKED(i, j)], -out->exponent);
         }
-    }
-    for (i = 0; i < 2; i++) {
-        out->inner[i] = drogue_wide_to_s64(inner[i], -out->exponent);
     }
 }
 
-drogue_status drogue_joint_weigh(drogue_joint_weights *out, wide root[DROGUE_PACKED_MAX],
-                                 wide information[DROGUE_PACKED_MAX], const drogue_joint_outline *outline,
+drogue_status drogue_joint_weigh(drogue_joint_weights *out, real root[DROGUE_PACKED_MAX],
+                                 real information[DROGUE_PACKED_MAX], const drogue_joint_outline *outline,
                                  const drogue_joint_inner *inner, const drogue_camera *camera)
 {
-    wide by_inner[2];
-    wide std;
+    real std;
     memcpy(root, outline->covariance, sizeof outline->covariance);
     if (drogue_cholesky_factor(root, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
     drogue_cholesky_invert(information, root, DROGUE_JOINT_FIT);
-    memset(by_inner, 0, sizeof by_inner);
+    memset(out->inner, 0, sizeof out->inner);
     if (inner->std_px_q16 > 0) { /* its rows are rays */
-        drogue_wide_set_q16(&std, inner->std_px_q16);
-        drogue_wide_set_q16(&by_inner[0], camera->fx_px_q16);
-        drogue_wide_set_q16(&by_inner[1], camera->fy_px_q16);
-        square_ratio(&by_inner[0], &by_inner[0], &std);
-        square_ratio(&by_inner[1], &by_inner[1], &std);
+        drogue_real_set_q16(&std, inner->std_px_q16);
+        drogue_real_set_q16(&out->inner[0], camera->fx_px_q16);
+        drogue_real_set_q16(&out->inner[1], camera->fy_px_q16);
+        square_ratio(&out->inner[0], &out->inner[0], &std);
+        square_ratio(&out->inner[1], &out->inner[1], &std);
     }
-    scale_weights(out, information, by_inner);
+    scale_weights(out, information);
     return DROGUE_OK;
 }
