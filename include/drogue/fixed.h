@@ -46,7 +46,7 @@ static inline int32_t drogue_sat_s32(int64_t v)
 static inline int64_t drogue_shl_s64(int64_t v, int n) { return (int64_t)((uint64_t)v << n); }
 
 /* v / 2^n rounded to nearest, ties toward +infinity, for 0 <= n <= 63; cannot overflow. */
-int64_t drogue_shr_round_s64(int64_t v, int n);
+static inline int64_t drogue_shr_round_s64(int64_t v, int n) { return n == 0 ? v : (v >> n) + ((v >> (n - 1)) & 1); }
 
 /* |v|, defined for INT64_MIN too. */
 static inline uint64_t drogue_abs_u64(int64_t v) { return v < 0 ? (uint64_t)0 - (uint64_t)v : (uint64_t)v; }
@@ -54,6 +54,9 @@ static inline uint64_t drogue_abs_u64(int64_t v) { return v < 0 ? (uint64_t)0 - 
 /* Leading zero bits of v; 32 (64) for 0. */
 int drogue_clz_u32(uint32_t v);
 int drogue_clz_u64(uint64_t v);
+
+/* 2^62 / d for 2^30 <= d < 2^31, from below, to 2^-29 of it: one 32-bit division and two products. */
+uint32_t drogue_reciprocal_u32(uint32_t d);
 
 /* Saturated. */
 drogue_q16 drogue_q16_from_int(int32_t v);
@@ -85,22 +88,22 @@ uint32_t drogue_isqrt_u64(uint64_t v);
 /* Square root of a Q16 number, rounded to nearest; 0 for negative v. */
 drogue_q16 drogue_q16_sqrt(drogue_q16 v);
 
-/* Angle of the vector (x, y) by CORDIC.
+/* Angle of the vector (x, y).
  *
  *  y, x    any pair in the same scale; (0, 0) gives 0
  *  return  atan2(y, x), rad Q29 in [-pi, pi]
- *  error   <= 2^-26 rad
+ *  error   <= 2^-28 rad
  */
 int32_t drogue_atan2_q29(int64_t y, int64_t x);
 
 /* Angle of the vector (x, y), rad Q16 in [-pi, pi]; error <= 1 LSB. */
 drogue_q16 drogue_q16_atan2(drogue_q16 y, drogue_q16 x);
 
-/* Sine and cosine by CORDIC.
+/* Sine and cosine.
  *
  *  sin_q30, cos_q30  out, Q30
  *  angle_rad_q29     rad Q29 in [-pi, pi]
- *  error             <= 2^-26
+ *  error             <= 2^-29
  */
 void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29);
 
@@ -108,7 +111,7 @@ void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29
  *
  *  x_q30   Q30, >= 0; a negative x counts as 0
  *  return  Q30 in [0, 1]
- *  error   <= 2^-28
+ *  error   <= 2^-29
  */
 int32_t drogue_exp_neg_q30(int64_t x_q30);
 

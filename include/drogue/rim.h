@@ -37,9 +37,9 @@ static inline const uint8_t *drogue_search_level_row(const drogue_search_level *
 
 /* Circle relative to the disc, cells Q4. */
 typedef struct drogue_rim {
-    int64_t x_q4;
-    int64_t y_q4;
-    int64_t radius_q4;
+    int32_t x_q4;
+    int32_t y_q4;
+    int32_t radius_q4;
 } drogue_rim;
 
 /* Find the rim, be it a step to brighter or to darker.

@@ -1,21 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Q16 division and square root, CORDIC (Volder 1959), exponential. */
+/* Q16 division and square root; arc tangent, sine, cosine and exponential by their series (Taylor 1715) near 0. */
 #include "drogue/fixed.h"
 
-#define CORDIC_STEPS 32
 #define PI_Q32 INT64_C(13493037705)
-#define LN2_Q30 INT64_C(744261118)
+#define HALF_PI_Q32 INT64_C(6746518852)
+#define QUARTER_PI_Q32 INT64_C(3373259426)
+#define LN2_Q32 2977044472u
+#define TAN_PI_8_Q32 1779033704u
 
-/* atan(2^-i), rad Q32 */
-static const uint32_t cordic_angle_q32[CORDIC_STEPS] = {
-    3373259426u, 1991351318u, 1052175346u, 534100635u, 268086748u, 134174063u, 67103403u, 33553749u,
-    16777131u,   8388597u,    4194303u,    2097152u,   1048576u,   524288u,    262144u,   131072u,
-    65536u,      32768u,      16384u,      8192u,      4096u,      2048u,      1024u,     512u,
-    256u,        128u,        64u,         32u,        16u,        8u,         4u,        2u,
-};
-
-/* 1 / product of sqrt(1 + 4^-i): what a vector must start with to end up of length 1, Q40 */
-static const int64_t cordic_gain_q40 = INT64_C(667681663043);
+/* Coefficients of the alternating series below, Q32: what follows the first terms, which are 1. */
+#define COS_TERMS 6  /* 1 / 2!, 1 / 4!, ... */
+#define SIN_TERMS 5  /* 1 / 3!, 1 / 5!, ... */
+#define EXP_TERMS 11 /* 1 / 2!, 1 / 3!, ... */
+#define ATAN_TERMS 10 /* 1 / 3, 1 / 5, ... */
+static const uint32_t cos_q32[COS_TERMS] = {2147483648u, 178956971u, 5965232u, 106522u, 1184u, 9u};
+static const uint32_t sin_q32[SIN_TERMS] = {715827883u, 35791394u, 852176u, 11836u, 108u};
+static const uint32_t exp_q32[EXP_TERMS] = {2147483648u, 715827883u, 178956971u, 35791394u, 5965232u, 852176u,
+                                            106522u,     11836u,     1184u,      108u,      9u};
+static const uint32_t atan_q32[ATAN_TERMS] = {1431655765u, 858993459u, 613566757u, 477218588u, 390451572u,
+                                              330382100u,  286331153u, 252645135u, 226050910u, 204522252u};
 
 int drogue_clz_u32(uint32_t v)
 {
@@ -47,7 +50,12 @@ int drogue_clz_u64(uint64_t v)
     return v >> 32 != 0 ? drogue_clz_u32((uint32_t)(v >> 32)) : 32 + drogue_clz_u32((uint32_t)v);
 }
 
-int64_t drogue_shr_round_s64(int64_t v, int n) { return n == 0 ? v : (v >> n) + ((v >> (n - 1)) & 1); }
+uint32_t drogue_reciprocal_u32(uint32_t d)
+{
+    const uint32_t seed = 2 * (UINT32_MAX / ((d + (1u << 14)) >> 15)) + 1; /* 2^48 / d to 1.25 * 2^-16 */
+    const uint32_t error = ~(uint32_t)((uint64_t)d * seed >> 17);          /* 2 - d seed, Q31 */
+    return (uint32_t)((uint64_t)seed * error >> 17);                       /* by Newton, from below */
+}
 
 drogue_q16 drogue_q16_from_int(int32_t v) { return drogue_sat_s32((int64_t)v * DROGUE_Q16_ONE); }
 
@@ -62,7 +70,12 @@ drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b)
 
 int64_t drogue_floor_div_s64(int64_t num, int64_t den)
 {
-    const int64_t q = num / den;
+    int64_t q;
+    if (num == (int32_t)num && den == (int32_t)den) { /* a 64-bit division is a long call on a 32-bit core */
+        q = (int32_t)num / (int32_t)den;
+    } else {
+        q = num / den;
+    }
     return num - q * den < 0 ? q - 1 : q;
 }
 
@@ -139,44 +152,59 @@ drogue_q16 drogue_q16_sqrt(drogue_q16 v)
     return (drogue_q16)root;
 }
 
+/* Upper word of a product. */
+static uint32_t upper(uint32_t a, uint32_t b) { return (uint32_t)((uint64_t)a * b >> 32); }
+
+/* c[0] - c[1] x + c[2] x^2 - ... to c[last], by Horner's rule, Q32. */
+static uint32_t alternating(const uint32_t *c, int last, uint32_t x)
+{
+    uint32_t sum = c[last];
+    int k;
+    for (k = last - 1; k >= 0; k--) {
+        sum = c[k] - upper(x, sum);
+    }
+    return sum;
+}
+
+/* atan(num / den) for num <= den tan(pi / 8), 2^30 <= den < 2^31; Q32 */
+static uint32_t atan_of_ratio(uint32_t num, uint32_t den)
+{
+    const uint32_t z = (uint32_t)((uint64_t)num * drogue_reciprocal_u32(den) >> 30);
+    const uint32_t z2 = upper(z, z);
+    return z - upper(z, upper(z2, alternating(atan_q32, ATAN_TERMS - 1, z2)));
+}
+
 int32_t drogue_atan2_q29(int64_t y, int64_t x)
 {
-    const int below = y < 0;
-    int64_t angle_q32 = 0;
-    int shift;
-    int i;
-    if (x == 0 && y == 0) {
+    const uint64_t abs_y = drogue_abs_u64(y);
+    const uint64_t abs_x = drogue_abs_u64(x);
+    const int shift = drogue_clz_u64(abs_y | abs_x);
+    uint32_t more;
+    uint32_t less;
+    int64_t angle_q32;
+    if (shift == 64) {
         return 0;
     }
-    /* The longer component to 45 bits: room for the gain of 1.65 and bits to spare below. */
-    shift = drogue_clz_u64(drogue_abs_u64(x) | drogue_abs_u64(y)) - 19;
-    if (shift >= 0) {
-        x = drogue_shl_s64(x, shift);
-        y = drogue_shl_s64(y, shift);
+    more = (uint32_t)((abs_x << shift) >> 33); /* 31 bits of the longer component */
+    less = (uint32_t)((abs_y << shift) >> 33);
+    if (abs_y > abs_x) {
+        const uint32_t t = more;
+        more = less;
+        less = t;
+    }
+    if (less > upper(more, TAN_PI_8_Q32)) { /* turned by pi / 4; half of sum and difference, and twice that where it is 30 bits */
+        const int up = (more + less) >> 31 == 0;
+        angle_q32 = QUARTER_PI_Q32 - atan_of_ratio(up ? more - less : (more - less) >> 1, (more + less) >> (up ? 0 : 1));
     } else {
-        x = drogue_shr_round_s64(x, -shift);
-        y = drogue_shr_round_s64(y, -shift);
+        angle_q32 = atan_of_ratio(less, more);
+    }
+    if (abs_y > abs_x) {
+        angle_q32 = HALF_PI_Q32 - angle_q32;
     }
     if (x < 0) {
-        angle_q32 = below ? -PI_Q32 : PI_Q32;
-        x = -x;
-        y = -y;
+        angle_q32 = PI_Q32 - angle_q32;
     }
-    for (i = 0; i < CORDIC_STEPS; i++) {
-        int64_t dx = drogue_shr_round_s64(x, i);
-        int64_t dy = drogue_shr_round_s64(y, i);
-        DROGUE_NOTE("fixed: CORDIC vector", x, 47);
-        if (y > 0) {
-            x += dy;
-            y -= dx;
-            angle_q32 += cordic_angle_q32[i];
-        } else if (y < 0) {
-            x -= dy;
-            y += dx;
-            angle_q32 -= cordic_angle_q32[i];
-        }
-    }
-    return (int32_t)drogue_shr_round_s64(angle_q32, 3);
+    return (int32_t)drogue_shr_round_s64(y < 0 ? -angle_q32 : angle_q32, 3);
 }
 
 drogue_q16 drogue_q16_atan2(drogue_q16 y, drogue_q16 x)
@@ -186,47 +214,36 @@ drogue_q16 drogue_q16_atan2(drogue_q16 y, drogue_q16 x)
 
 void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29)
 {
-    int64_t rest_q32 = (int64_t)angle_rad_q29 * 8;
-    int64_t x = cordic_gain_q40;
-    int64_t y = 0;
-    int negate = 0;
-    int i;
-    if (rest_q32 > PI_Q32 / 2) {
-        rest_q32 -= PI_Q32;
-        negate = 1;
-    } else if (rest_q32 < -PI_Q32 / 2) {
-        rest_q32 += PI_Q32;
-        negate = 1;
-    }
-    for (i = 0; i < CORDIC_STEPS; i++) {
-        int64_t dx = drogue_shr_round_s64(x, i);
-        int64_t dy = drogue_shr_round_s64(y, i);
-        if (rest_q32 >= 0) {
-            x -= dy;
-            y += dx;
-            rest_q32 -= cordic_angle_q32[i];
-        } else {
-            x += dy;
-            y -= dx;
-            rest_q32 += cordic_angle_q32[i];
-        }
-    }
-    *sin_q30 = (int32_t)drogue_shr_round_s64(negate ? -y : y, 10);
-    *cos_q30 = (int32_t)drogue_shr_round_s64(negate ? -x : x, 10);
+    /* The first quarter turn, then its nearest end: the angle from there is at most pi / 4. */
+    const int32_t size_q29 = angle_rad_q29 < 0 ? -angle_rad_q29 : angle_rad_q29;
+    const int obtuse = size_q29 > HALF_PI_Q32 >> 3;
+    const int64_t acute_q32 = obtuse ? PI_Q32 - (int64_t)size_q29 * 8 : (int64_t)size_q29 * 8;
+    const int steep = acute_q32 > QUARTER_PI_Q32;
+    const uint32_t rest_q32 = (uint32_t)(steep ? HALF_PI_Q32 - acute_q32 : acute_q32);
+    const uint32_t square_q32 = upper(rest_q32, rest_q32);
+    const uint32_t sin_less_q32 = upper(rest_q32, upper(square_q32, alternating(sin_q32, SIN_TERMS - 1, square_q32)));
+    const uint32_t cos_less_q32 = upper(square_q32, alternating(cos_q32, COS_TERMS - 1, square_q32));
+    const int32_t s = (int32_t)((rest_q32 - sin_less_q32 + 2) >> 2);
+    const int32_t c = (1 << 30) - (int32_t)((cos_less_q32 + 1) >> 2);
+    const int32_t across = steep ? c : s;
+    const int32_t along = steep ? s : c;
+    *sin_q30 = angle_rad_q29 < 0 ? -across : across;
+    *cos_q30 = obtuse ? -along : along;
 }
 
 int32_t drogue_exp_neg_q30(int64_t x_q30)
 {
-    const int64_t one_q30 = INT64_C(1) << 30;
-    int64_t halvings = x_q30 < 0 ? 0 : x_q30 / LN2_Q30;
-    int64_t rest_q30 = x_q30 < 0 ? 0 : x_q30 % LN2_Q30;
-    int64_t sum_q30 = one_q30;
-    int k;
-    if (halvings > 31) {
+    uint32_t halvings;
+    uint32_t rest_q32;
+    uint32_t less_q32; /* than 1 */
+    if (x_q30 <= 0) {
+        return 1 << 30;
+    }
+    if (x_q30 >> 35 != 0) {
         return 0;
     }
-    for (k = 12; k >= 1; k--) { /* Taylor series in Horner's form on [0, ln 2) */
-        sum_q30 = one_q30 - drogue_div_round_s64(drogue_shr_round_s64(rest_q30 * sum_q30, 30), k);
-    }
-    return (int32_t)drogue_shr_round_s64(sum_q30, (int)halvings);
+    halvings = ((uint32_t)(x_q30 >> 15) * 2954u) >> 26; /* x / ln 2, seldom one too few */
+    rest_q32 = (uint32_t)x_q30 * 4u - halvings * LN2_Q32;
+    less_q32 = rest_q32 - upper(upper(rest_q32, rest_q32), alternating(exp_q32, EXP_TERMS - 1, rest_q32));
+    return (int32_t)drogue_shr_round_s64((INT64_C(1) << 32) - less_q32, 2 + (int)halvings);
 }

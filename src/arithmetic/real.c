@@ -97,10 +97,7 @@ static inline uint32_t absolute(int32_t v) { return v < 0 ? 0u - (uint32_t)v : (
 /* n 2^30 / d, rounded to nearest, for 2^30 <= d < 2^31, d <= n < 2d: no quotient of 31-bit numbers is a tie. */
 static uint32_t divide(uint32_t n, uint32_t d)
 {
-    const uint32_t seed = 2 * (UINT32_MAX / ((d + (1u << 14)) >> 15)) + 1; /* 2^48 / d to 1.25 * 2^-16 */
-    const uint32_t error = ~(uint32_t)((uint64_t)d * seed >> 17);          /* 2 - d seed, Q31 */
-    const uint32_t inverse = (uint32_t)((uint64_t)seed * error >> 17);     /* 2^62 / d, by Newton, from below */
-    uint32_t quotient = (uint32_t)((uint64_t)n * inverse >> 32);           /* 3 too small at most */
+    uint32_t quotient = (uint32_t)((uint64_t)n * drogue_reciprocal_u32(d) >> 32); /* 3 too small at most */
     uint64_t rest = ((uint64_t)n << 30) - (uint64_t)quotient * d;
     if (rest >= (uint64_t)d << 1) {
         rest -= (uint64_t)d << 1;

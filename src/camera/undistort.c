@@ -1,95 +1,187 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Brown-Conrady distortion and its inverse by damped Newton steps, in normalised coordinates Q36. */
+/* Brown-Conrady distortion and its inverse by damped Newton steps, in normalised coordinates Q29.
+ *
+ * What the lens adds is computed apart from the position, in block floating point: the point is scaled to a distance near
+ * 1 from the axis, and the five coefficients, each times the power of the scale that goes with it, to a common exponent
+ * at which the largest has 27 bits. So an error is some 2^-26 of the displacement, whatever the coefficients. */
 #include "drogue/undistort.h"
 
-#include "drogue/wide.h"
+#include "drogue/real.h"
 
-#define FRAC 36
+#define FRAC 29
+#define DERIVATIVE_FRAC 24
+#define TERM_BITS 27
 #define MAX_STEPS 64
 
-static const int64_t one_q36 = INT64_C(1) << FRAC;
-static const int64_t most_q36 = INT64_C(4) << FRAC; /* off the axis, in focal lengths */
-static const int64_t still_q36 = INT64_C(1) << 10;  /* a step this short squares to nothing in the next */
+static const int64_t one_q24 = INT64_C(1) << DERIVATIVE_FRAC;
+static const int64_t still_q29 = 128; /* a step this short, 2^-22, squares to nothing in the next */
 
-static int64_t mul_q36(int64_t a, int64_t b) { return drogue_s128_shr_round(drogue_s128_mul(a, b), FRAC); }
+/* a * b / 2^n, rounded. */
+static int64_t mul(int32_t a, int32_t b, int n) { return drogue_shr_round_s64((int64_t)a * b, n); }
+
+static int32_t mul_q30(int32_t a, int32_t b) { return (int32_t)mul(a, b, 30); }
 
 static int64_t abs_s64(int64_t v) { return v < 0 ? -v : v; }
 
-/* Coefficient Q16 -> Q36. */
-static int64_t widen(drogue_q16 k) { return (int64_t)k * (INT64_C(1) << (FRAC - 16)); }
-
 static int small(drogue_q16 k) { return k >= -DROGUE_MAX_DISTORTION_Q16 && k <= DROGUE_MAX_DISTORTION_Q16; }
 
-/* Distorted position and its derivatives: the Jacobian is symmetric. */
+enum { K1, K2, K3, P1, P2, COEFFICIENTS };
+
+/* Coefficients Q16 and their bits. */
+typedef struct lens {
+    int32_t q16[COEFFICIENTS];
+    int bits[COEFFICIENTS];
+} lens;
+
+/* Powers of the distance from the axis, in the derivative, that go with them. */
+static const int power[COEFFICIENTS] = {2, 4, 6, 1, 1};
+
+static void lens_of(lens *l, const drogue_camera *c)
+{
+    int i;
+    l->q16[K1] = c->k1_q16;
+    l->q16[K2] = c->k2_q16;
+    l->q16[K3] = c->k3_q16;
+    l->q16[P1] = c->p1_q16;
+    l->q16[P2] = c->p2_q16;
+    for (i = 0; i < COEFFICIENTS; i++) {
+        l->bits[i] = 64 - drogue_clz_u64(drogue_abs_u64(l->q16[i]));
+    }
+}
+
+/* A point (x, y) 2^scale whose squared distance from the axis, in that scale, is in [1/2, 2); the lens's terms there,
+ * times 2^exponent. */
+typedef struct block {
+    int scale;
+    int exponent;
+    int32_t x_q29;
+    int32_t y_q29;
+    int32_t r2_q30;
+    int32_t term[COEFFICIENTS];
+} block;
+
+/* v * 2^n, rounded; the caller knows that it fits */
+static int32_t shifted(int32_t v, int n)
+{
+    return n >= 0 ? (int32_t)drogue_shl_s64(v, n) : n < -31 ? 0 : (int32_t)drogue_shr_round_s64(v, -n);
+}
+
+static void block_at(block *b, const lens *l, int32_t x_q29, int32_t y_q29)
+{
+    const uint64_t r2_q58 = drogue_square_sum(x_q29, y_q29);
+    const int scale = (6 - drogue_clz_u64(r2_q58)) >> 1; /* [-29, 2] */
+    int most = l->bits[0] + power[0] * scale;
+    int i;
+    for (i = 1; i < COEFFICIENTS; i++) {
+        const int bits = l->bits[i] + power[i] * scale;
+        most = bits > most ? bits : most;
+    }
+    for (i = 0; i < COEFFICIENTS; i++) {
+        b->term[i] = shifted(l->q16[i], TERM_BITS - most + power[i] * scale);
+        DROGUE_NOTE("undistort: term of the lens", b->term[i], TERM_BITS);
+    }
+    b->scale = scale;
+    b->exponent = 16 + TERM_BITS - most; /* 6 or more */
+    b->x_q29 = shifted(x_q29, -scale);
+    b->y_q29 = shifted(y_q29, -scale);
+    b->r2_q30 = (int32_t)(scale < -14 ? r2_q58 << (-28 - 2 * scale) : r2_q58 >> (28 + 2 * scale));
+}
+
+/* What the lens adds to a position, and the derivatives of the distorted position: the Jacobian is symmetric. */
 typedef struct distorted {
-    int64_t x, y;
-    int64_t dxx, dxy, dyy;
+    int64_t x_q29, y_q29;
+    int64_t xx_q24, xy_q24, yy_q24;
 } distorted;
 
-/* With |x|, |y| <= 4 and coefficients up to 256 every sum stays below 2^62. */
-static distorted distort_q36(const drogue_camera *c, int64_t x, int64_t y)
+/* From the terms' scale to Q24. */
+static int64_t derivative(int64_t v, int exponent)
 {
-    int64_t k1 = widen(c->k1_q16);
-    int64_t k2 = widen(c->k2_q16);
-    int64_t k3 = widen(c->k3_q16);
-    int64_t p1 = widen(c->p1_q16);
-    int64_t p2 = widen(c->p2_q16);
-    int64_t xx = mul_q36(x, x);
-    int64_t xy = mul_q36(x, y);
-    int64_t yy = mul_q36(y, y);
-    int64_t r2 = xx + yy;
-    int64_t radial = one_q36 + mul_q36(k1 + mul_q36(k2 + mul_q36(k3, r2), r2), r2);
-    int64_t slope = k1 + mul_q36(2 * k2 + mul_q36(3 * k3, r2), r2); /* d radial / d r2 */
-    distorted d;
-    d.x = mul_q36(x, radial) + 2 * mul_q36(p1, xy) + mul_q36(p2, r2 + 2 * xx);
-    d.y = mul_q36(y, radial) + mul_q36(p1, r2 + 2 * yy) + 2 * mul_q36(p2, xy);
-    d.dxx = radial + 2 * mul_q36(xx, slope) + 2 * mul_q36(p1, y) + 6 * mul_q36(p2, x);
-    d.dxy = 2 * mul_q36(xy, slope) + 2 * mul_q36(p1, x) + 2 * mul_q36(p2, y);
-    d.dyy = radial + 2 * mul_q36(yy, slope) + 6 * mul_q36(p1, y) + 2 * mul_q36(p2, x);
-    DROGUE_NOTE("undistort: normalised position, Q36", x, 39);
-    DROGUE_NOTE("undistort: distorted position, Q36", d.x, 62);
-    DROGUE_NOTE("undistort: derivative, Q36", d.dxx, 62);
-    return d;
+    const int n = exponent - DERIVATIVE_FRAC;
+    return n < 0 ? drogue_shl_s64(v, -n) : drogue_shr_round_s64(v, n > 63 ? 63 : n);
+}
+
+static void distort(distorted *d, const lens *l, int32_t x_q29, int32_t y_q29)
+{
+    block b;
+    int32_t radial;     /* less 1: terms are below 2^27, their sum below 14 * 2^27 */
+    int32_t half_slope; /* of radial over r2 */
+    int32_t xx_q29;
+    int32_t xy_q29;
+    int32_t yy_q29;
+    int64_t p1_x;
+    int64_t p1_y;
+    int64_t p2_x;
+    int64_t p2_y;
+    int shift;
+    block_at(&b, l, x_q29, y_q29);
+    xx_q29 = (int32_t)mul(b.x_q29, b.x_q29, FRAC);
+    xy_q29 = (int32_t)mul(b.x_q29, b.y_q29, FRAC);
+    yy_q29 = (int32_t)mul(b.y_q29, b.y_q29, FRAC);
+    radial = b.term[K1] + mul_q30(b.r2_q30, b.term[K2] + mul_q30(b.r2_q30, b.term[K3]));
+    radial = mul_q30(b.r2_q30, radial);
+    half_slope = (b.term[K1] >> 1) + mul_q30(b.r2_q30, b.term[K2] + mul_q30(b.r2_q30, 3 * (b.term[K3] >> 1)));
+    p1_x = mul(b.term[P1], b.x_q29, FRAC);
+    p1_y = mul(b.term[P1], b.y_q29, FRAC);
+    p2_x = mul(b.term[P2], b.x_q29, FRAC);
+    p2_y = mul(b.term[P2], b.y_q29, FRAC);
+    shift = b.exponent - b.scale; /* 4 or more */
+    shift = shift > 63 ? 63 : shift;
+    d->x_q29 = drogue_shr_round_s64((int64_t)b.x_q29 * radial + 2 * ((int64_t)b.term[P1] * xy_q29) +
+                                        (int64_t)b.term[P2] * yy_q29 + 3 * ((int64_t)b.term[P2] * xx_q29),
+                                    shift);
+    d->y_q29 = drogue_shr_round_s64((int64_t)b.y_q29 * radial + 2 * ((int64_t)b.term[P2] * xy_q29) +
+                                        (int64_t)b.term[P1] * xx_q29 + 3 * ((int64_t)b.term[P1] * yy_q29),
+                                    shift);
+    d->xx_q24 = derivative(radial + 4 * mul(xx_q29, half_slope, FRAC) + 2 * p1_y + 6 * p2_x, b.exponent) + one_q24;
+    d->xy_q24 = derivative(4 * mul(xy_q29, half_slope, FRAC) + 2 * (p1_x + p2_y), b.exponent);
+    d->yy_q24 = derivative(radial + 4 * mul(yy_q29, half_slope, FRAC) + 6 * p1_y + 2 * p2_x, b.exponent) + one_q24;
+    DROGUE_NOTE("undistort: displacement, Q29", d->x_q29, 58);
+    DROGUE_NOTE("undistort: derivative, Q24", d->xx_q24, 52);
 }
 
 /* Pixel -> normalised; 0 when too far off the axis. */
-static int normalise(int64_t *x_q36, drogue_q16 px_q16, drogue_q16 centre_q16, drogue_q16 focal_q16)
+static int normalise(int32_t *x_q29, drogue_q16 px_q16, drogue_q16 centre_q16, drogue_q16 focal_q16)
 {
+    drogue_real x;
+    drogue_real focal;
     if (focal_q16 <= 0) {
         return 0;
     }
-    *x_q36 = drogue_wide_to_s64(
-        drogue_wide_div(drogue_wide_from_s64((int64_t)px_q16 - centre_q16, 0), drogue_wide_from_s64(focal_q16, 0)),
-        FRAC);
-    return *x_q36 >= -most_q36 && *x_q36 <= most_q36;
+    drogue_real_set(&x, (int64_t)px_q16 - centre_q16, 0);
+    drogue_real_set(&focal, focal_q16, 0);
+    drogue_real_quotient(&x, &x, &focal);
+    *x_q29 = drogue_real_to_s32(x, FRAC);
+    return *x_q29 > -INT32_MAX && *x_q29 < INT32_MAX;
 }
 
 /* Both coordinates, and coefficients that the arithmetic holds. */
-static int enter(int64_t *x_q36, int64_t *y_q36, drogue_q16 x_px_q16, drogue_q16 y_px_q16, const drogue_camera *c)
+static int enter(lens *l, int32_t *x_q29, int32_t *y_q29, drogue_q16 x_px_q16, drogue_q16 y_px_q16,
+                 const drogue_camera *c)
 {
+    lens_of(l, c);
     return small(c->k1_q16) && small(c->k2_q16) && small(c->p1_q16) && small(c->p2_q16) && small(c->k3_q16) &&
-           normalise(x_q36, x_px_q16, c->cx_px_q16, c->fx_px_q16) &&
-           normalise(y_q36, y_px_q16, c->cy_px_q16, c->fy_px_q16);
+           normalise(x_q29, x_px_q16, c->cx_px_q16, c->fx_px_q16) &&
+           normalise(y_q29, y_px_q16, c->cy_px_q16, c->fy_px_q16);
 }
 
-/* Normalised -> pixel; 0 when it leaves Q16. */
-static int to_pixel(drogue_q16 *px_q16, int64_t x_q36, drogue_q16 centre_q16, drogue_q16 focal_q16)
+/* Move a pixel by a normalised displacement; 0 when that is 4 or more, or the pixel leaves Q16. */
+static int move_pixel(drogue_q16 *px_q16, int64_t by_q29, drogue_q16 focal_q16)
 {
     int64_t px;
-    if (abs_s64(x_q36) > (INT64_C(1) << 54)) {
+    if (abs_s64(by_q29) > INT32_MAX) {
         return 0;
     }
-    px = drogue_mul_shr_round_s64(x_q36, focal_q16, FRAC) + centre_q16;
+    px = *px_q16 + mul((int32_t)by_q29, focal_q16, FRAC);
     *px_q16 = (drogue_q16)px;
     return *px_q16 == px;
 }
 
-static drogue_status leave(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, int64_t x_q36, int64_t y_q36,
+static drogue_status leave(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, int64_t x_q29, int64_t y_q29,
                            const drogue_camera *c)
 {
-    drogue_q16 x;
-    drogue_q16 y;
-    if (!to_pixel(&x, x_q36, c->cx_px_q16, c->fx_px_q16) || !to_pixel(&y, y_q36, c->cy_px_q16, c->fy_px_q16)) {
+    drogue_q16 x = *x_px_q16;
+    drogue_q16 y = *y_px_q16;
+    if (!move_pixel(&x, x_q29, c->fx_px_q16) || !move_pixel(&y, y_q29, c->fy_px_q16)) {
         return DROGUE_E_DOMAIN;
     }
     *x_px_q16 = x;
@@ -99,95 +191,119 @@ static drogue_status leave(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, int64_t x
 
 drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera)
 {
-    int64_t x;
-    int64_t y;
+    int32_t x;
+    int32_t y;
+    lens l;
     distorted d;
-    if (!enter(&x, &y, *x_px_q16, *y_px_q16, camera)) {
+    if (!enter(&l, &x, &y, *x_px_q16, *y_px_q16, camera)) {
         return DROGUE_E_DOMAIN;
     }
-    d = distort_q36(camera, x, y);
-    return leave(x_px_q16, y_px_q16, d.x, d.y, camera);
+    distort(&d, &l, x, y);
+    return leave(x_px_q16, y_px_q16, d.x_q29, d.y_q29, camera);
 }
 
-/* Is the map locally one to one, and tame enough for the arithmetic of a step? */
-static int regular(const distorted *d, int64_t u, int64_t v)
+/* Determinant of the Jacobian, Q48. */
+static int64_t determinant(const distorted *d)
 {
-    const int64_t steepest = INT64_C(64) << FRAC;
-    const int64_t farthest = INT64_C(16) << FRAC;
-    return d->dxx > 0 && d->dyy > 0 && d->dxx < steepest && d->dyy < steepest && abs_s64(d->dxy) < steepest &&
-           abs_s64(u - d->x) < farthest && abs_s64(v - d->y) < farthest &&
-           mul_q36(d->dxx, d->dyy) - mul_q36(d->dxy, d->dxy) > (one_q36 >> 16);
+    return (int64_t)(int32_t)d->xx_q24 * (int32_t)d->yy_q24 - (int64_t)(int32_t)d->xy_q24 * (int32_t)d->xy_q24;
 }
+
+/* Is the map locally one to one, and tame enough for the arithmetic of a step of what is missed? */
+static int regular(const distorted *d, int64_t miss_x_q29, int64_t miss_y_q29)
+{
+    const int64_t steepest = 64 * one_q24;
+    return d->xx_q24 > 0 && d->yy_q24 > 0 && d->xx_q24 < steepest && d->yy_q24 < steepest &&
+           abs_s64(d->xy_q24) < steepest && abs_s64(miss_x_q29) <= INT32_MAX && abs_s64(miss_y_q29) <= INT32_MAX &&
+           determinant(d) > INT64_C(1) << (2 * DERIVATIVE_FRAC - 16);
+}
+
+/* A quarter of what is below 0, rounded up. */
+static int32_t loss_of(int32_t v) { return v < 0 ? ((-v) >> 2) + 1 : 0; }
 
 /* Is the map regular all the way from the axis to (x, y)? Where the terms that could fold it cannot outweigh the 1 of
  * its derivative it is; else 16 places on the way are looked at. */
-static int before_fold(const drogue_camera *c, int64_t x, int64_t y)
+static int before_fold(const lens *l, int32_t x_q29, int32_t y_q29)
 {
-    int64_t q = mul_q36(x, x) + mul_q36(y, y);
-    int64_t k1 = c->k1_q16 < 0 ? 3 * widen(c->k1_q16) : 0; /* d (r radial) / dr = 1 + 3 k1 q + 5 k2 q^2 + 7 k3 q^3 */
-    int64_t k2 = c->k2_q16 < 0 ? 5 * widen(c->k2_q16) : 0;
-    int64_t k3 = c->k3_q16 < 0 ? 7 * widen(c->k3_q16) : 0;
-    int64_t p = 4 * (abs_s64(widen(c->p1_q16)) + abs_s64(widen(c->p2_q16))); /* times 1 + q >= 2 r */
+    block b;
+    int64_t p;
+    int64_t loss; /* d (r radial) / dr = 1 + 3 k1 q + 5 k2 q^2 + 7 k3 q^3, q = r^2; and p times 8 r <= 4 (1 + q) */
     int i;
-    if (one_q36 + mul_q36(k1 + mul_q36(k2 + mul_q36(k3, q), q), q) - mul_q36(p, one_q36 + q) > 0) {
+    block_at(&b, l, x_q29, y_q29);
+    loss = 5 * loss_of(b.term[K2]) + mul_q30(b.r2_q30, 7 * loss_of(b.term[K3]));
+    loss = mul(b.r2_q30, 3 * loss_of(b.term[K1]) + mul_q30(b.r2_q30, (int32_t)loss), 30);
+    p = 2 + (abs_s64(b.term[P1]) + abs_s64(b.term[P2])) / 4;
+    loss += 4 * (p + mul(b.r2_q30, (int32_t)p, 30));
+    if (b.exponent > 40 || loss < INT64_C(1) << (b.exponent - 2)) {
         return 1;
     }
     for (i = 1; i < 16; i++) {
-        distorted d = distort_q36(c, (x >> 4) * i, (y >> 4) * i);
-        if (!regular(&d, d.x, d.y)) {
+        distorted d;
+        distort(&d, l, (x_q29 >> 4) * i, (y_q29 >> 4) * i);
+        if (!regular(&d, 0, 0)) {
             return 0;
         }
     }
     return 1;
 }
 
-/* Quotient of two Q36 numbers, den > 2^-16: 20 bits of the divisor are enough for a step. */
-static int64_t divide(int64_t num_q36, int64_t den_q36)
+/* (a b - c d) / det, Q29 */
+static int64_t step_of(int64_t a_q24, int64_t b_q29, int64_t c_q24, int64_t d_q29, const drogue_real *det)
 {
-    int excess = 23 - drogue_clz_u64(drogue_abs_u64(num_q36)); /* bits beyond 41 */
-    if (excess > 0) {
-        num_q36 >>= excess;
-        den_q36 >>= excess;
-    }
-    DROGUE_NOTE("undistort: step numerator, Q36", num_q36, 42);
-    return drogue_div_round_s64(num_q36 * (INT64_C(1) << 19), (den_q36 >> 17) + 1);
+    drogue_real t;
+    drogue_real_set(&t, (int64_t)(int32_t)a_q24 * (int32_t)b_q29 - (int64_t)(int32_t)c_q24 * (int32_t)d_q29,
+                    -DERIVATIVE_FRAC - FRAC);
+    drogue_real_quotient(&t, &t, det);
+    return drogue_real_to_s64(t, FRAC);
 }
+
+/* A coordinate within the domain. */
+static int64_t clamp(int64_t v) { return v > INT32_MAX ? INT32_MAX : v < -INT32_MAX ? -INT32_MAX : v; }
 
 drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera)
 {
-    int64_t u;
-    int64_t v;
-    int64_t x;
-    int64_t y;
-    int64_t dx = 0;
-    int64_t dy = 0;
-    int64_t nearest = INT64_MAX;
+    int32_t u;
+    int32_t v;
+    int64_t x = 0; /* from the axis, where the map is the identity: what is seen without a fold can be followed from there */
+    int64_t y = 0;
+    int64_t dx;
+    int64_t dy;
+    int64_t nearest;
     int step;
-    if (!enter(&u, &v, *x_px_q16, *y_px_q16, camera)) {
+    lens l;
+    if (!enter(&l, &u, &v, *x_px_q16, *y_px_q16, camera)) {
         return DROGUE_E_DOMAIN;
     }
-    x = 0; /* from the axis: what is seen without a fold can be followed from there */
-    y = 0;
+    dx = u;
+    dy = v;
+    nearest = abs_s64(dx) + abs_s64(dy);
     for (step = 0; step < MAX_STEPS; step++) {
-        distorted d = distort_q36(camera, x + dx, y + dy);
-        int64_t miss = abs_s64(u - d.x) + abs_s64(v - d.y);
-        int64_t det;
-        if (!regular(&d, u, v) || (miss >= nearest && miss > still_q36)) { /* across a fold or too far: half the step */
-            dx >>= 1;
+        distorted d;
+        drogue_real det;
+        int64_t miss_x;
+        int64_t miss_y;
+        int64_t miss;
+        distort(&d, &l, (int32_t)(x + dx), (int32_t)(y + dy));
+        miss_x = u - (x + dx) - d.x_q29;
+        miss_y = v - (y + dy) - d.y_q29;
+        miss = abs_s64(miss_x) + abs_s64(miss_y);
+        if (!regular(&d, miss_x, miss_y) || (miss >= nearest && miss > still_q29)) {
+            dx >>= 1; /* across a fold or too far: half the step */
             dy >>= 1;
             continue;
         }
         nearest = miss;
         x += dx;
         y += dy;
-        det = mul_q36(d.dxx, d.dyy) - mul_q36(d.dxy, d.dxy);
-        dx = divide(mul_q36(d.dyy, u - d.x) - mul_q36(d.dxy, v - d.y), det);
-        dy = divide(mul_q36(d.dxx, v - d.y) - mul_q36(d.dxy, u - d.x), det);
-        if (abs_s64(dx) + abs_s64(dy) <= still_q36) {
-            return !before_fold(camera, x, y) ? DROGUE_E_DOMAIN : leave(x_px_q16, y_px_q16, x + dx, y + dy, camera);
+        drogue_real_set(&det, determinant(&d), -2 * DERIVATIVE_FRAC);
+        dx = step_of(d.yy_q24, miss_x, d.xy_q24, miss_y, &det);
+        dy = step_of(d.xx_q24, miss_y, d.xy_q24, miss_x, &det);
+        if (abs_s64(dx) + abs_s64(dy) <= still_q29) {
+            return !before_fold(&l, (int32_t)x, (int32_t)y)
+                       ? DROGUE_E_DOMAIN
+                       : leave(x_px_q16, y_px_q16, x + dx - u, y + dy - v, camera);
         }
-        dx = x + dx > most_q36 ? most_q36 - x : x + dx < -most_q36 ? -most_q36 - x : dx;
-        dy = y + dy > most_q36 ? most_q36 - y : y + dy < -most_q36 ? -most_q36 - y : dy;
+        dx = clamp(x + dx) - x;
+        dy = clamp(y + dy) - y;
     }
     return DROGUE_E_DOMAIN;
 }

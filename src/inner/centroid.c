@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The inner part from sums over pixels: components chosen, threshold's ramp, place. Whoever passes over the image. */
-#include "drogue/wide.h"
+#include "drogue/real.h"
 #include "pass.h"
 
 void drogue_inner_join(uint32_t *parent, uint32_t *area, uint32_t *x_sum, uint32_t *y_sum, uint32_t count)
@@ -16,6 +16,16 @@ void drogue_inner_join(uint32_t *parent, uint32_t *area, uint32_t *x_sum, uint32
             area[i] = 0;
         }
     }
+}
+
+drogue_q16 drogue_inner_mean_q16(int64_t sum, int64_t count)
+{
+    drogue_real mean;
+    drogue_real t;
+    drogue_real_set(&mean, sum, 0);
+    drogue_real_set(&t, count, 0);
+    drogue_real_quotient(&mean, &mean, &t);
+    return drogue_real_to_q16(mean);
 }
 
 static uint64_t distance2_q32(const drogue_inner_part *part, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
@@ -59,16 +69,14 @@ static void components_within(drogue_inner_part *out, const uint32_t *area, cons
 
 drogue_q16 drogue_inner_fill(const drogue_inner_part *part, const drogue_ellipse *expected)
 {
-    drogue_wide box;
-    drogue_wide t;
-    drogue_wide_set_q16(&box, expected->a_px_q16);
-    drogue_wide_set_q16(&t, expected->b_px_q16);
-    drogue_wide_product(&box, &box, &t);
-    drogue_wide_set_q16(&t, DROGUE_Q16_PI);
-    drogue_wide_product(&box, &box, &t);
-    drogue_wide_set(&t, part->area_px, 0);
-    drogue_wide_quotient(&t, &t, &box);
-    return drogue_wide_to_q16(t);
+    drogue_real box;
+    drogue_real t;
+    drogue_real_set(&box, (int64_t)expected->a_px_q16 * expected->b_px_q16, -32);
+    drogue_real_set_q16(&t, DROGUE_Q16_PI);
+    drogue_real_product(&box, &box, &t);
+    drogue_real_set(&t, part->area_px, 0);
+    drogue_real_quotient(&t, &t, &box);
+    return drogue_real_to_q16(t);
 }
 
 /* How badly a part fits an expected disc: distance in its semi-axes plus the share by which the areas differ, Q16. */

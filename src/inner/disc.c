@@ -13,7 +13,7 @@ int drogue_disc_span(int32_t *first, int32_t *last, const drogue_mask *disc, int
     if (rest < 0) {
         return 0;
     }
-    half = drogue_isqrt_u64((uint64_t)(rest / 9));
+    half = drogue_isqrt_u64((uint64_t)drogue_floor_div_s64(rest, 9));
     low = (disc->centre2_x - half + 1) >> 1;
     high = (disc->centre2_x + half) >> 1;
     *first = (int32_t)(low < 0 ? 0 : low);

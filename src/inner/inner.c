@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "drogue/quality.h"
+#include "drogue/real.h"
 #include "drogue/undistort.h"
 
 void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose poses[2], const drogue_setup *setup,
@@ -40,13 +41,18 @@ static int within_outline(const drogue_inner_part *part, const drogue_ellipse *e
     drogue_ellipse_frame rim;
     int32_t u_q24;
     int32_t v_q24;
-    int64_t room_q24;
+    drogue_real room;
+    drogue_real b;
+    int32_t room_q24;
     if (drogue_ellipse_frame_of(&rim, outline) != DROGUE_OK) {
         return 0;
     }
     drogue_ellipse_frame_point(&u_q24, &v_q24, &rim, part->x_px_q16, part->y_px_q16);
-    room_q24 = (INT64_C(1) << 24) - drogue_div_round_s64((int64_t)expected->a_px_q16 << 24, outline->b_px_q16);
-    return room_q24 > 0 && (int64_t)u_q24 * u_q24 + (int64_t)v_q24 * v_q24 <= room_q24 * room_q24;
+    drogue_real_set_q16(&room, drogue_q16_sub(outline->b_px_q16, expected->a_px_q16));
+    drogue_real_set_q16(&b, outline->b_px_q16);
+    drogue_real_quotient(&room, &room, &b);
+    room_q24 = drogue_real_to_s32(room, 24);
+    return room_q24 > 0 && drogue_square_sum(u_q24, v_q24) <= drogue_square_sum(room_q24, 0);
 }
 
 #define FILL_ROOM DROGUE_Q16(1, 2) /* px that blur and threshold may move the disc's edge */
@@ -67,15 +73,14 @@ drogue_q16 drogue_inner_std(const drogue_inner_part *part, const drogue_ellipse 
                                                  drogue_q16_sub(part->y_px_q16, expected->yc_px_q16));
     const drogue_q16 gate =
         drogue_q16_add(config->inner_gate_px_q16, drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16));
-    const int64_t share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
-    const int64_t least = config->inner_std_px_q16;
-    const int64_t spread = drogue_q16_mul(part->spread_px_q16, config->inner_std_spread_q16);
+    const drogue_q16 share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
+    const drogue_q16 spread = drogue_q16_mul(part->spread_px_q16, config->inner_std_spread_q16);
     if (part->contrast < config->min_inner_contrast || fill_of(part, expected, -FILL_ROOM) < config->min_fill_q16 ||
         fill_of(part, expected, FILL_ROOM) > config->max_fill_q16 || away2_q32 > drogue_square_sum(gate, 0) ||
         !within_outline(part, expected, outline)) {
         return 0;
     }
-    return drogue_sat_s32((int64_t)drogue_isqrt_u64((uint64_t)(share * share + least * least + spread * spread)));
+    return drogue_sat_s32(drogue_isqrt_u64(drogue_square_sum(share, config->inner_std_px_q16) + drogue_square_sum(spread, 0)));
 }
 
 void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_region *region, const drogue_ellipse *expected,

@@ -38,10 +38,8 @@ typedef struct drogue_inner_sums {
     int64_t y; /* weighted by the row */
 } drogue_inner_sums;
 
-static inline drogue_q16 drogue_inner_mean_q16(int64_t sum, int64_t count)
-{
-    return (drogue_q16)drogue_div_round_s64(sum * DROGUE_Q16_ONE, count);
-}
+/* Mean of coordinates, within 1/32 of Q16's last place before it is rounded. */
+drogue_q16 drogue_inner_mean_q16(int64_t sum, int64_t count);
 
 /* Darkness of a grey level, [0, range]. */
 static inline int32_t drogue_inner_darkness(int32_t level, const drogue_inner_ramp *ramp)

@@ -2,7 +2,7 @@
 /* Smallest bounding rectangle by rotating calipers (Toussaint 1983) and the choice of the farthest arcs. */
 #include "drogue/constraints.h"
 
-#include "drogue/wide.h"
+#include "drogue/real.h"
 
 static inline drogue_point pixel_of(const drogue_edge *e)
 {
@@ -60,7 +60,8 @@ static uint32_t convex_hull(drogue_point *hull, const drogue_edge *edges, uint32
     return c.size > 1 ? c.size - 1 : c.size; /* the last point is the first again */
 }
 
-static inline int64_t dot(int32_t dx, int32_t dy, drogue_point p) { return (int64_t)dx * p.x + (int64_t)dy * p.y; }
+/* Below 2^23: coordinates and their differences are below 2^11. */
+static inline int32_t dot(int32_t dx, int32_t dy, drogue_point p) { return dx * p.x + dy * p.y; }
 
 /* Advance a caliper from hull[at] to the farthest vertex along (dx, dy). */
 static uint32_t caliper(const drogue_point *hull, uint32_t size, uint32_t at, int32_t dx, int32_t dy)
@@ -80,18 +81,24 @@ static uint32_t caliper(const drogue_point *hull, uint32_t size, uint32_t at, in
 typedef struct box {
     int32_t dx;
     int32_t dy;
-    int64_t length2;
-    int64_t along;
-    int64_t across;
-    int64_t centre2_along;
-    int64_t centre2_across;
+    int32_t length2;
+    int32_t along;
+    int32_t across;
+    int32_t centre2_along;
+    int32_t centre2_across;
 } box;
 
-/* Is the area of p smaller than that of q? Areas are along * across / length2; compared exactly. */
+/* Is the area of p smaller than that of q? Areas are along * across / length2; compared exactly, the products of 69 bits
+ * in two parts. */
 static inline int smaller(const box *p, const box *q)
 {
-    return drogue_s128_cmp(drogue_s128_mul(p->along * p->across, q->length2),
-                           drogue_s128_mul(q->along * q->across, p->length2)) < 0;
+    const uint64_t area_p = (uint64_t)(uint32_t)p->along * (uint32_t)p->across;
+    const uint64_t area_q = (uint64_t)(uint32_t)q->along * (uint32_t)q->across;
+    const uint64_t low_p = (uint64_t)(uint32_t)area_p * (uint32_t)q->length2;
+    const uint64_t low_q = (uint64_t)(uint32_t)area_q * (uint32_t)p->length2;
+    const uint64_t high_p = (uint64_t)(uint32_t)(area_p >> 32) * (uint32_t)q->length2 + (low_p >> 32);
+    const uint64_t high_q = (uint64_t)(uint32_t)(area_q >> 32) * (uint32_t)p->length2 + (low_q >> 32);
+    return high_p != high_q ? high_p < high_q : (uint32_t)low_p < (uint32_t)low_q;
 }
 
 static box smallest_box(const drogue_point *hull, uint32_t size)
@@ -104,7 +111,7 @@ static box smallest_box(const drogue_point *hull, uint32_t size)
     for (i = 0; i < size; i++) {
         drogue_point a = hull[i];
         drogue_point b = hull[i + 1 < size ? i + 1 : 0];
-        int64_t low;
+        int32_t low;
         box p;
         p.dx = b.x - a.x;
         p.dy = b.y - a.y;
@@ -112,13 +119,13 @@ static box smallest_box(const drogue_point *hull, uint32_t size)
         top = caliper(hull, size, i == 0 ? right : top, -p.dy, p.dx);
         left = caliper(hull, size, i == 0 ? top : left, -p.dx, -p.dy);
         low = dot(-p.dy, p.dx, a);
-        p.length2 = (int64_t)p.dx * p.dx + (int64_t)p.dy * p.dy;
+        p.length2 = p.dx * p.dx + p.dy * p.dy;
         p.along = dot(p.dx, p.dy, hull[right]) - dot(p.dx, p.dy, hull[left]);
         p.across = dot(-p.dy, p.dx, hull[top]) - low;
         p.centre2_along = dot(p.dx, p.dy, hull[right]) + dot(p.dx, p.dy, hull[left]);
         p.centre2_across = dot(-p.dy, p.dx, hull[top]) + low;
         DROGUE_NOTE("constraints: extent times edge length", p.along > p.across ? p.along : p.across, 23);
-        DROGUE_NOTE("constraints: area times squared length", p.along * p.across, 46);
+        DROGUE_NOTE("constraints: area times squared length", (int64_t)p.along * p.across, 46);
         if (i == 0 || smaller(&p, &best)) {
             best = p;
         }
@@ -126,19 +133,20 @@ static box smallest_box(const drogue_point *hull, uint32_t size)
     return best;
 }
 
-static drogue_q16 over(int64_t v, const drogue_wide *length)
+static drogue_q16 over(int64_t v, const drogue_real *length)
 {
-    drogue_wide t;
-    drogue_wide_set(&t, v, 0);
-    drogue_wide_quotient(&t, &t, length);
-    return drogue_wide_to_q16(t);
+    drogue_real t;
+    drogue_real_set(&t, v, 0);
+    drogue_real_quotient(&t, &t, length);
+    return drogue_real_to_q16(t);
 }
 
 drogue_status drogue_min_area_rect(drogue_min_rect *out, drogue_point *hull, const drogue_edge *edges, uint32_t count)
 {
     uint32_t size;
     box b;
-    drogue_wide length;
+    drogue_real length;
+    drogue_real length2;
     if (count == 0) {
         out->xc_px_q16 = out->yc_px_q16 = out->short_px_q16 = out->long_px_q16 = 0;
         return DROGUE_E_ARGUMENT;
@@ -151,14 +159,13 @@ drogue_status drogue_min_area_rect(drogue_min_rect *out, drogue_point *hull, con
         return DROGUE_OK;
     }
     b = smallest_box(hull, size);
-    drogue_wide_set(&length, b.length2, 0);
-    drogue_wide_root(&length, &length);
+    drogue_real_set(&length2, b.length2, 0);
+    drogue_real_root(&length, &length2);
+    drogue_real_shift(&length2, 1);
     out->short_px_q16 = over(b.along < b.across ? b.along : b.across, &length);
     out->long_px_q16 = over(b.along < b.across ? b.across : b.along, &length);
-    out->xc_px_q16 = drogue_sat_s32(
-        drogue_div_round_s64((b.dx * b.centre2_along - b.dy * b.centre2_across) * (DROGUE_Q16_ONE / 2), b.length2));
-    out->yc_px_q16 = drogue_sat_s32(
-        drogue_div_round_s64((b.dy * b.centre2_along + b.dx * b.centre2_across) * (DROGUE_Q16_ONE / 2), b.length2));
+    out->xc_px_q16 = over((int64_t)b.dx * b.centre2_along - (int64_t)b.dy * b.centre2_across, &length2);
+    out->yc_px_q16 = over((int64_t)b.dy * b.centre2_along + (int64_t)b.dx * b.centre2_across, &length2);
     return DROGUE_OK;
 }
 

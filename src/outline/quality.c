@@ -2,19 +2,31 @@
 /* Quality of a fitted ellipse: paper (10)-(15). */
 #include "band.h"
 
-#include "drogue/wide.h"
+#include "drogue/real.h"
 
-#define PI_Q29 INT64_C(1686629713)
+#define PI_Q29 1686629713
 
-static int32_t over_q30(int32_t v_q30, drogue_q16 length_px_q16)
+/* 1 / v; v > 0 */
+static void inverse_of(drogue_real *out, drogue_q16 v_q16)
 {
-    return (int32_t)drogue_div_round_s64((int64_t)v_q30 * DROGUE_Q16_ONE, length_px_q16);
+    const drogue_real one = {1 << 30, -30};
+    drogue_real_set_q16(out, v_q16);
+    drogue_real_quotient(out, &one, out);
+}
+
+static int32_t times_q30(int32_t v_q30, const drogue_real *factor)
+{
+    drogue_real t;
+    drogue_real_set(&t, v_q30, -30);
+    drogue_real_product(&t, &t, factor);
+    return drogue_real_to_s32(t, 30);
 }
 
 drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_ellipse *ellipse)
 {
     int32_t s_q30;
     int32_t c_q30;
+    drogue_real inverse;
     if (ellipse->b_px_q16 < DROGUE_Q16_ONE || ellipse->a_px_q16 < ellipse->b_px_q16) {
         return DROGUE_E_DOMAIN;
     }
@@ -22,10 +34,12 @@ drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_el
     out->xc_px_q16 = ellipse->xc_px_q16;
     out->yc_px_q16 = ellipse->yc_px_q16;
     out->b_px_q16 = ellipse->b_px_q16;
-    out->cos_over_a_q30 = over_q30(c_q30, ellipse->a_px_q16);
-    out->sin_over_a_q30 = over_q30(s_q30, ellipse->a_px_q16);
-    out->cos_over_b_q30 = over_q30(c_q30, ellipse->b_px_q16);
-    out->sin_over_b_q30 = over_q30(s_q30, ellipse->b_px_q16);
+    inverse_of(&inverse, ellipse->a_px_q16);
+    out->cos_over_a_q30 = times_q30(c_q30, &inverse);
+    out->sin_over_a_q30 = times_q30(s_q30, &inverse);
+    inverse_of(&inverse, ellipse->b_px_q16);
+    out->cos_over_b_q30 = times_q30(c_q30, &inverse);
+    out->sin_over_b_q30 = times_q30(s_q30, &inverse);
     out->cos_q14 = (int32_t)drogue_shr_round_s64(c_q30, 16);
     out->sin_q14 = (int32_t)drogue_shr_round_s64(s_q30, 16);
     out->cos_ratio_q14 = (int32_t)drogue_shr_round_s64((int64_t)out->cos_over_a_q30 * out->b_px_q16, 32);
@@ -69,64 +83,60 @@ drogue_q16 drogue_ellipse_circumference(const drogue_ellipse *ellipse)
     int64_t a = ellipse->a_px_q16;
     int64_t b = ellipse->b_px_q16;
     uint64_t square_q32;
-    uint64_t root_q16;
+    uint32_t root_q16;
     if (a < 0 || b < 0 || a + b >= (INT64_C(1) << 29)) {
         return DROGUE_Q16_MAX;
     }
-    square_q32 = (uint64_t)(3 * a + b) * (uint64_t)(a + 3 * b);
+    square_q32 = (uint64_t)(uint32_t)(3 * a + b) * (uint32_t)(a + 3 * b);
     root_q16 = drogue_isqrt_u64(square_q32);
-    if (square_q32 - root_q16 * root_q16 > root_q16) {
+    if (square_q32 - (uint64_t)root_q16 * root_q16 > root_q16) {
         root_q16++;
     }
-    return drogue_sat_s32(drogue_shr_round_s64((3 * (a + b) - (int64_t)root_q16) * PI_Q29, 29));
+    return drogue_sat_s32(drogue_shr_round_s64((int64_t)(int32_t)(3 * (a + b) - root_q16) * PI_Q29, 29));
 }
 
-/* s(s_r) of (14): 0 at the ratio k2, 0.5 for a circle. The slope in the ratio is up to k1 / (1 - k2): the ratio is kept
- * wide. */
+/* num / den, at most 1; den > 0 */
+static int32_t share(int64_t num, int64_t den, int frac_bits)
+{
+    drogue_real t;
+    drogue_real d;
+    if (num >= den) {
+        return (int32_t)1 << frac_bits;
+    }
+    drogue_real_set(&t, num, 0);
+    drogue_real_set(&d, den, 0);
+    drogue_real_quotient(&t, &t, &d);
+    return drogue_real_to_s32(t, frac_bits);
+}
+
+/* s(s_r) of (14): 0 at the ratio k2, 0.5 for a circle. Its slope in the ratio is up to k1 / (1 - k2): the ratio's excess
+ * over k2 is formed before it is rounded. */
 static drogue_q16 axis_ratio_score(const drogue_ellipse *e, const drogue_quality_config *config)
 {
-    drogue_wide a;
-    drogue_wide k;
-    drogue_wide t;
-    int64_t t_q30;
-    int64_t decay_q30;
-    drogue_wide_set_q16(&a, e->a_px_q16);
-    drogue_wide_set_q16(&k, config->k2_q16);
-    drogue_wide_product(&k, &k, &a);
-    drogue_wide_set_q16(&t, e->b_px_q16);
-    drogue_wide_difference(&t, &t, &k);
-    if (t.mantissa <= 0) {
+    const int64_t excess_q32 = (int64_t)e->b_px_q16 * DROGUE_Q16_ONE - (int64_t)e->a_px_q16 * config->k2_q16;
+    int32_t t_q30;
+    int32_t decay_q30;
+    if (excess_q32 <= 0) {
         return 0;
     }
-    drogue_wide_set_q16(&k, DROGUE_Q16_ONE - config->k2_q16);
-    drogue_wide_product(&a, &a, &k);
-    drogue_wide_quotient(&t, &t, &a);
-    t_q30 = drogue_wide_to_s64(t, 30);
-    drogue_wide_set_q16(&k, config->k1_q16);
-    drogue_wide_product(&t, &k, &t);
-    decay_q30 = drogue_exp_neg_q30(drogue_wide_to_s64(t, 30));
+    t_q30 = share(excess_q32, (int64_t)e->a_px_q16 * (DROGUE_Q16_ONE - config->k2_q16), 30);
+    decay_q30 = drogue_exp_neg_q30(drogue_shr_round_s64((int64_t)config->k1_q16 * t_q30, 16));
     return (drogue_q16)drogue_shr_round_s64(
-        drogue_shr_round_s64((t_q30 - (INT64_C(1) << 30)) * decay_q30, 30) + (INT64_C(1) << 30), 15);
+        drogue_shr_round_s64((int64_t)(t_q30 - (1 << 30)) * decay_q30, 30) + (1 << 30), 15);
 }
 
-static drogue_q16 ratio_to_one(int64_t num_q16, int64_t den)
-{
-    if (den <= 0 || num_q16 >= den * DROGUE_Q16_ONE) {
-        return DROGUE_Q16_ONE;
-    }
-    return (drogue_q16)drogue_div_round_s64(num_q16, den);
-}
+static drogue_q16 ratio_to_one(int64_t num, int64_t den) { return den <= 0 ? DROGUE_Q16_ONE : share(num, den, 16); }
 
 drogue_q16 drogue_length_ratio(uint32_t points, const drogue_ellipse *ellipse)
 {
     const uint32_t most = (uint32_t)1 << 26; /* more points than any region has */
-    return ratio_to_one(drogue_shl_s64(points > most ? most : points, 32), drogue_ellipse_circumference(ellipse));
+    return ratio_to_one(drogue_shl_s64(points > most ? most : points, 16), drogue_ellipse_circumference(ellipse));
 }
 
 void drogue_quality_of_cover(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
                              drogue_q16 cover_q16, const drogue_quality_config *config)
 {
-    out->fit_ratio_q16 = ratio_to_one((int64_t)near_count * DROGUE_Q16_ONE, total);
+    out->fit_ratio_q16 = ratio_to_one(near_count, total);
     out->length_ratio_q16 = cover_q16;
     out->axis_ratio_q16 = drogue_q16_div(ellipse->b_px_q16, ellipse->a_px_q16);
     out->score_q16 = (drogue_q16)drogue_shr_round_s64(out->length_ratio_q16, 1) + axis_ratio_score(ellipse, config);

@@ -2,6 +2,8 @@
 /* Rays from a dark disc, and a circle through what they meet. */
 #include "drogue/rim.h"
 
+#include "drogue/real.h"
+
 #define RAYS 16
 #define FAR_Q4 1024  /* cells Q4: a centre farther away is none */
 #define LEAST_RAYS 9 /* that must meet the circle */
@@ -17,18 +19,33 @@ typedef struct rays {
     int32_t used[RAYS];
 } rays;
 
-/* A circle by least squares (Kasa 1976): x^2 + y^2 = 2 a x + 2 b y + c. 0 when the points do not determine one. Coordinates stay within 2^9, sums of fourth order within 2^40. */
+/* num / den, rounded and saturated */
+static int32_t quotient(int64_t num, int64_t den)
+{
+    drogue_real t;
+    drogue_real d;
+    drogue_real_set(&t, num, 0);
+    drogue_real_set(&d, den, 0);
+    drogue_real_quotient(&t, &t, &d);
+    return drogue_real_to_s32(t, 0);
+}
+
+/* A circle by least squares (Kasa 1976): x^2 + y^2 = 2 a x + 2 b y + c. 0 when the points do not determine one.
+ * Coordinates stay within 2^9, sums about the mean of second order within 2^26, of third within 2^37. */
 static int fit_circle(drogue_rim *out, const rays *r)
 {
-    int64_t n = 0, sx = 0, sy = 0, sz = 0, sxx = 0, sxy = 0, syy = 0, sxz = 0, syz = 0;
+    int32_t n = 0, sx = 0, sy = 0, sz = 0, sxx = 0, sxy = 0, syy = 0;
+    int64_t sxz = 0, syz = 0;
     int64_t det;
-    int64_t radius2;
+    int32_t radius2;
+    int32_t xz;
+    int32_t yz;
     int i;
     for (i = 0; i < RAYS; i++) {
         if (r->used[i]) {
-            const int64_t x = r->x_q4[i];
-            const int64_t y = r->y_q4[i];
-            const int64_t z = x * x + y * y;
+            const int32_t x = r->x_q4[i];
+            const int32_t y = r->y_q4[i];
+            const int32_t z = x * x + y * y;
             n++;
             sx += x;
             sy += y;
@@ -47,20 +64,23 @@ static int fit_circle(drogue_rim *out, const rays *r)
     sxx = n * sxx - sx * sx;
     sxy = n * sxy - sx * sy;
     syy = n * syy - sy * sy;
-    sxz = n * sxz - sx * sz;
-    syz = n * syz - sy * sz;
-    det = sxx * syy - sxy * sxy; /* < 2^54 */
+    sxz = n * sxz - (int64_t)sx * sz;
+    syz = n * syz - (int64_t)sy * sz;
+    det = (int64_t)sxx * syy - (int64_t)sxy * sxy; /* < 2^54 */
     if (det < (INT64_C(1) << 24)) {
         return 0;
     }
-    out->x_q4 = drogue_div_round_s64(((sxz >> 8) * syy - (syz >> 8) * sxy) / 2, det >> 8);
-    out->y_q4 = drogue_div_round_s64(((syz >> 8) * sxx - (sxz >> 8) * sxy) / 2, det >> 8);
+    xz = (int32_t)(sxz >> 8);
+    yz = (int32_t)(syz >> 8);
+    det >>= 7; /* twice what the other is */
+    out->x_q4 = quotient((int64_t)xz * syy - (int64_t)yz * sxy, det);
+    out->y_q4 = quotient((int64_t)yz * sxx - (int64_t)xz * sxy, det);
     if (drogue_abs_u64(out->x_q4) > FAR_Q4 || drogue_abs_u64(out->y_q4) > FAR_Q4) {
         return 0;
     }
-    radius2 = drogue_div_round_s64(sz - 2 * out->x_q4 * sx - 2 * out->y_q4 * sy, n) + out->x_q4 * out->x_q4 +
+    radius2 = quotient(sz - 2 * ((int64_t)out->x_q4 * sx + (int64_t)out->y_q4 * sy), n) + out->x_q4 * out->x_q4 +
               out->y_q4 * out->y_q4;
-    out->radius_q4 = radius2 > 0 ? (int64_t)drogue_isqrt_u64((uint64_t)radius2) : 0;
+    out->radius_q4 = radius2 > 0 ? (int32_t)drogue_isqrt_u64((uint64_t)radius2) : 0;
     return out->radius_q4 > 0;
 }
 
@@ -105,17 +125,17 @@ static void follow_rays(rays *r, const drogue_search_level *level, const drogue_
 }
 
 /* Keep the points within tolerance of the circle; returns their number. */
-static int32_t keep_near(rays *r, const drogue_rim *c, int64_t tolerance_q8)
+static int32_t keep_near(rays *r, const drogue_rim *c, int32_t tolerance_q8)
 {
-    const int64_t room = 16 + ((c->radius_q4 * tolerance_q8) >> 8);
-    const int64_t most = c->radius_q4 + room;
-    const int64_t least = c->radius_q4 > room ? c->radius_q4 - room : 0;
+    const int32_t room = 16 + ((c->radius_q4 * tolerance_q8) >> 8);
+    const int32_t most = c->radius_q4 + room;
+    const int32_t least = c->radius_q4 > room ? c->radius_q4 - room : 0;
     int32_t count = 0;
     int i;
     for (i = 0; i < RAYS; i++) {
-        const int64_t dx = r->x_q4[i] - c->x_q4;
-        const int64_t dy = r->y_q4[i] - c->y_q4;
-        const int64_t distance2 = dx * dx + dy * dy;
+        const int32_t dx = r->x_q4[i] - c->x_q4;
+        const int32_t dy = r->y_q4[i] - c->y_q4;
+        const int32_t distance2 = dx * dx + dy * dy;
         r->used[i] = r->step[i] > 0 && distance2 >= least * least && distance2 <= most * most;
         count += r->used[i];
     }
@@ -127,7 +147,7 @@ static uint32_t find_by_sign(drogue_rim *rim, const drogue_search_level *level, 
                              int32_t sign)
 {
     static const int32_t tolerances_q8[3] = {90, 56, 40};
-    const int64_t ring = disc->ring_q4;
+    const int32_t ring = disc->ring_q4;
     int32_t count = 0;
     int32_t step = 0;
     rays r;
