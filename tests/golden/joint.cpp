@@ -8,12 +8,12 @@
 
 namespace {
 
-double packed_difference(const drogue_wide *got, const reference::Covariance &expected)
+double packed_difference(const drogue_real *got, const reference::Covariance &expected)
 {
     double most = 0;
     for (int i = 0; i < 5; i++) {
         for (int j = 0; j <= i; j++) {
-            const drogue_wide w = got[DROGUE_PACKED(i, j)];
+            const drogue_real w = got[DROGUE_PACKED(i, j)];
             const double scale = std::sqrt(expected(i, i) * expected(j, j));
             most = std::max(most, std::fabs(std::ldexp((double)w.mantissa, w.exponent) - expected(i, j)) / scale);
         }

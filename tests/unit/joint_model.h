@@ -6,7 +6,7 @@
 
 #include "drogue/joint.h"
 #include "geometry.h"
-#include "wide_quad.h"
+#include "real_quad.h"
 
 typedef struct pose_real {
     double v[5]; /* x, y, z, yaw, pitch */
@@ -101,7 +101,7 @@ static inline void harmonics_of(double m[5], const ellipse_real *e, const ellips
 }
 
 /* Full matrix of a packed one. */
-static inline void unpacked(quad m[5][5], const drogue_wide *packed)
+static inline void unpacked(quad m[5][5], const drogue_real *packed)
 {
     int i, j;
     for (i = 0; i < 5; i++) {
@@ -114,7 +114,7 @@ static inline void unpacked(quad m[5][5], const drogue_wide *packed)
 /* Covariance of the pose from that of the outline's harmonics and, when std > 0, from the inner centroid; slopes by
  * central differences. The angles' own information is 1 / rad^2. */
 static inline int propagated(double out[5][5], const field *f, const pose_real *p,
-                             const drogue_wide *harmonics_covariance, double std)
+                             const drogue_real *harmonics_covariance, double std)
 {
     quad covariance[5][5], weight[5][5], information[5][5], inverse[5][5];
     double slope[7][5];
@@ -168,7 +168,7 @@ static inline int propagated(double out[5][5], const field *f, const pose_real *
 }
 
 /* Largest difference of two covariances, as a share of the product of the standard deviations. */
-static inline double covariance_apart(const drogue_wide *got, double expected[5][5])
+static inline double covariance_apart(const drogue_real *got, double expected[5][5])
 {
     double worst = 0;
     int i, j;

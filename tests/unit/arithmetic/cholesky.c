@@ -3,13 +3,13 @@
 #include "suite.h"
 
 #include "drogue/cholesky.h"
-#include "wide_quad.h"
+#include "real_quad.h"
 
 typedef quad matrix[5][5];
 
 /* Random positive definite matrix of wide numbers: its variables are scaled by up to 2^+-reach, and each is the sum of
  * others but for a share of about 2^-near. */
-static void random_matrix(drogue_wide *a, matrix exact, int n, int reach, double near, uint64_t *rng)
+static void random_matrix(drogue_real *a, matrix exact, int n, int reach, double near, uint64_t *rng)
 {
     quad b[5][6], scale[5];
     int i, j, k;
@@ -28,7 +28,7 @@ static void random_matrix(drogue_wide *a, matrix exact, int n, int reach, double
             for (k = 0; k < 6; k++) {
                 sum += b[i][k] * b[j][k];
             }
-            a[DROGUE_PACKED(i, j)] = wide_of(sum * scale[i] * scale[j]);
+            a[DROGUE_PACKED(i, j)] = real_of(sum * scale[i] * scale[j]);
             exact[i][j] = exact[j][i] = quad_of(a[DROGUE_PACKED(i, j)]);
         }
     }
@@ -51,7 +51,7 @@ static const double ulp = 1.0 / 2305843009213693952.0; /* 2^-61 */
 
 static void check_matrix(int n, int reach, double near, uint64_t *rng, int number, int *accepted)
 {
-    drogue_wide a[DROGUE_PACKED_MAX], l[DROGUE_PACKED_MAX], inverted[DROGUE_PACKED_MAX], b[5], x[5];
+    drogue_real a[DROGUE_PACKED_MAX], l[DROGUE_PACKED_MAX], inverted[DROGUE_PACKED_MAX], b[5], x[5];
     matrix exact, inverse;
     double kappa;
     quad square = 0;
@@ -77,7 +77,7 @@ static void check_matrix(int n, int reach, double near, uint64_t *rng, int numbe
         }
     }
     for (i = 0; i < n; i++) {
-        b[i] = wide_of((quad)rng_normal(rng) * quad_sqrt(exact[i][i]));
+        b[i] = real_of((quad)rng_normal(rng) * quad_sqrt(exact[i][i]));
         x[i] = b[i];
     }
     drogue_cholesky_solve(x, l, n);
@@ -131,17 +131,17 @@ START_TEST(ill_conditioned_matrices)
 }
 END_TEST
 
-static drogue_wide whole(int64_t v) { return drogue_wide_from_s64(v, 0); }
+static drogue_real whole(int64_t v) { return real_set(v, 0); }
 
 /* The least pivot that is accepted is 2^-40 of the diagonal entry. */
 START_TEST(least_pivot)
 {
-    drogue_wide a[3];
+    drogue_real a[3];
     int turn;
     for (turn = 0; turn < 3; turn++) {
         a[0] = whole(1);
         a[1] = whole(1);
-        a[2] = drogue_wide_add(whole(1), drogue_wide_from_s64(turn == 0 ? 3 : turn == 1 ? 2 : 1, -41)); /* 1 + p */
+        a[2] = drogue_real_add(whole(1), real_set(turn == 0 ? 3 : turn == 1 ? 2 : 1, -41)); /* 1 + p */
         ck_assert_int_eq(drogue_cholesky_factor(a, 2), turn == 0 ? DROGUE_OK : DROGUE_E_DEGENERATE);
     }
 }
@@ -149,7 +149,7 @@ END_TEST
 
 START_TEST(not_positive_definite)
 {
-    drogue_wide a[DROGUE_PACKED_MAX];
+    drogue_real a[DROGUE_PACKED_MAX];
     uint64_t rng = 4;
     int n, i, k, round;
     for (n = 1; n <= 5; n++) { /* zero; a negative or zero entry of the diagonal */
@@ -182,10 +182,10 @@ START_TEST(not_positive_definite)
             for (j = 0; j < n - 1; j++) {
                 sum += weight[j] * exact[i][j];
             }
-            a[DROGUE_PACKED(n - 1, i)] = wide_of(sum);
+            a[DROGUE_PACKED(n - 1, i)] = real_of(sum);
             exact[n - 1][n - 1] += weight[i] * sum;
         }
-        a[DROGUE_PACKED(n - 1, n - 1)] = wide_of(exact[n - 1][n - 1]);
+        a[DROGUE_PACKED(n - 1, n - 1)] = real_of(exact[n - 1][n - 1]);
         MUST(drogue_cholesky_factor(a, n) == DROGUE_E_DEGENERATE, "singular matrix %d accepted", round);
     }
 }

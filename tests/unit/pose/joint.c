@@ -22,7 +22,7 @@ static int measurement_of(drogue_joint_outline *outline, drogue_joint_inner *inn
     variance = pow(0.1 / e.a, 2) / 200;
     memset(outline->covariance, 0, sizeof outline->covariance);
     for (i = 0; i < 5; i++) {
-        outline->covariance[DROGUE_PACKED(i, i)] = wide_of((quad)(i == 0 ? variance : 2 * variance));
+        outline->covariance[DROGUE_PACKED(i, i)] = real_of((quad)(i == 0 ? variance : 2 * variance));
     }
     return drogue_pose_from_ellipse(poses, &outline->ellipse, &f->camera, f->model.rim_radius_m_q16) == DROGUE_OK;
 }
@@ -306,7 +306,7 @@ START_TEST(what_cannot_be_solved)
     ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &broken, &inner, &f.camera, &f.model, 5),
                      DROGUE_E_DEGENERATE);
     broken = outline;
-    broken.covariance[DROGUE_PACKED(4, 4)] = drogue_wide_neg(broken.covariance[DROGUE_PACKED(4, 4)]);
+    broken.covariance[DROGUE_PACKED(4, 4)] = drogue_real_neg(broken.covariance[DROGUE_PACKED(4, 4)]);
     ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &broken, &inner, &f.camera, &f.model, 5),
                      DROGUE_E_DEGENERATE);
     f.model.inner_depth_m_q16 = q16_of(-6);

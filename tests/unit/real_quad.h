@@ -1,19 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Wide numbers to and from quadruple precision, and small dense matrices in it. */
-#ifndef DROGUE_TESTS_WIDE_QUAD_H
-#define DROGUE_TESTS_WIDE_QUAD_H
+/* Real numbers to and from quadruple precision, and small dense matrices in it. */
+#ifndef DROGUE_TESTS_REAL_QUAD_H
+#define DROGUE_TESTS_REAL_QUAD_H
 
 #include "drogue/cholesky.h"
 #include "quad.h"
 
-static inline quad quad_of(drogue_wide v) { return quad_scale((quad)v.mantissa, v.exponent); }
+static inline quad quad_of(drogue_real v) { return quad_scale((quad)v.mantissa, v.exponent); }
 
-/* Rounded to 62 bits. */
-static inline drogue_wide wide_of(quad v)
+static inline drogue_real real_set(int64_t v, int32_t exponent)
+{
+    drogue_real r;
+    drogue_real_set(&r, v, exponent);
+    return r;
+}
+
+/* Rounded to 31 bits. */
+static inline drogue_real real_of(quad v)
 {
     int exponent = 0;
     if (v == 0) {
-        return drogue_wide_from_s64(0, 0);
+        return real_set(0, 0);
     }
     for (; quad_abs(v) >= (quad)2305843009213693952.0L; v /= 2) { /* 2^61 */
         exponent++;
@@ -21,7 +28,7 @@ static inline drogue_wide wide_of(quad v)
     for (; quad_abs(v) < (quad)2305843009213693952.0L; v *= 2) {
         exponent--;
     }
-    return drogue_wide_from_s64((int64_t)v, exponent);
+    return real_set((int64_t)v, exponent);
 }
 
 /* inverse = matrix^-1 by Gauss and Jordan with exchange of rows; 0 when singular. */
