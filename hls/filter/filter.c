@@ -4,44 +4,42 @@
 
 #include <string.h>
 
-static inline void get_wide(drogue_wide *v, const int64_t words[2])
+static inline void get_real(drogue_real *v, const int32_t words[2])
 {
     v->mantissa = words[0];
-    v->exponent = (int32_t)words[1];
+    v->exponent = words[1];
 }
 
-static inline void put_wide(int64_t words[2], const drogue_wide *v)
+static inline void put_real(int32_t words[2], const drogue_real *v)
 {
     words[0] = v->mantissa;
     words[1] = v->exponent;
 }
 
-static inline void load(drogue_kalman *filter, const int64_t memory[DROGUE_HLS_FILTER_WORDS])
+static inline void load(drogue_kalman *filter, const int32_t memory[DROGUE_HLS_FILTER_WORDS])
 {
     int p;
     int k;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        const int64_t *words = memory + 2 * DROGUE_HLS_FILTER_WIDES * p;
+        const int32_t *words = memory + 2 * DROGUE_HLS_FILTER_REALS * p;
         for (k = 0; k < 3; k++) {
-            get_wide(&filter->parameter[p].state[k], words + 2 * k);
-        }
-        for (k = 0; k < 6; k++) {
-            get_wide(&filter->parameter[p].covariance[k], words + 6 + 2 * k);
+            get_real(&filter->parameter[p].state[k], words + 2 * k);
+            get_real(&filter->parameter[p].variance[k], words + 6 + 2 * k);
+            get_real(&filter->parameter[p].slope[k], words + 12 + 2 * k);
         }
     }
 }
 
-static inline void store(int64_t memory[DROGUE_HLS_FILTER_WORDS], const drogue_kalman *filter)
+static inline void store(int32_t memory[DROGUE_HLS_FILTER_WORDS], const drogue_kalman *filter)
 {
     int p;
     int k;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        int64_t *words = memory + 2 * DROGUE_HLS_FILTER_WIDES * p;
+        int32_t *words = memory + 2 * DROGUE_HLS_FILTER_REALS * p;
         for (k = 0; k < 3; k++) {
-            put_wide(words + 2 * k, &filter->parameter[p].state[k]);
-        }
-        for (k = 0; k < 6; k++) {
-            put_wide(words + 6 + 2 * k, &filter->parameter[p].covariance[k]);
+            put_real(words + 2 * k, &filter->parameter[p].state[k]);
+            put_real(words + 6 + 2 * k, &filter->parameter[p].variance[k]);
+            put_real(words + 12 + 2 * k, &filter->parameter[p].slope[k]);
         }
     }
 }
@@ -79,7 +77,7 @@ static void start(drogue_kalman *filter, uint32_t which, const drogue_q16 value[
 
 int32_t drogue_hls_filter(uint32_t command, uint32_t which, uint32_t dt_us, const int32_t value[DROGUE_PARAMETERS],
                           const int32_t std[DROGUE_PARAMETERS], const int32_t noise[4 * DROGUE_PARAMETERS],
-                          int64_t memory[DROGUE_HLS_FILTER_WORDS], int32_t states[3 * DROGUE_PARAMETERS],
+                          int32_t memory[DROGUE_HLS_FILTER_WORDS], int32_t states[3 * DROGUE_PARAMETERS],
                           int64_t value_std[DROGUE_PARAMETERS])
 {
 #ifndef __BAMBU__ /* registers; the other arrays are memory ports, which is the default */

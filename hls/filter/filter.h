@@ -13,10 +13,10 @@ enum drogue_hls_filter_command {
     DROGUE_HLS_FILTER_COAST = 3    /* predict over dt_us */
 };
 
-/* Words of the filter's memory: mantissa and exponent of state 0 1 2 and covariance p00 p01 p02 p11 p12 p22 of each
- * parameter. */
-#define DROGUE_HLS_FILTER_WIDES 9
-#define DROGUE_HLS_FILTER_WORDS (DROGUE_PARAMETERS * DROGUE_HLS_FILTER_WIDES * 2)
+/* Words of the filter's memory: mantissa and exponent of state 0 1 2, variance 0 1 2 and slope 0 1 2 of each parameter,
+ * the factors of its covariance (drogue_kalman3). */
+#define DROGUE_HLS_FILTER_REALS 9
+#define DROGUE_HLS_FILTER_WORDS (DROGUE_PARAMETERS * DROGUE_HLS_FILTER_REALS * 2)
 
 /* A step of the filter.
  *
@@ -24,7 +24,7 @@ enum drogue_hls_filter_command {
  *  dt_us      microseconds, [1, 2^31); STEP and COAST
  *  value      measured; START, RESTART, STEP
  *  std        of the measurement, > 0; STEP
- *  noise    standard deviation of the change of acceleration per step, five; then at a start those of value, rate and
+ *  noise      standard deviation of the change of acceleration per step, five; then at a start those of value, rate and
  *             acceleration of each parameter
  *  memory     in and out
  *  states     out: five values, five rates, five accelerations, Q16
@@ -33,7 +33,7 @@ enum drogue_hls_filter_command {
  */
 int32_t drogue_hls_filter(uint32_t command, uint32_t which, uint32_t dt_us, const int32_t value[DROGUE_PARAMETERS],
                           const int32_t std[DROGUE_PARAMETERS], const int32_t noise[4 * DROGUE_PARAMETERS],
-                          int64_t memory[DROGUE_HLS_FILTER_WORDS], int32_t states[3 * DROGUE_PARAMETERS],
+                          int32_t memory[DROGUE_HLS_FILTER_WORDS], int32_t states[3 * DROGUE_PARAMETERS],
                           int64_t value_std[DROGUE_PARAMETERS]);
 
 #endif

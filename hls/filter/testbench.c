@@ -10,7 +10,7 @@
 static int32_t value[DROGUE_PARAMETERS];
 static int32_t std_q16[DROGUE_PARAMETERS];
 static int32_t noise[4 * DROGUE_PARAMETERS];
-static int64_t memory[DROGUE_HLS_FILTER_WORDS];
+static int32_t memory[DROGUE_HLS_FILTER_WORDS];
 static int32_t states[3 * DROGUE_PARAMETERS];
 static int64_t value_std[DROGUE_PARAMETERS];
 
@@ -25,7 +25,7 @@ static int32_t command(uint32_t what, uint32_t which, uint32_t dt_us)
     return drogue_hls_filter(what, which, dt_us, value, std_q16, noise, memory, states, value_std);
 }
 
-static void compare_wide(bench *b, size_t at, const drogue_wide *expected)
+static void compare_real(bench *b, size_t at, const drogue_real *expected)
 {
     (void)bench_word(b, "mantissa", memory[at], expected->mantissa);
     (void)bench_word(b, "exponent", memory[at + 1], expected->exponent);
@@ -50,8 +50,8 @@ static void compare(bench *b, const drogue_kalman *filter)
     }
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         for (k = 0; k < 9; k++) {
-            compare_wide(b, 2 * (9 * p + k),
-                         k < 3 ? &filter->parameter[p].state[k] : &filter->parameter[p].covariance[k - 3]);
+            const drogue_kalman3 *f = &filter->parameter[p];
+            compare_real(b, 2 * (9 * p + k), k < 3 ? &f->state[k] : k < 6 ? &f->variance[k - 3] : &f->slope[k - 6]);
         }
     }
 }
@@ -59,7 +59,7 @@ static void compare(bench *b, const drogue_kalman *filter)
 /* Two parameters anew, then what must be refused. */
 static void run_commands(bench *b, drogue_kalman *filter)
 {
-    int64_t before[DROGUE_HLS_FILTER_WORDS];
+    int32_t before[DROGUE_HLS_FILTER_WORDS];
     size_t k;
     (void)bench_word(b, "restart", command(DROGUE_HLS_FILTER_RESTART, 24, 0), DROGUE_OK);
     drogue_kalman_restart(filter, DROGUE_PITCH, value[DROGUE_PITCH], noise + 5 + 3 * DROGUE_PITCH);

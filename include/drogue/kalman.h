@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Kalman filter over frames: 15 states, five pose parameters with velocity and acceleration (paper (35)-(40) with
  * the prediction from the posterior state). Noise is diagonal over the parameters, so the filter is five
- * independent filters of three states: the same numbers, a fraction of the work. */
+ * independent filters of three states: the same numbers, a fraction of the work.
+ *
+ * A covariance is kept as its factors L D L' (Bierman 1977, Thornton 1976), L unit lower triangular, D diagonal and never
+ * negative: whatever is rounded it stays symmetric and positive. */
 #ifndef DROGUE_KALMAN_H
 #define DROGUE_KALMAN_H
 
 #include "drogue/cholesky.h"
+#include "drogue/real.h"
 #include "drogue/types.h"
-#include "drogue/wide.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -16,10 +19,11 @@ extern "C" {
 /* Order of the parameters, as in (37). */
 enum { DROGUE_X = 0, DROGUE_Y = 1, DROGUE_Z = 2, DROGUE_PITCH = 3, DROGUE_YAW = 4, DROGUE_PARAMETERS = 5 };
 
-/* One parameter: value, rate, acceleration, and the covariance p00 p01 p02 p11 p12 p22. */
+/* One parameter: value, rate, acceleration, and the factors of their covariance. variance[0] is that of the value. */
 typedef struct drogue_kalman3 {
-    drogue_wide state[3];
-    drogue_wide covariance[6];
+    drogue_real state[3];
+    drogue_real variance[3]; /* D: of the value; of the rate given the value; of the acceleration given both */
+    drogue_real slope[3];    /* L: of the rate over the value, of the acceleration over the value and over the rate */
 } drogue_kalman3;
 
 typedef struct drogue_kalman {
@@ -45,7 +49,7 @@ void drogue_kalman_restart(drogue_kalman *filter, int parameter, drogue_q16 valu
  */
 void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q16 std_q16[DROGUE_PARAMETERS]);
 
-/* Correct (40) with one frame's measurement, in Joseph form: the covariance stays symmetric and positive.
+/* Correct (40) with one frame's measurement.
  *
  *  value    m and rad, Q16; angles are compared modulo 2 pi
  *  std      of the measurement, Q16, > 0; L in (40) is diagonal
@@ -63,11 +67,12 @@ void drogue_kalman_std(int64_t out_q32[DROGUE_PARAMETERS], const drogue_kalman *
  *
  *  value    m and rad, Q16; angles are compared modulo 2 pi
  *  noise    N, covariance of the measurement's n values, packed (cholesky.h), diagonal > 0. When P + N is not positive
- *           definite to 2^-40, which rounded or false covariances can bring about, its diagonal alone counts
+ *           definite to 2^-26, which rounded or false covariances can bring about, its diagonal alone counts
  *  n        the first n parameters in the order above, [1, DROGUE_PARAMETERS]
  */
-drogue_wide drogue_kalman_distance2(const drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
-                                    const drogue_wide noise[DROGUE_PACKED_MAX], int n);
+void drogue_kalman_distance2(drogue_real *out, const drogue_kalman *filter,
+                             const drogue_q16 value_q16[DROGUE_PARAMETERS],
+                             const drogue_real noise[DROGUE_PACKED_MAX], int n);
 
 #ifdef __cplusplus
 }

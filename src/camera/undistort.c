@@ -14,7 +14,7 @@
 #define MAX_STEPS 64
 
 static const int64_t one_q24 = INT64_C(1) << DERIVATIVE_FRAC;
-static const int64_t still_q29 = 128; /* a step this short, 2^-22, squares to nothing in the next */
+static const int64_t still_q29 = 32; /* a step this short, 2^-24, squares to nothing in the next */
 
 /* a * b / 2^n, rounded. */
 static int64_t mul(int32_t a, int32_t b, int n) { return drogue_shr_round_s64((int64_t)a * b, n); }

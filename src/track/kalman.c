@@ -1,28 +1,20 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Five Kalman filters of three states (Kalman 1960; paper (35)-(40)). */
+/* Five Kalman filters of three states (Kalman 1960; paper (35)-(40)) with factored covariances (Bierman 1977). */
 #include "drogue/kalman.h"
 
 #include <string.h>
 
-static const drogue_wide two_pi = {INT64_C(3622009729038561421), -59};
-
-/* Covariance entry (i, j) in the packed upper triangle p00 p01 p02 p11 p12 p22. */
-static int packed(int i, int j)
-{
-    static const int at[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
-    return at[i][j];
-}
+static const drogue_real two_pi = {1686629713, -28};
 
 void drogue_kalman_restart(drogue_kalman *filter, int parameter, drogue_q16 value_q16, const drogue_q16 std_q16[3])
 {
     drogue_kalman3 *f = &filter->parameter[parameter];
     int k;
-    memset(f->covariance, 0, sizeof f->covariance);
+    memset(f, 0, sizeof *f);
+    drogue_real_set_q16(&f->state[0], value_q16);
     for (k = 0; k < 3; k++) {
-        drogue_wide *variance = &f->covariance[packed(k, k)];
-        drogue_wide_set_q16(&f->state[k], k == 0 ? value_q16 : 0);
-        drogue_wide_set_q16(variance, std_q16[k]);
-        drogue_wide_product(variance, variance, variance);
+        drogue_real_set_q16(&f->variance[k], std_q16[k]);
+        drogue_real_product(&f->variance[k], &f->variance[k], &f->variance[k]);
     }
 }
 
@@ -35,72 +27,101 @@ void drogue_kalman_init(drogue_kalman *filter, const drogue_q16 value_q16[DROGUE
     }
 }
 
-/* (v0, v1, v2) -> (v0 + dt v1 + dt^2 / 2 v2, v1 + dt v2, v2); the three are 'apart' from each other. */
-static void advance(drogue_wide *v, int apart, const drogue_wide *dt, const drogue_wide *half_dt2)
+/* A step of constant acceleration. */
+typedef struct interval {
+    drogue_real dt;
+    drogue_real half_dt2;
+} interval;
+
+/* (v0, v1, v2) -> (v0 + dt v1 + dt^2 / 2 v2, v1 + dt v2, v2) */
+static void advance(drogue_real v[3], const interval *t)
 {
-    drogue_wide change;
-    drogue_wide_products(&change, dt, &v[apart], half_dt2, &v[2 * apart]);
-    drogue_wide_sum(&v[0], &v[0], &change);
-    drogue_wide_product(&change, dt, &v[2 * apart]);
-    drogue_wide_sum(&v[apart], &v[apart], &change);
+    drogue_real change;
+    drogue_real_products(&change, &t->dt, &v[1], &t->half_dt2, &v[2]);
+    drogue_real_sum(&v[0], &v[0], &change);
+    drogue_real_product(&change, &t->dt, &v[2]);
+    drogue_real_sum(&v[1], &v[1], &change);
 }
 
-void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q16 std_q16[DROGUE_PARAMETERS])
+/* Covariance after a step: that of the states plus s^2 for the acceleration, then advanced; the noise's direction
+ * (dt^2 / 2, dt, 1) is where a change of acceleration at the step's beginning leads. The advanced factor's rows are made
+ * orthogonal in the metric D (modified Gram and Schmidt, Thornton 1976): sums of squares, which nothing makes negative. */
+static void spread(drogue_kalman3 *f, const interval *t, drogue_q16 std_q16)
 {
-    drogue_wide dt;
-    drogue_wide half_dt2;
-    int p;
-    drogue_wide_set(&half_dt2, 1000000, 0);
-    drogue_wide_set(&dt, dt_us, 0);
-    drogue_wide_quotient(&dt, &dt, &half_dt2);
-    drogue_wide_product(&half_dt2, &dt, &dt);
-    drogue_wide_shift(&half_dt2, -1);
-    for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        drogue_kalman3 *f = &filter->parameter[p];
-        drogue_wide g[3]; /* process noise is g g' */
-        drogue_wide c[3][3];
-        int i;
-        int j;
-        advance(f->state, 1, &dt, &half_dt2);
+    drogue_real rows[3][3];
+    drogue_real d[3];
+    drogue_real v[3];
+    int i;
+    int j;
+    int k;
+    drogue_real_set_q16(&v[0], std_q16);
+    drogue_real_product(&v[0], &v[0], &v[0]);
+    drogue_real_sum(&f->variance[2], &f->variance[2], &v[0]);
+    for (k = 0; k < 3; k++) { /* column k of L, advanced */
+        drogue_real_copy(&d[k], &f->variance[k]);
         for (i = 0; i < 3; i++) {
-            for (j = 0; j < 3; j++) {
-                c[i][j] = f->covariance[packed(i, j)];
+            drogue_real_set(&v[i], i == k, 0);
+            if (i > k) {
+                drogue_real_copy(&v[i], &f->slope[i + k - 1]);
             }
         }
+        advance(v, t);
         for (i = 0; i < 3; i++) {
-            advance(&c[0][i], 3, &dt, &half_dt2);
+            drogue_real_copy(&rows[i][k], &v[i]);
         }
-        for (i = 0; i < 3; i++) {
-            advance(c[i], 1, &dt, &half_dt2);
+    }
+    for (j = 0; j < 3; j++) { /* the rows below lose what they share with row j */
+        for (k = 0; k < 3; k++) {
+            drogue_real_product(&v[k], &rows[j][k], &d[k]);
         }
-        drogue_wide_set_q16(&g[2], std_q16[p]);
-        drogue_wide_product(&g[0], &half_dt2, &g[2]);
-        drogue_wide_product(&g[1], &dt, &g[2]);
-        for (i = 0; i < 3; i++) {
-            for (j = i; j < 3; j++) {
-                drogue_wide *to = &f->covariance[packed(i, j)];
-                drogue_wide_product(to, &g[i], &g[j]);
-                drogue_wide_sum(to, &c[i][j], to);
+        for (i = j; i < 3; i++) {
+            drogue_real sum;
+            drogue_real last;
+            drogue_real_products(&sum, &rows[i][0], &v[0], &rows[i][1], &v[1]);
+            drogue_real_product(&last, &rows[i][2], &v[2]);
+            drogue_real_sum(&sum, &sum, &last);
+            if (i == j) {
+                drogue_real_copy(&f->variance[j], &sum);
+                continue;
             }
+            drogue_real_quotient(&sum, &sum, &f->variance[j]); /* 0 where the row has no variance */
+            for (k = 0; k < 3; k++) {
+                drogue_real_subtract_product(&rows[i][k], &sum, &rows[j][k]);
+            }
+            drogue_real_copy(&f->slope[i + j - 1], &sum);
         }
     }
 }
 
-/* Less the whole turns of an angle. */
-static void wrap(drogue_wide *angle)
+void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q16 std_q16[DROGUE_PARAMETERS])
 {
-    drogue_wide turns;
-    drogue_wide_quotient(&turns, angle, &two_pi);
-    drogue_wide_set(&turns, drogue_wide_to_s64(turns, 0), 0);
-    drogue_wide_product(&turns, &turns, &two_pi);
-    drogue_wide_difference(angle, angle, &turns);
+    interval t;
+    int p;
+    drogue_real_set(&t.half_dt2, 1000000, 0);
+    drogue_real_set(&t.dt, dt_us, 0);
+    drogue_real_quotient(&t.dt, &t.dt, &t.half_dt2);
+    drogue_real_product(&t.half_dt2, &t.dt, &t.dt);
+    drogue_real_shift(&t.half_dt2, -1);
+    for (p = 0; p < DROGUE_PARAMETERS; p++) {
+        advance(filter->parameter[p].state, &t);
+        spread(&filter->parameter[p], &t, std_q16[p]);
+    }
+}
+
+/* Less the whole turns of an angle. */
+static void wrap(drogue_real *angle)
+{
+    drogue_real turns;
+    drogue_real_quotient(&turns, angle, &two_pi);
+    drogue_real_set(&turns, drogue_real_to_s64(turns, 0), 0);
+    drogue_real_subtract_product(angle, &turns, &two_pi);
 }
 
 /* Measured less predicted value. */
-static void innovation_of(drogue_wide *out, const drogue_kalman *filter, int p, drogue_q16 value_q16)
+static void innovation_of(drogue_real *out, const drogue_kalman *filter, int p, drogue_q16 value_q16)
 {
-    drogue_wide_set_q16(out, value_q16);
-    drogue_wide_difference(out, out, &filter->parameter[p].state[0]);
+    drogue_real_set_q16(out, value_q16);
+    drogue_real_difference(out, out, &filter->parameter[p].state[0]);
     if (p == DROGUE_PITCH || p == DROGUE_YAW) {
         wrap(out);
     }
@@ -112,39 +133,24 @@ void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DRO
     int p;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         drogue_kalman3 *f = &filter->parameter[p];
-        drogue_wide noise;
-        drogue_wide variance; /* of the innovation */
-        drogue_wide t;        /* first the innovation */
-        drogue_wide change;
-        drogue_wide first[3]; /* first row of the covariance: P H' */
-        drogue_wide gain[3];
-        int i;
-        int j;
-        drogue_wide_set_q16(&noise, std_q16[p]);
-        drogue_wide_product(&noise, &noise, &noise);
-        drogue_wide_sum(&variance, &f->covariance[0], &noise);
-        innovation_of(&t, filter, p, value_q16[p]);
-        for (i = 0; i < 3; i++) {
-            first[i] = f->covariance[packed(0, i)];
-            drogue_wide_quotient(&gain[i], &first[i], &variance);
-            drogue_wide_product(&change, &gain[i], &t);
-            drogue_wide_sum(&f->state[i], &f->state[i], &change);
-        }
-        /* (1 - K H) P (1 - K H)' + K L K', term by term; in the first row it comes to P L / (P + L), free of cancellation */
-        drogue_wide_quotient(&noise, &noise, &variance);
-        for (i = 0; i < 3; i++) {
-            drogue_wide_product(&f->covariance[packed(0, i)], &first[i], &noise);
-        }
-        for (i = 1; i < 3; i++) {
-            for (j = i; j < 3; j++) {
-                drogue_wide *c = &f->covariance[packed(i, j)];
-                drogue_wide_products(&t, &gain[i], &first[j], &gain[j], &first[i]);
-                drogue_wide_difference(c, c, &t);
-                drogue_wide_product(&t, &gain[i], &gain[j]);
-                drogue_wide_product(&t, &t, &variance);
-                drogue_wide_sum(c, c, &t);
-            }
-        }
+        drogue_real noise;
+        drogue_real variance; /* of the innovation */
+        drogue_real change;   /* of the value, then of what depends on it */
+        drogue_real t;
+        drogue_real_set_q16(&noise, std_q16[p]);
+        drogue_real_product(&noise, &noise, &noise);
+        drogue_real_sum(&variance, &f->variance[0], &noise);
+        innovation_of(&change, filter, p, value_q16[p]);
+        drogue_real_quotient(&t, &f->variance[0], &variance);
+        drogue_real_product(&change, &change, &t);
+        drogue_real_sum(&f->state[0], &f->state[0], &change);
+        drogue_real_product(&t, &f->slope[0], &change);
+        drogue_real_sum(&f->state[1], &f->state[1], &t);
+        drogue_real_product(&t, &f->slope[1], &change);
+        drogue_real_sum(&f->state[2], &f->state[2], &t);
+        /* Only the value is measured: its variance alone changes, to the product over the sum of both. */
+        drogue_real_quotient(&noise, &noise, &variance);
+        drogue_real_product(&f->variance[0], &f->variance[0], &noise);
     }
 }
 
@@ -152,7 +158,7 @@ void drogue_kalman_state(drogue_q16 out_q16[DROGUE_PARAMETERS], const drogue_kal
 {
     int p;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        out_q16[p] = drogue_wide_to_q16(filter->parameter[p].state[k]);
+        out_q16[p] = drogue_real_to_q16(filter->parameter[p].state[k]);
     }
 }
 
@@ -160,31 +166,33 @@ void drogue_kalman_std(int64_t out_q32[DROGUE_PARAMETERS], const drogue_kalman *
 {
     int p;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        out_q32[p] = drogue_wide_to_s64(drogue_wide_sqrt(filter->parameter[p].covariance[0]), 32);
+        drogue_real std;
+        drogue_real_root(&std, &filter->parameter[p].variance[0]);
+        out_q32[p] = drogue_real_to_s64(std, 32);
     }
 }
 
-drogue_wide drogue_kalman_distance2(const drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
-                                    const drogue_wide noise[DROGUE_PACKED_MAX], int n)
+void drogue_kalman_distance2(drogue_real *out, const drogue_kalman *filter,
+                             const drogue_q16 value_q16[DROGUE_PARAMETERS],
+                             const drogue_real noise[DROGUE_PACKED_MAX], int n)
 {
-    drogue_wide innovation[DROGUE_PARAMETERS];
-    drogue_wide covariance[DROGUE_PACKED_MAX];
-    drogue_wide sum = {0, 0};
+    drogue_real innovation[DROGUE_PARAMETERS];
+    drogue_real covariance[DROGUE_PACKED_MAX];
     int p;
+    drogue_real_set(out, 0, 0);
     for (p = 0; p < n * (n + 1) / 2; p++) {
-        covariance[p] = noise[p];
+        drogue_real_copy(&covariance[p], &noise[p]);
     }
     for (p = 0; p < n; p++) {
-        drogue_wide *own = &covariance[DROGUE_PACKED(p, p)];
-        drogue_wide square;
-        drogue_wide_sum(own, own, &filter->parameter[p].covariance[0]);
+        drogue_real *own = &covariance[DROGUE_PACKED(p, p)];
+        drogue_real square;
+        drogue_real_sum(own, own, &filter->parameter[p].variance[0]);
         innovation_of(&innovation[p], filter, p, value_q16[p]);
-        drogue_wide_product(&square, &innovation[p], &innovation[p]);
-        drogue_wide_quotient(&square, &square, own);
-        drogue_wide_sum(&sum, &sum, &square);
+        drogue_real_product(&square, &innovation[p], &innovation[p]);
+        drogue_real_quotient(&square, &square, own);
+        drogue_real_sum(out, out, &square);
     }
-    if (drogue_cholesky_factor(covariance, n) != DROGUE_OK) {
-        return sum;
+    if (drogue_cholesky_factor(covariance, n) == DROGUE_OK) {
+        drogue_cholesky_square(out, innovation, covariance, n);
     }
-    return drogue_cholesky_square(innovation, covariance, n);
 }

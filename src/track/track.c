@@ -97,18 +97,18 @@ static drogue_q16 wrap_q16(drogue_q16 angle)
 /* Root of yaw's variance times cos^2 pitch plus pitch's variance. */
 static int64_t axis_std(int64_t yaw_std_q32, int64_t pitch_std_q32, drogue_q16 pitch_rad_q16)
 {
-    drogue_wide yaw;
-    drogue_wide pitch;
+    drogue_real yaw;
+    drogue_real pitch;
     int32_t s_q30;
     int32_t c_q30;
     drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(pitch_rad_q16, 13));
-    drogue_wide_set(&yaw, yaw_std_q32, -32);
-    drogue_wide_set(&pitch, c_q30, -30);
-    drogue_wide_product(&yaw, &yaw, &pitch);
-    drogue_wide_set(&pitch, pitch_std_q32, -32);
-    drogue_wide_products(&yaw, &yaw, &yaw, &pitch, &pitch);
-    drogue_wide_root(&yaw, &yaw);
-    return drogue_wide_to_s64(yaw, 32);
+    drogue_real_set(&yaw, yaw_std_q32, -32);
+    drogue_real_set(&pitch, c_q30, -30);
+    drogue_real_product(&yaw, &yaw, &pitch);
+    drogue_real_set(&pitch, pitch_std_q32, -32);
+    drogue_real_products(&yaw, &yaw, &yaw, &pitch, &pitch);
+    drogue_real_root(&yaw, &yaw);
+    return drogue_real_to_s64(yaw, 32);
 }
 
 void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
@@ -156,20 +156,20 @@ static void square_about(drogue_region *region, drogue_q16 x_px_q16, drogue_q16 
 
 /* How far the outline may lie from where it is predicted, in semi-axes: region_sigmas standard deviations of the
  * lateral position over the rim's radius, and of the depth over itself. */
-static void predicted_spread(drogue_wide *out, const drogue_track_estimate *e, const drogue_track *track)
+static void predicted_spread(drogue_real *out, const drogue_track_estimate *e, const drogue_track *track)
 {
     const int64_t *std = e->position_std_m_q32;
-    drogue_wide away;
-    drogue_wide t;
-    drogue_wide_set(out, std[0] > std[1] ? std[0] : std[1], -32);
-    drogue_wide_set_q16(&t, track->model.rim_radius_m_q16);
-    drogue_wide_quotient(out, out, &t);
-    drogue_wide_set(&away, std[2], -32);
-    drogue_wide_set_q16(&t, e->position_m_q16[2]);
-    drogue_wide_quotient(&away, &away, &t);
-    drogue_wide_sum(out, out, &away);
-    drogue_wide_set_q16(&t, track->config.region_sigmas_q16);
-    drogue_wide_product(out, &t, out);
+    drogue_real away;
+    drogue_real t;
+    drogue_real_set(out, std[0] > std[1] ? std[0] : std[1], -32);
+    drogue_real_set_q16(&t, track->model.rim_radius_m_q16);
+    drogue_real_quotient(out, out, &t);
+    drogue_real_set(&away, std[2], -32);
+    drogue_real_set_q16(&t, e->position_m_q16[2]);
+    drogue_real_quotient(&away, &away, &t);
+    drogue_real_sum(out, out, &away);
+    drogue_real_set_q16(&t, track->config.region_sigmas_q16);
+    drogue_real_product(out, &t, out);
 }
 
 /* Regions about the predicted outline; 0 when the prediction cannot be seen.
@@ -179,11 +179,11 @@ static int predicted_region(drogue_region *region, drogue_track *track)
 {
     drogue_track_estimate estimate;
     drogue_pose pose;
-    drogue_wide semi_axis_px;
-    drogue_wide spread;
-    drogue_wide scale;
-    drogue_wide grown;
-    drogue_wide most;
+    drogue_real semi_axis_px;
+    drogue_real spread;
+    drogue_real scale;
+    drogue_real grown;
+    drogue_real most;
     drogue_q16 x;
     drogue_q16 y;
     memset(&pose, 0, sizeof pose);
@@ -193,25 +193,27 @@ static int predicted_region(drogue_region *region, drogue_track *track)
         (drogue_camera_distorts(&track->camera) && drogue_distort_point(&x, &y, &track->camera) != DROGUE_OK)) {
         return 0;
     }
-    drogue_wide_set_q16(&semi_axis_px, track->model.rim_radius_m_q16);
-    drogue_wide_set_q16(&scale, pose.position_m_q16[2]);
-    drogue_wide_quotient(&semi_axis_px, &semi_axis_px, &scale);
-    drogue_wide_set_q16(&scale, track->camera.fx_px_q16);
-    drogue_wide_product(&semi_axis_px, &scale, &semi_axis_px);
+    drogue_real_set_q16(&semi_axis_px, track->model.rim_radius_m_q16);
+    drogue_real_set_q16(&scale, pose.position_m_q16[2]);
+    drogue_real_quotient(&semi_axis_px, &semi_axis_px, &scale);
+    drogue_real_set_q16(&scale, track->camera.fx_px_q16);
+    drogue_real_product(&semi_axis_px, &scale, &semi_axis_px);
     predicted_spread(&spread, &estimate, track);
-    drogue_wide_set_q16(&most, DROGUE_Q16(4, 10));
-    track->search = drogue_wide_cmp(spread, most) > 0;
-    drogue_wide_set_q16(&scale, track->config.region_scale_q16);
-    grown = drogue_wide_scale(spread, 1);
-    drogue_wide_sum(&grown, &scale, &grown);
-    drogue_wide_product(&grown, &grown, &semi_axis_px);
-    square_about(&track->reach, x, y, drogue_wide_to_s64(grown, 0), &track->config);
-    grown = drogue_wide_scale(track->search ? most : spread, -2);
-    drogue_wide_set(&most, 1, 0);
-    drogue_wide_sum(&grown, &most, &grown);
-    drogue_wide_product(&grown, &scale, &grown);
-    drogue_wide_product(&grown, &grown, &semi_axis_px);
-    square_about(region, x, y, drogue_wide_to_s64(grown, 0), &track->config);
+    drogue_real_set_q16(&most, DROGUE_Q16(4, 10));
+    track->search = drogue_real_order(&spread, &most) > 0;
+    drogue_real_set_q16(&scale, track->config.region_scale_q16);
+    grown = spread;
+    drogue_real_shift(&grown, 1);
+    drogue_real_sum(&grown, &scale, &grown);
+    drogue_real_product(&grown, &grown, &semi_axis_px);
+    square_about(&track->reach, x, y, drogue_real_to_s64(grown, 0), &track->config);
+    grown = track->search ? most : spread;
+    drogue_real_shift(&grown, -2);
+    drogue_real_set(&most, 1, 0);
+    drogue_real_sum(&grown, &most, &grown);
+    drogue_real_product(&grown, &scale, &grown);
+    drogue_real_product(&grown, &grown, &semi_axis_px);
+    square_about(region, x, y, drogue_real_to_s64(grown, 0), &track->config);
     return 1;
 }
 

@@ -8,7 +8,7 @@
 typedef struct measurement {
     drogue_q16 value_q16[DROGUE_PARAMETERS];
     drogue_q16 std_q16[DROGUE_PARAMETERS];
-    drogue_wide noise[DROGUE_PACKED_MAX]; /* covariance in the filter's order */
+    drogue_real noise[DROGUE_PACKED_MAX]; /* covariance in the filter's order */
 } measurement;
 
 static drogue_q16 at_least_one(drogue_q16 v) { return v < 1 ? 1 : v; }
@@ -22,9 +22,9 @@ static void configured_noise(measurement *m, const drogue_track_config *c)
     m->std_q16[DROGUE_Z] = at_least_one(drogue_q16_mul(c->depth_std_q16, z));
     m->std_q16[DROGUE_PITCH] = m->std_q16[DROGUE_YAW] = at_least_one(c->angle_std_rad_q16);
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        drogue_wide *variance = &m->noise[DROGUE_PACKED(p, p)];
-        drogue_wide_set_q16(variance, m->std_q16[p]);
-        drogue_wide_product(variance, variance, variance);
+        drogue_real *variance = &m->noise[DROGUE_PACKED(p, p)];
+        drogue_real_set_q16(variance, m->std_q16[p]);
+        drogue_real_product(variance, variance, variance);
     }
 }
 
@@ -37,17 +37,17 @@ static void measured_noise(measurement *m, const drogue_result *result, int twin
     int q;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         const int64_t own_q48 = result->covariance_q48[from[p]][from[p]];
-        drogue_wide *variance = &m->noise[DROGUE_PACKED(p, p)];
-        drogue_wide own;
-        drogue_wide_set_q16(variance, at_least_one(p == DROGUE_PITCH || p == DROGUE_YAW ? c->angle_floor_rad_q16
+        drogue_real *variance = &m->noise[DROGUE_PACKED(p, p)];
+        drogue_real own;
+        drogue_real_set_q16(variance, at_least_one(p == DROGUE_PITCH || p == DROGUE_YAW ? c->angle_floor_rad_q16
                                                                                         : c->position_floor_m_q16));
-        drogue_wide_product(variance, variance, variance);
-        drogue_wide_set(&own, own_q48 > 0 ? own_q48 : 0, -48);
-        drogue_wide_sum(variance, &own, variance);
-        drogue_wide_root(&own, variance);
-        m->std_q16[p] = at_least_one(drogue_wide_to_q16(own));
+        drogue_real_product(variance, variance, variance);
+        drogue_real_set(&own, own_q48 > 0 ? own_q48 : 0, -48);
+        drogue_real_sum(variance, &own, variance);
+        drogue_real_root(&own, variance);
+        m->std_q16[p] = at_least_one(drogue_real_to_q16(own));
         for (q = 0; q < p && !(twin && p > DROGUE_Z); q++) {
-            drogue_wide_set(&m->noise[DROGUE_PACKED(p, q)], result->covariance_q48[from[p]][from[q]], -48);
+            drogue_real_set(&m->noise[DROGUE_PACKED(p, q)], result->covariance_q48[from[p]][from[q]], -48);
         }
     }
 }
@@ -71,8 +71,11 @@ static void read_pose(measurement *m, const drogue_result *result, int twin, con
 /* Squared distance from a filter's prediction against a gate. */
 static int passes(const drogue_kalman *filter, const measurement *m, int n, drogue_q16 gate_q16)
 {
-    return drogue_wide_cmp(drogue_kalman_distance2(filter, m->value_q16, m->noise, n),
-                           drogue_wide_from_q16(gate_q16)) <= 0;
+    drogue_real distance2;
+    drogue_real gate;
+    drogue_kalman_distance2(&distance2, filter, m->value_q16, m->noise, n);
+    drogue_real_set_q16(&gate, gate_q16);
+    return drogue_real_order(&distance2, &gate) <= 0;
 }
 
 static void restart(drogue_kalman *filter, int p, drogue_q16 value_q16, drogue_q16 std_q16,
@@ -108,40 +111,40 @@ static void forget_angles(drogue_kalman *filter, const measurement *m, const dro
  * N_xx - k^2 N_zz of its own and k^2 P_zz of the corrected z. */
 static void correct(drogue_kalman *filter, const measurement *m, const drogue_track_config *c)
 {
-    const drogue_wide *zz = &m->noise[DROGUE_PACKED(DROGUE_Z, DROGUE_Z)];
+    const drogue_real *zz = &m->noise[DROGUE_PACKED(DROGUE_Z, DROGUE_Z)];
     const drogue_kalman3 *z = &filter->parameter[DROGUE_Z];
     measurement own = *m;
-    drogue_wide variance; /* of the corrected z */
-    drogue_wide rest;
-    drogue_wide least;
-    drogue_wide k;
-    drogue_wide k2;
-    drogue_wide t;
+    drogue_real variance; /* of the corrected z */
+    drogue_real rest;
+    drogue_real least;
+    drogue_real k;
+    drogue_real k2;
+    drogue_real t;
     int p;
-    drogue_wide_sum(&t, &z->covariance[0], zz);
-    drogue_wide_quotient(&t, zz, &t);
-    drogue_wide_set_q16(&rest, m->value_q16[DROGUE_Z]);
-    drogue_wide_difference(&rest, &rest, &z->state[0]);
-    drogue_wide_product(&rest, &rest, &t);
-    drogue_wide_product(&variance, &z->covariance[0], &t);
-    drogue_wide_set_q16(&least, at_least_one(c->position_floor_m_q16));
-    drogue_wide_product(&least, &least, &least);
+    drogue_real_sum(&t, &z->variance[0], zz);
+    drogue_real_quotient(&t, zz, &t);
+    drogue_real_set_q16(&rest, m->value_q16[DROGUE_Z]);
+    drogue_real_difference(&rest, &rest, &z->state[0]);
+    drogue_real_product(&rest, &rest, &t);
+    drogue_real_product(&variance, &z->variance[0], &t);
+    drogue_real_set_q16(&least, at_least_one(c->position_floor_m_q16));
+    drogue_real_product(&least, &least, &least);
     for (p = DROGUE_X; p <= DROGUE_Y; p++) {
-        drogue_wide_quotient(&k, &m->noise[DROGUE_PACKED(DROGUE_Z, p)], zz);
-        drogue_wide_product(&k2, &k, &k);
-        drogue_wide_product(&t, &k2, zz);
-        drogue_wide_difference(&t, &m->noise[DROGUE_PACKED(p, p)], &t);
-        if (drogue_wide_order(&t, &least) < 0) {
+        drogue_real_quotient(&k, &m->noise[DROGUE_PACKED(DROGUE_Z, p)], zz);
+        drogue_real_product(&k2, &k, &k);
+        drogue_real_copy(&t, &m->noise[DROGUE_PACKED(p, p)]);
+        drogue_real_subtract_product(&t, &k2, zz);
+        if (drogue_real_order(&t, &least) < 0) {
             t = least;
         }
-        drogue_wide_product(&k2, &k2, &variance);
-        drogue_wide_sum(&t, &t, &k2);
-        drogue_wide_root(&t, &t);
-        own.std_q16[p] = at_least_one(drogue_wide_to_q16(t));
-        drogue_wide_product(&k, &k, &rest);
-        drogue_wide_set_q16(&t, m->value_q16[p]);
-        drogue_wide_difference(&t, &t, &k);
-        own.value_q16[p] = drogue_wide_to_q16(t);
+        drogue_real_product(&k2, &k2, &variance);
+        drogue_real_sum(&t, &t, &k2);
+        drogue_real_root(&t, &t);
+        own.std_q16[p] = at_least_one(drogue_real_to_q16(t));
+        drogue_real_product(&k, &k, &rest);
+        drogue_real_set_q16(&t, m->value_q16[p]);
+        drogue_real_difference(&t, &t, &k);
+        own.value_q16[p] = drogue_real_to_q16(t);
     }
     drogue_kalman_correct(filter, own.value_q16, own.std_q16);
 }
@@ -193,9 +196,12 @@ static drogue_track_state refuse(drogue_track *track, const measurement *m, int 
 /* The orientation is open: the pose nearer to the prediction. */
 static drogue_track_state end_unresolved(drogue_track *track, const measurement *pose, const measurement *twin)
 {
-    const drogue_wide d = drogue_kalman_distance2(&track->filter, pose->value_q16, pose->noise, DROGUE_PARAMETERS);
-    const drogue_wide e = drogue_kalman_distance2(&track->filter, twin->value_q16, twin->noise, DROGUE_PARAMETERS);
-    const measurement *nearer = drogue_wide_order(&e, &d) < 0 ? twin : pose;
+    const measurement *nearer;
+    drogue_real d;
+    drogue_real e;
+    drogue_kalman_distance2(&d, &track->filter, pose->value_q16, pose->noise, DROGUE_PARAMETERS);
+    drogue_kalman_distance2(&e, &track->filter, twin->value_q16, twin->noise, DROGUE_PARAMETERS);
+    nearer = drogue_real_order(&e, &d) < 0 ? twin : pose;
     if (!passes(&track->filter, nearer, DROGUE_PARAMETERS, track->config.gate_q16)) {
         return refuse(track, nearer, 0);
     }

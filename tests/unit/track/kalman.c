@@ -105,17 +105,46 @@ static double worst_state(const model *m, const drogue_kalman *filter)
     return worst;
 }
 
-static double real_of_wide(drogue_wide v) { return ldexp((double)v.mantissa, v.exponent); }
+static double real_of(drogue_real v) { return ldexp((double)v.mantissa, v.exponent); }
+
+/* Covariance of one parameter from its factors, p00 p01 p02 p11 p12 p22. */
+static void covariance_of(double p[6], const drogue_kalman3 *f)
+{
+    const double d0 = real_of(f->variance[0]), d1 = real_of(f->variance[1]), d2 = real_of(f->variance[2]);
+    const double a = real_of(f->slope[0]), b = real_of(f->slope[1]), c = real_of(f->slope[2]);
+    p[0] = d0;
+    p[1] = a * d0;
+    p[2] = b * d0;
+    p[3] = a * a * d0 + d1;
+    p[4] = a * b * d0 + c * d1;
+    p[5] = b * b * d0 + c * c * d1 + d2;
+}
 
 static void must_be_positive(const drogue_kalman *filter)
 {
-    int i;
+    int i, k;
     for (i = 0; i < PARAMETERS; i++) {
-        const drogue_wide *c = filter->parameter[i].covariance;
-        double p00 = real_of_wide(c[0]), p01 = real_of_wide(c[1]), p11 = real_of_wide(c[3]), p22 = real_of_wide(c[5]);
-        MUST(p00 >= 0 && p11 >= 0 && p22 >= 0 && p00 * p11 - p01 * p01 >= -1e-12 * p00 * p11,
-             "covariance of parameter %d", i);
+        for (k = 0; k < 3; k++) {
+            MUST(filter->parameter[i].variance[k].mantissa >= 0, "variance %d of parameter %d", k, i);
+        }
     }
+}
+
+/* Largest difference of a covariance from the model's, over the standard deviations of both states. */
+static double worst_covariance(const model *m, const drogue_kalman *filter)
+{
+    static const int row[6] = {0, 0, 0, 1, 1, 2}, column[6] = {0, 1, 2, 1, 2, 2};
+    double worst = 0;
+    int i, k;
+    for (i = 0; i < PARAMETERS; i++) {
+        double p[6];
+        covariance_of(p, &filter->parameter[i]);
+        for (k = 0; k < 6; k++) {
+            const int r = 5 * row[k] + i, c = 5 * column[k] + i;
+            worst = fmax(worst, fabs(p[k] - m->p[r][c]) / sqrt(m->p[r][r] * m->p[c][c]));
+        }
+    }
+    return worst;
 }
 
 static const drogue_q16 start_std[PARAMETERS][3] = {
@@ -129,7 +158,7 @@ START_TEST(same_states_as_fifteen_in_one)
     for (run = 0; run < 10; run++) {
         drogue_kalman filter;
         model m;
-        double t = 0, worst = 0;
+        double t = 0, worst = 0, apart = 0;
         drogue_q16 value[PARAMETERS], std[PARAMETERS], process[PARAMETERS];
         for (i = 0; i < PARAMETERS; i++) {
             process[i] = rng_range(&rng, 0, 65536);
@@ -153,9 +182,11 @@ START_TEST(same_states_as_fifteen_in_one)
                 model_correct(&m, value, std);
             }
             worst = fmax(worst, worst_state(&m, &filter));
+            apart = fmax(apart, worst_covariance(&m, &filter));
             must_be_positive(&filter);
         }
-        MUST(worst <= 16.0, "run %d: off by %.3f LSB", run, worst);
+        MUST(worst <= 1.0, "run %d: off by %.3f LSB", run, worst);
+        MUST(apart <= 1e-6, "run %d: covariance off by %.3g", run, apart);
     }
 }
 END_TEST
@@ -219,6 +250,39 @@ START_TEST(ends_of_the_ranges)
 }
 END_TEST
 
+/* A start and a step so far apart that a covariance corrected in Joseph's form, with mantissas of 62 bits, had a rate of
+ * variance -3e-5. */
+START_TEST(no_negative_variance)
+{
+    const drogue_q16 value[PARAMETERS] = {0, 0, 0, 0, 0}, std[PARAMETERS] = {12, 12, 12, 12, 12};
+    drogue_q16 far_std[PARAMETERS][3];
+    drogue_kalman filter;
+    double p[6];
+    int i, k;
+    for (i = 0; i < PARAMETERS; i++) {
+        far_std[i][0] = 14;
+        far_std[i][1] = 5;
+        far_std[i][2] = 931817865;
+    }
+    drogue_kalman_init(&filter, value, (const drogue_q16(*)[3])far_std);
+    drogue_kalman_predict(&filter, 674651533, std);
+    drogue_kalman_correct(&filter, value, std);
+    must_be_positive(&filter);
+    covariance_of(p, &filter.parameter[0]);
+    {   /* rate - 2 / dt value does not depend on the acceleration: 7.6e-5; before the correction it was 9.6e6, and to that
+           mantissas of 31 bits are true */
+        const double dt = 674.651533, before = 931817865.0 / 65536 * dt, rate = 5.0 / 65536;
+        MUST(p[3] > 0 && fabs(sqrt(p[3]) - rate) < ldexp(before, -31), "standard deviation of the rate %g", sqrt(p[3]));
+        MUST(p[5] > 0, "variance of the acceleration %g", p[5]);
+    }
+    for (k = 0; k < 1000; k++) {
+        drogue_kalman_predict(&filter, 674651533, std);
+        drogue_kalman_correct(&filter, value, std);
+        must_be_positive(&filter);
+    }
+}
+END_TEST
+
 START_TEST(states_saturate)
 {
     drogue_kalman filter;
@@ -243,4 +307,5 @@ START_TEST(states_saturate)
 }
 END_TEST
 
-SUITE_MAIN("kalman", same_states_as_fifteen_in_one, angles_pass_half_a_turn, ends_of_the_ranges, states_saturate)
+SUITE_MAIN("kalman", same_states_as_fifteen_in_one, angles_pass_half_a_turn, ends_of_the_ranges,
+           no_negative_variance, states_saturate)
