@@ -102,7 +102,7 @@ drogue_q16 drogue_q16_atan2(drogue_q16 y, drogue_q16 x);
 /* Sine and cosine.
  *
  *  sin_q30, cos_q30  out, Q30
- *  angle_rad_q29     rad Q29 in [-pi, pi]
+ *  angle_rad_q29     rad Q29, any but INT32_MIN
  *  error             <= 2^-29
  */
 void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29);

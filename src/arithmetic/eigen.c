@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Symmetric 3x3 eigenproblem by cyclic Jacobi rotations (Jacobi 1846; Rutishauser's update of the vectors). */
+/* Symmetric 3x3 eigenproblem by cyclic Jacobi rotations (Jacobi 1846). */
 #include "drogue/eigen.h"
 
 #define MAX_SWEEPS 8
 #define ONE_Q30 (1 << 30)
 #define NEGLIGIBLE_BITS 33 /* an off-diagonal entry this far below the geometric mean of its diagonal ones */
 
-static inline int32_t mul_q30(int32_t a, int32_t b)
-{
-    const int64_t product = (int64_t)a * b;
-    return (int32_t)((product + (ONE_Q30 >> 1)) >> 30);
-}
+/* v / 2^32, rounded */
+static inline int32_t upper(int64_t v) { return (int32_t)((v + (INT64_C(1) << 31)) >> 32); }
 
 /* Index of entry (i, j). */
 static inline int at(int i, int j) { return i == 0 ? j : j == 0 ? i : i + j + 1; }
@@ -35,8 +32,8 @@ typedef struct turn {
     drogue_real tangent;
     drogue_real sine;
     drogue_real cosine;
-    int32_t sine_q30;
-    int32_t half_q30; /* tangent of half the angle */
+    int32_t sine_q31;
+    int32_t less_q32; /* 1 - the cosine */
 } turn;
 
 /* That which zeroes a_pq. */
@@ -45,7 +42,7 @@ static void turn_of(turn *out, const drogue_real *a_pp, const drogue_real *a_pq,
     const drogue_real one = {ONE_Q30, -30};
     drogue_real d;
     drogue_real t;
-    drogue_real c; /* the hypotenuse, then half the angle's tangent */
+    drogue_real c; /* the hypotenuse, then what the cosine lacks */
     drogue_real_difference(&d, a_qq, a_pp);
     drogue_real_copy(&t, a_pq);
     drogue_real_shift(&t, 1);
@@ -58,8 +55,9 @@ static void turn_of(turn *out, const drogue_real *a_pp, const drogue_real *a_pq,
     drogue_real_quotient(&out->cosine, &one, &c);
     drogue_real_product(&out->sine, &out->tangent, &out->cosine);
     share(&c, &out->sine, &one, &out->cosine);
-    out->sine_q30 = drogue_real_to_s32(out->sine, 30);
-    out->half_q30 = drogue_real_to_s32(c, 30);
+    drogue_real_product(&c, &c, &out->sine); /* times the tangent of half the angle */
+    out->sine_q31 = drogue_real_to_s32(out->sine, 31);
+    out->less_q32 = drogue_real_to_s32(c, 32);
 }
 
 static int negligible(const drogue_real *off, const drogue_real *pp, const drogue_real *qq)
@@ -95,18 +93,11 @@ static int jacobi_step(drogue_real a[6], int32_t v[3][3], int p, int q, int r)
     for (k = 0; k < 3; k++) {
         const int32_t g = v[p][k];
         const int32_t h = v[q][k];
-        v[p][k] = g - mul_q30(by.sine_q30, h + mul_q30(by.half_q30, g));
-        v[q][k] = h + mul_q30(by.sine_q30, g - mul_q30(by.half_q30, h));
+        v[p][k] = g - upper(2 * (int64_t)by.sine_q31 * h + (int64_t)by.less_q32 * g);
+        v[q][k] = h + upper(2 * (int64_t)by.sine_q31 * g - (int64_t)by.less_q32 * h);
         DROGUE_NOTE("eigen: vector, Q30", v[p][k], 31);
     }
     return 1;
-}
-
-static void negate3(int32_t v[3])
-{
-    v[0] = -v[0];
-    v[1] = -v[1];
-    v[2] = -v[2];
 }
 
 /* Make the component of largest magnitude positive. */
@@ -120,21 +111,42 @@ static void fix_sign(int32_t v[3])
         }
     }
     if (v[most] < 0) {
-        negate3(v);
+        v[0] = -v[0];
+        v[1] = -v[1];
+        v[2] = -v[2];
     }
 }
 
-/* v0 . (v1 x v2), Q30 */
-static int32_t triple_q30(int32_t v[3][3])
+static int64_t dot_q60(const int32_t a_q30[3], const int32_t b_q30[3])
 {
-    int32_t sum = 0;
+    return (int64_t)a_q30[0] * b_q30[0] + (int64_t)a_q30[1] * b_q30[1] + (int64_t)a_q30[2] * b_q30[2];
+}
+
+/* v -= excess u for a small excess */
+static void take(int32_t v[3], int64_t excess_q60, const int32_t u[3])
+{
+    const int64_t excess_q44 = excess_q60 >> 16;
     int k;
+    for (k = 0; k < 3; k++) {
+        v[k] -= (int32_t)((excess_q44 * u[k] + (INT64_C(1) << 43)) >> 44);
+    }
+}
+
+/* Rotations leave the vectors orthonormal to their rounding, which adds up: once more. With signs; the third follows. */
+static void straighten(int32_t v[3][3])
+{
+    const int64_t one_q60 = INT64_C(1) << 60;
+    int k;
+    take(v[0], (dot_q60(v[0], v[0]) - one_q60) / 2, v[0]);
+    take(v[1], dot_q60(v[0], v[1]), v[0]);
+    take(v[1], (dot_q60(v[1], v[1]) - one_q60) / 2, v[1]);
+    fix_sign(v[0]);
+    fix_sign(v[1]);
     for (k = 0; k < 3; k++) {
         const int i = (k + 1) % 3;
         const int j = (k + 2) % 3;
-        sum += mul_q30(v[0][k], mul_q30(v[1][i], v[2][j]) - mul_q30(v[1][j], v[2][i]));
+        v[2][k] = (int32_t)drogue_shr_round_s64((int64_t)v[0][i] * v[1][j] - (int64_t)v[0][j] * v[1][i], 30);
     }
-    return sum;
 }
 
 int drogue_eigen_sym3(drogue_eigen3 *out, const drogue_real matrix[6])
@@ -168,10 +180,6 @@ int drogue_eigen_sym3(drogue_eigen3 *out, const drogue_real matrix[6])
             out->vector_q30[k][i] = v[order[k]][i];
         }
     }
-    fix_sign(out->vector_q30[0]);
-    fix_sign(out->vector_q30[1]);
-    if (triple_q30(out->vector_q30) < 0) {
-        negate3(out->vector_q30[2]);
-    }
+    straighten(out->vector_q30);
     return sweep;
 }

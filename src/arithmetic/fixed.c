@@ -217,7 +217,9 @@ void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29
     /* The first quarter turn, then its nearest end: the angle from there is at most pi / 4. */
     const int32_t size_q29 = angle_rad_q29 < 0 ? -angle_rad_q29 : angle_rad_q29;
     const int obtuse = size_q29 > HALF_PI_Q32 >> 3;
-    const int64_t acute_q32 = obtuse ? PI_Q32 - (int64_t)size_q29 * 8 : (int64_t)size_q29 * 8;
+    const int64_t turned_q32 = obtuse ? PI_Q32 - (int64_t)size_q29 * 8 : (int64_t)size_q29 * 8;
+    const int past = turned_q32 < 0; /* pi, as twice half a turn in Q16 may be */
+    const int64_t acute_q32 = past ? -turned_q32 : turned_q32;
     const int steep = acute_q32 > QUARTER_PI_Q32;
     const uint32_t rest_q32 = (uint32_t)(steep ? HALF_PI_Q32 - acute_q32 : acute_q32);
     const uint32_t square_q32 = upper(rest_q32, rest_q32);
@@ -227,7 +229,7 @@ void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29
     const int32_t c = (1 << 30) - (int32_t)((cos_less_q32 + 1) >> 2);
     const int32_t across = steep ? c : s;
     const int32_t along = steep ? s : c;
-    *sin_q30 = angle_rad_q29 < 0 ? -across : across;
+    *sin_q30 = (angle_rad_q29 < 0) != past ? -across : across;
     *cos_q30 = obtuse ? -along : along;
 }
 

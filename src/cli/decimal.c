@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "drogue/wide.h"
+#include "drogue/fixed.h"
 
 #define FIVE_TO_17 UINT64_C(762939453125)
 
@@ -157,10 +157,18 @@ void decimal_format_q16(char out[DECIMAL_TEXT], drogue_q16 value, int decimals)
     decimal_format(out, drogue_shr_round_s64(value * power_of_ten(decimals), 16), decimals);
 }
 
+/* v * factor / 2^32 rounded to nearest, ties toward +infinity; factor >= 0, the result must fit. */
+static int64_t scaled(int64_t v, int64_t factor)
+{
+    const int64_t low = (int64_t)(uint32_t)v;
+    const uint64_t last = (uint64_t)low * (uint32_t)factor + (UINT32_C(1) << 31);
+    return (v >> 32) * factor + low * (factor >> 32) + (int64_t)(last >> 32);
+}
+
 void decimal_format_degrees(char out[DECIMAL_TEXT], drogue_q16 angle_rad_q16, int decimals)
 {
     /* 180 / pi * 10^6 over 2^16, Q32. */
-    int64_t millionths = drogue_mul_shr_round_s64(angle_rad_q16, INT64_C(3754936206169), 32);
+    int64_t millionths = scaled(angle_rad_q16, INT64_C(3754936206169));
     decimal_format(out, drogue_div_round_s64(millionths, power_of_ten(6 - decimals)), decimals);
 }
 
@@ -250,7 +258,7 @@ void decimal_format_binary(char out[DECIMAL_TEXT], int64_t value, int frac_bits,
 void decimal_format_degrees_q32(char out[DECIMAL_TEXT], int64_t angle_rad_q32, int digits)
 {
     /* 180 / pi, Q48 */
-    decimal_format_binary(out, drogue_mul_shr_round_s64(angle_rad_q32, INT64_C(16127328204063727), 32), 48, digits);
+    decimal_format_binary(out, scaled(angle_rad_q32, INT64_C(16127328204063727)), 48, digits);
 }
 
 void decimal_trim(char text[DECIMAL_TEXT])

@@ -207,28 +207,28 @@ int stage_eigen(stage_run *r)
     const int64_t *w = (const int64_t *)r->in[0].data;
     int32_t *values = stage_output32(r, "values", 3);
     int32_t *vectors = stage_output32(r, "vectors", 9);
-    int64_t *full = (int64_t *)stage_output(r, "full", 64, 12);
+    int32_t *full = stage_output32(r, "full", 6);
     const int64_t most = INT64_C(1) << 59;
-    drogue_sym3 matrix;
+    drogue_real matrix[6];
     drogue_eigen3 eigen;
     int i;
     if (values == NULL || vectors == NULL || full == NULL) {
         return CONF_E_MEMORY;
     }
     for (i = 0; i < 6; i++) {
-        matrix.a[i] = w[i];
+        drogue_real_set(&matrix[i], w[i], -60);
         if (w[i] < -most || w[i] > most) {
             return CONF_E_MALFORMED;
         }
     }
-    (void)drogue_eigen_sym3(&eigen, &matrix);
+    (void)drogue_eigen_sym3(&eigen, matrix);
     for (i = 0; i < 3; i++) {
-        full[i] = eigen.value[i];
-        values[i] = (int32_t)drogue_shr_round_s64(full[i], 30);
+        full[2 * i] = eigen.value[i].mantissa;
+        full[2 * i + 1] = eigen.value[i].exponent;
+        values[i] = drogue_real_to_s32(eigen.value[i], 30);
     }
     for (i = 0; i < 9; i++) {
-        full[3 + i] = eigen.vector_q60[i / 3][i % 3];
-        vectors[i] = (int32_t)drogue_shr_round_s64(full[3 + i], 30);
+        vectors[i] = eigen.vector_q30[i / 3][i % 3];
     }
     return 0;
 }

@@ -119,18 +119,18 @@ static int support_of_words(drogue_support *support, const int32_t *bins, int32_
     return gradient >= 0;
 }
 
-static void put_packed(int64_t *at, const drogue_wide *packed)
+static void put_packed(int64_t *at, const drogue_real *packed)
 {
     int k;
     for (k = 0; k < DROGUE_PACKED_MAX; k++) {
-        at[k] = drogue_wide_to_s64(packed[k], 48);
+        at[k] = drogue_real_to_s64(packed[k], 48);
     }
 }
 
 static void put_joint(int32_t *out, const drogue_joint *joint)
 {
     (void)stage_put_pose(out, &joint->pose);
-    out[8] = drogue_wide_to_q16(joint->chi2);
+    out[8] = drogue_real_to_q16(joint->chi2);
 }
 
 int stage_joint(stage_run *r)

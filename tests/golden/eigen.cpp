@@ -26,6 +26,11 @@ cv::Matx33d random_matrix(const double spectrum[3], std::uint64_t *rng)
     return largest > 0 ? r * (rng_real(rng, 0.26, 0.99) * 0x1p59 / largest) : r;
 }
 
+long double value_of(const drogue_eigen3 &e, std::size_t k)
+{
+    return std::ldexp((long double)e.value[k].mantissa, e.value[k].exponent);
+}
+
 /* Worst differences of values and vectors, in LSB, signs aside. */
 struct Difference {
     double values = 0, vectors = 0;
@@ -37,11 +42,11 @@ Difference difference(const drogue_eigen3 &got, const reference::Eigen3 &expecte
     for (std::size_t k = 0; k < 3; k++) {
         double minus = 0, plus = 0;
         for (std::size_t i = 0; i < 3; i++) {
-            const long double v = std::ldexp((long double)got.vector_q60[k][i], -60), w = expected.vector[k][i];
+            const long double v = std::ldexp((long double)got.vector_q30[k][i], -30), w = expected.vector[k][i];
             minus = std::max(minus, (double)std::fabs(v - w));
             plus = std::max(plus, (double)std::fabs(v + w));
         }
-        d.values = std::max(d.values, (double)std::fabs((long double)got.value[k] - expected.value[k]) / LSB);
+        d.values = std::max(d.values, (double)std::fabs(value_of(got, k) - expected.value[k]) / LSB);
         d.vectors = std::max(d.vectors, std::min(minus, plus) * 0x1p30);
     }
     return d;
@@ -68,8 +73,8 @@ int main()
     static const double spectra[][3] = {{1, 0.3, -0.5},    {1, 2e-4, -1}, {2e-4, 1.9e-4, -1},
                                         {1, 1 - 1e-9, -1}, {1, 1, -2e-4}, {1, 1e-7, -2e-4},
                                         {1, 1, 1},         {1, 0, 0},     {1, 1e-14, -1e-14}};
-    Report values("eigenvalues", 2), residual("eigen_residual", 2), vectors("eigenvectors", 16);
-    Report opencv_values("eigenvalues_opencv", 2), opencv_vectors("eigenvectors_opencv", 16);
+    Report values("eigenvalues", 4), residual("eigen_residual", 8), vectors("eigenvectors", 16);
+    Report opencv_values("eigenvalues_opencv", 4), opencv_vectors("eigenvectors_opencv", 16);
     long number = 0;
     for (const auto &spectrum : spectra) {
         for (int i = 0; i < 500; i++) {
@@ -82,15 +87,17 @@ int main()
             const std::array<double, 6> a = {(double)entries[0], (double)entries[1], (double)entries[2],
                                              (double)entries[3], (double)entries[4], (double)entries[5]};
             const cv::Matx33d exact(a[0], a[1], a[2], a[1], a[3], a[4], a[2], a[4], a[5]);
-            drogue_sym3 s;
+            drogue_real s[6];
             drogue_eigen3 got;
-            std::copy(entries.begin(), entries.end(), s.a);
-            (void)drogue_eigen_sym3(&got, &s);
+            for (std::size_t k = 0; k < 6; k++) {
+                drogue_real_set(&s[k], entries[k], 0);
+            }
+            (void)drogue_eigen_sym3(&got, s);
             double residual_error = 0;
             for (int k = 0; k < 3; k++) {
-                const cv::Vec3d v((double)got.vector_q60[k][0] * 0x1p-60, (double)got.vector_q60[k][1] * 0x1p-60,
-                                  (double)got.vector_q60[k][2] * 0x1p-60);
-                const cv::Vec3d r = exact * v - (double)got.value[k] * v;
+                const cv::Vec3d v((double)got.vector_q30[k][0] * 0x1p-30, (double)got.vector_q30[k][1] * 0x1p-30,
+                                  (double)got.vector_q30[k][2] * 0x1p-30);
+                const cv::Vec3d r = exact * v - (double)value_of(got, (std::size_t)k) * v;
                 residual_error = std::max(residual_error, cv::norm(r, cv::NORM_INF) / LSB);
             }
             const Difference d = difference(got, reference::eigen(entries)), o = difference(got, opencv_eigen(exact));

@@ -62,7 +62,7 @@ int format_of(const std::string &stage, const std::string &output)
                                                        {"disc/part", 16},
                                                        {"eigen/values", 30},
                                                        {"eigen/vectors", 30},
-                                                       {"eigen/full", 60},
+                                                       {"eigen/full", 0},
                                                        {"undistort/undistorted", 16},
                                                        {"undistort/distorted", 16},
                                                        {"pose/pose", 16},

@@ -5,11 +5,11 @@
 #include "drogue/ellipse.h"
 #include "geometry.h"
 
-__extension__ typedef __int128 wide128;
+__extension__ typedef __int128 s128;
 
-static wide128 value_of(drogue_s128 v) { return (wide128)v.hi * 2 * ((wide128)1 << 63) + v.lo; }
+static s128 value_of(drogue_long_sum v) { return (s128)v.high * ((s128)1 << 32) + (s128)v.low; }
 
-static void check_moments(const drogue_moments *m, const wide128 s[5][5])
+static void check_moments(const drogue_moments *m, const s128 s[5][5])
 {
     ck_assert(m->n == s[0][0] && m->m10 == s[1][0] && m->m01 == s[0][1]);
     ck_assert(m->m20 == s[2][0] && m->m11 == s[1][1] && m->m02 == s[0][2]);
@@ -18,12 +18,12 @@ static void check_moments(const drogue_moments *m, const wide128 s[5][5])
     ck_assert(value_of(m->m13) == s[1][3] && value_of(m->m04) == s[0][4]);
 }
 
-static void model_add(wide128 s[5][5], int32_t x, int32_t y)
+static void model_add(s128 s[5][5], int32_t x, int32_t y)
 {
-    wide128 px = 1;
+    s128 px = 1;
     int p, q;
     for (p = 0; p <= 4; p++, px *= x) {
-        wide128 v = px;
+        s128 v = px;
         for (q = 0; p + q <= 4; q++, v *= y) {
             s[p][q] += v;
         }
@@ -35,7 +35,7 @@ START_TEST(moments_are_exact_sums)
     uint64_t rng = 1;
     int round, i;
     for (round = 0; round < 300; round++) {
-        wide128 s[5][5];
+        s128 s[5][5];
         drogue_moments sum;
         memset(s, 0, sizeof s);
         drogue_moments_clear(&sum);
@@ -44,7 +44,7 @@ START_TEST(moments_are_exact_sums)
             model_add(s, x, y);
             drogue_moments_add_point(&sum, x, y);
         }
-        check_moments(&sum, (const wide128(*)[5])s);
+        check_moments(&sum, (const s128(*)[5])s);
     }
 }
 END_TEST
@@ -54,7 +54,7 @@ START_TEST(moments_hold_the_most_points)
     static const int32_t corner[4][2] = {{-32768, -32768}, {-32768, 32767}, {32767, -32768}, {32767, 32767}};
     int c, i;
     for (c = 0; c < 4; c++) {
-        wide128 s[5][5];
+        s128 s[5][5];
         drogue_moments m;
         memset(s, 0, sizeof s);
         drogue_moments_clear(&m);
@@ -62,7 +62,7 @@ START_TEST(moments_hold_the_most_points)
             model_add(s, corner[c][0], corner[c][1]);
             drogue_moments_add_point(&m, corner[c][0], corner[c][1]);
         }
-        check_moments(&m, (const wide128(*)[5])s);
+        check_moments(&m, (const s128(*)[5])s);
     }
 }
 END_TEST

@@ -306,7 +306,7 @@ START_TEST(what_cannot_be_solved)
     ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &broken, &inner, &f.camera, &f.model, 5),
                      DROGUE_E_DEGENERATE);
     broken = outline;
-    broken.covariance[DROGUE_PACKED(4, 4)] = drogue_real_neg(broken.covariance[DROGUE_PACKED(4, 4)]);
+    drogue_real_negate(&broken.covariance[DROGUE_PACKED(4, 4)]);
     ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &broken, &inner, &f.camera, &f.model, 5),
                      DROGUE_E_DEGENERATE);
     f.model.inner_depth_m_q16 = q16_of(-6);
