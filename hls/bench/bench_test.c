@@ -6,7 +6,7 @@
 
 static const int32_t words[] = {7, -8, 9};
 static const int32_t other_words[] = {7, -8, 10};
-static const uint32_t bound = 0;
+static const uint64_t bound = 0;
 static const conf_array input = {"in", 32, 3, words, 0, 0};
 static const conf_expected expected = {{"out", 32, 3, words, 0, 0}, &bound, 1};
 static const conf_case first[] = {{"a/one", "a", "ordinary", &input, 1, NULL, 0, &expected, 1},

@@ -64,7 +64,7 @@ drogue_status drogue_inner_find(drogue_inner_part *out, uint32_t *which, drogue_
                                 const drogue_image *image, const drogue_mask *disc,
                                 const drogue_inner_expected *expected);
 
-/* Area of a inner part over that of an expected disc, Q16, saturated. */
+/* Area of an inner part over that of an expected disc, Q16, saturated. */
 drogue_q16 drogue_inner_fill(const drogue_inner_part *part, const drogue_ellipse *expected);
 
 /* Images of the inner disc for both poses, as seen: a pose whose disc is behind the camera, edge-on or under a pixel has
@@ -78,7 +78,7 @@ void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose pose
 /* Where to look: a disc about the outline's centre of 5/6 of its semi-minor axis. */
 drogue_mask drogue_inner_disc(const drogue_ellipse *outline);
 
-/* Standard deviation of a inner part's centroid as that of the expected disc: a floor, a share of the disc's size, and
+/* Standard deviation of an inner part's centroid as that of the expected disc: a floor, a share of the disc's size, and
  * what the threshold moves it.
  *
  *  part, expected, outline  region coordinates

@@ -97,32 +97,66 @@ typedef struct comparison {
     int exact;    /* no word differs */
 } comparison;
 
-static comparison compare(conf_stage_report *report, const conf_expected *expected, const conf_array *found)
+static void raise_to(uint64_t *most, uint64_t v) { *most = v > *most ? v : *most; }
+
+/* 10^-9 of the whole; saturated. */
+static uint64_t share(uint64_t part, uint64_t whole)
+{
+    while (part > UINT64_MAX / 1000000000u) {
+        part >>= 1;
+        whole >>= 1;
+    }
+    return whole > 0 ? part * 1000000000u / whole : part > 0 ? UINT64_MAX : 0;
+}
+
+/* Enter a word that may differ, or is undefined, in its row. */
+static void note_word(conf_run *run, const char *stage, const conf_array *expected, size_t i, uint64_t d,
+                      uint64_t bound)
+{
+    const conf_measure *m = conf_measure_of(stage, expected->name, i);
+    conf_words_report *r = m != NULL ? &run->words[m - conf_measures] : NULL;
+    uint64_t beside = m != NULL && (m->kind == CONF_OF_ITSELF || m->kind == CONF_OF_SCALE) ? m->base_lsb : 0;
+    if (r == NULL) {
+        return;
+    }
+    if (bound == CONF_UNDEFINED) {
+        r->undefined++;
+        return;
+    }
+    r->words++;
+    raise_to(&r->worst_percent, (d > UINT64_MAX / 100 ? UINT64_MAX : d * 100) / bound);
+    raise_to(&r->worst, d > beside ? share(d, conf_measure_whole(m, expected, i)) : 0);
+    raise_to(&r->bound, bound > beside ? share(bound - beside, conf_measure_whole(m, expected, i)) : 0);
+}
+
+/* Compare with one expected array, and enter its words where 'report' is one. */
+static comparison compare(conf_run *run, conf_stage_report *report, const char *stage, const conf_expected *expected,
+                          const conf_array *found)
 {
     comparison r = {0, 0, 1};
     size_t i;
     for (i = 0; i < found->count; i++) {
         uint64_t bound = expected->bound[i % expected->bound_count];
         uint64_t d = difference(conf_word(&expected->array, i), conf_word(found, i));
-        if (d != 0) {
+        if (d != 0 && bound != CONF_UNDEFINED) {
             r.exact = 0;
         }
         if (d > bound && r.off++ == 0) {
             r.first = i;
         }
-        if (report != NULL) {
-            if (d > report->worst_lsb) {
-                report->worst_lsb = d;
-            }
-            if (bound > report->bound_lsb) {
-                report->bound_lsb = bound;
-            }
-            if (bound > 0) {
-                uint64_t percent = (d > UINT64_MAX / 100 ? UINT64_MAX : d * 100) / bound;
-                report->worst_percent = percent > report->worst_percent ? percent : report->worst_percent;
-                report->sum_lsb += d;
-                report->words++;
-            }
+        if (report == NULL) {
+            continue;
+        }
+        if (bound == 0) {
+            report->exact_words++;
+        } else if (bound == CONF_UNDEFINED) {
+            report->undefined++;
+        } else {
+            report->bounded_words++;
+            raise_to(&report->worst_percent, (d > UINT64_MAX / 100 ? UINT64_MAX : d * 100) / bound);
+        }
+        if (bound != 0) {
+            note_word(run, stage, &expected->array, i, d, bound);
         }
     }
     return r;
@@ -191,7 +225,7 @@ static int compare_array(conf_run *run, conf_stage_report *report, int *exact, c
         run->put("\n");
         return 1;
     }
-    r = compare(report, expected, found);
+    r = compare(run, report, c->stage, expected, found);
     if (r.off > 0) {
         put_words_off(run->put, c, tier, expected, found, &r);
     }
@@ -285,9 +319,22 @@ static void put_stage(conf_put put, const char *name, const conf_stage_report *r
     put_decimal(put, r->cases, 6);
     put_decimal(put, r->exact, 7);
     put_decimal(put, r->failed, 7);
-    put_decimal(put, r->worst_lsb, 12);
-    put_thousandths(put, r->words > 0 ? (r->sum_lsb * 1000 + r->words / 2) / r->words : 0, 12);
-    put_decimal(put, r->bound_lsb, 12);
+    put_decimal(put, r->exact_words, 13);
+    put_decimal(put, r->bounded_words, 9);
+    put_decimal(put, r->undefined, 10);
+    put_decimal(put, r->worst_percent, 12);
+    put("\n");
+}
+
+static void put_words(conf_put put, const conf_measure *m, const conf_words_report *r)
+{
+    put_padded(put, m->stage != NULL ? m->stage : "all", 12);
+    put_padded(put, m->name, 16);
+    put_padded(put, m->unit, 6);
+    put_decimal(put, r->words, 9);
+    put_decimal(put, r->undefined, 10);
+    put_thousandths(put, r->worst, 12);
+    put_thousandths(put, r->bound, 12);
     put_decimal(put, r->worst_percent, 10);
     put("\n");
 }
@@ -299,7 +346,7 @@ int conf_end(conf_run *run)
     uint64_t failed = 0;
     char hex[SHA256_HEX];
     int i;
-    run->put("stage        cases  exact failed   worst LSB    mean LSB   bound LSB  % of it\n");
+    run->put("stage        cases  exact failed  words: exact  bounded undefined  % of bound\n");
     for (i = 0; i < conf_stage_count(); i++) {
         if (run->stages[i].cases > 0) {
             put_stage(run->put, conf_stage_name(i), &run->stages[i]);
@@ -307,6 +354,13 @@ int conf_end(conf_run *run)
         cases += run->stages[i].cases;
         exact += run->stages[i].exact;
         failed += run->stages[i].failed;
+    }
+    run->put("\nwords that may differ, 10^-6 of their unit\n"
+             "stage       what            unit      words undefined       worst       bound   % of it\n");
+    for (i = 0; i < CONF_MEASURES; i++) {
+        if (run->words[i].words > 0 || run->words[i].undefined > 0) {
+            put_words(run->put, &conf_measures[i], &run->words[i]);
+        }
     }
     sha256_end(hex, &run->digest);
     run->put("conformance: cases=");

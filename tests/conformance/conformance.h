@@ -4,7 +4,7 @@
 #define DROGUE_TESTS_CONFORMANCE_H
 
 #include "sha256.h"
-#include "stages.h"
+#include "stages_words.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,7 +13,7 @@ extern "C" {
 /* Expected output, and by how much a word may differ: word i by bound[i % bound_count] LSB. */
 typedef struct conf_expected {
     conf_array array;
-    const uint32_t *bound; /* a single 0 where the class is exact */
+    const uint64_t *bound; /* a single 0 where the class is exact; CONF_UNDEFINED: not compared */
     size_t bound_count;
 } conf_expected;
 
@@ -45,21 +45,30 @@ typedef void (*conf_put)(const char *text);
 /* What a stage's cases gave. */
 typedef struct conf_stage_report {
     uint32_t cases;
-    uint32_t exact;         /* cases whose reference words are all met bit for bit */
+    uint32_t exact;         /* cases whose defined reference words are all met bit for bit */
     uint32_t failed;        /* cases with any word off in either tier */
-    uint64_t worst_lsb;     /* against the reference */
-    uint64_t bound_lsb;     /* the largest allowed */
+    uint64_t exact_words;   /* that must be met bit for bit */
+    uint64_t bounded_words; /* that may differ */
+    uint64_t undefined;     /* words that are not compared with the reference */
     uint64_t worst_percent; /* of a word's own bound */
-    uint64_t sum_lsb;       /* over the words that may differ */
-    uint64_t words;         /* that may differ */
 } conf_stage_report;
 
 #define CONF_MAX_STAGES 19
+
+/* What the words of one row of conf_measures gave. */
+typedef struct conf_words_report {
+    uint64_t words; /* that may differ */
+    uint64_t undefined;
+    uint64_t worst; /* 10^-9 of the unit, against the reference */
+    uint64_t bound; /* the widest; of the relative kinds beside base_lsb */
+    uint64_t worst_percent;
+} conf_words_report;
 
 typedef struct conf_run {
     conf_put put;
     sha256 digest;
     conf_stage_report stages[CONF_MAX_STAGES];
+    conf_words_report words[CONF_MEASURES];
 } conf_run;
 
 void conf_begin(conf_run *run, conf_put put);
@@ -67,7 +76,7 @@ void conf_begin(conf_run *run, conf_put put);
 /* Run a case; a line for each output that is off, naming case, tier, output, first word, expected and found. */
 void conf_run_case(conf_run *run, const conf_case *c);
 
-/* Print the table of stages and the last line; returns 1 when a case failed or none was run, else 0.
+/* Print the table of stages, that of the words that may differ, and the last line; returns 1 when a case failed or none was run, else 0.
  * The digest covers, case by case, the bytes of its id and its output words as little-endian int64. */
 int conf_end(conf_run *run);
 

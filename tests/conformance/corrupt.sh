@@ -133,6 +133,24 @@ fresh && edit '/ellipse.ref.hex/s/"bound": \[[^]]*\], //'
 spoiled 'class lsb without bound' 2 "ellipse/tiny: reference ellipse: field 'bound' is missing"
 fresh && edit '/ellipse.ref.hex/s/"bound": \[0/"bound": [-1/'
 spoiled 'negative bound' 2 "ellipse/tiny: reference ellipse: field 'bound'"
+fresh && edit '/ellipse.ref.hex/s/\[0, 4/[0, 5/'
+spoiled 'bound wider than the measure' 2 "ellipse/tiny: reference ellipse: field 'bound': 5 LSB for word 1 (centre, axes), where 4 is the most"
+fresh && edit '/ellipse.ref.hex/s/\[0, 4/[1, 4/'
+spoiled 'bound of an exact word' 2 "ellipse/tiny: reference ellipse: field 'bound': 1 LSB for word 0 (exact), where 0 is the most"
+fresh && edit '/ellipse.ref.hex/s/4, 64\]/4, 4294967295]/'
+spoiled 'bound that nothing breaks' 2 "ellipse/tiny: reference ellipse: field 'bound': 4294967295 LSB for word 5 (angle), where 1024 is the most"
+fresh && edit '/part.ref.hex/s/3, 0, 2, 0\]/3, 0, 9000, 0]/'
+spoiled 'wide share' 2 "disc/tiny: reference part: field 'bound': 9000 LSB for word 7 (fill), where "
+fresh && edit '/tiny.covariance.ref.hex/s/"class": "exact"/"class": "lsb", "bound": 9007199254740992/'
+spoiled 'wide share of a scale' 2 "joint/tiny: reference covariance: field 'bound': 9007199254740992 LSB for word 0 (covariance), where "
+fresh && edit '/ellipse.ref.hex/s/4, 64\]/4, 9007199254740994]/'
+spoiled 'bound beyond a double' 2 "ellipse/tiny: reference ellipse: field 'bound'"
+fresh && edit '/ellipse.ref.hex/s/\[0, 4/[0, "circle"/'
+spoiled 'undefined what may not be' 2 "ellipse/tiny: reference ellipse: field 'bound': word 1 is not undefined for 'circle'"
+fresh && edit '/ellipse.ref.hex/s/4, 64\]/4, "difficult"]/'
+spoiled 'undefined for no known reason' 2 "ellipse/tiny: reference ellipse: field 'bound': word 5 is not undefined for 'difficult'"
+fresh && edit '/tiny.distance2.ref.hex/d;/verdict.ref.hex/s/},$/}],/'
+spoiled 'output without a class' 2 'constraints/tiny: reference: output distance2 has no class'
 fresh && edit '/ellipse.out.hex/s/"class": "exact"/"class": "lsb", "bound": 9/'
 spoiled 'bound in the bit-exact tier' 2 "ellipse/tiny: exact ellipse: field 'class'"
 fresh && edit "s|\"$points\"|\"../$points\"|"
@@ -159,12 +177,18 @@ fresh && sed -i 3s/.*/00000123/ "$copy/ellipse/tiny.ellipse.out.hex" && resign e
 spoiled 'other exact word' 1 'FAIL ellipse/tiny: exact ellipse word 2: expected 00000123 (291), found ' 'failed=1'
 fresh && edit '/ellipse.ref.hex/s/\[0, 4/[0, 3/'
 spoiled 'bound exceeded' 1 'FAIL ellipse/tiny: reference ellipse word 1: ' 'bound 3, 1 of 6 words off'
+fresh && edit '/ellipse.ref.hex/s/4, 64\]/4, "circle"]/' && sed -i 6s/.*/00001234/ "$copy/ellipse/tiny.ellipse.ref.hex" && resign ellipse/tiny.ellipse.ref.hex
+spoiled 'undefined word of the reference' 0 'failed=0' 'ellipse          1      0      0            1        4         1'
+fresh && edit '/ellipse.ref.hex/s/4, 64\]/4, "circle"]/' && sed -i 6s/.*/00001234/ "$copy/ellipse/tiny.ellipse.out.hex" && resign ellipse/tiny.ellipse.out.hex
+spoiled 'undefined word of the exact tier' 1 'FAIL ellipse/tiny: exact ellipse word 5: expected 00001234' 'failed=1'
 fresh && edit '/centroid.*ref.hex/s/\[0, 0, 0, 1, 1\]/0/'
 spoiled 'no deviation allowed' 1 'FAIL centroid/tiny: reference part word 3: '
-fresh && edit '/"distance2"/d;/verdict.out.hex/s/},$/}]},/'
+fresh && edit '/tiny.distance2.out.hex/d;/verdict.out.hex/s/},$/}]},/'
 spoiled 'unchecked output' 1 'FAIL constraints/tiny: exact distance2: not among the expected outputs'
 fresh && edit '/ellipse.out.hex/s/"name": "ellipse"/"name": "circle"/'
-spoiled 'unknown output' 1 'FAIL ellipse/tiny: exact circle: the stage has no such output'
+spoiled 'renamed output' 2 'ellipse/tiny: reference: output circle has no class'
+fresh && edit '/smooth.tiny.image.[ro]/s/"name": "image"/"name": "picture"/'
+spoiled 'unknown output' 1 'FAIL smooth/tiny: reference picture: the stage has no such output' 'FAIL smooth/tiny: exact picture: the stage has no such output'
 fresh && sed -i 6d "$copy/ellipse/tiny.ellipse.out.hex" && edit '/ellipse.out.hex/s/"count": 6/"count": 5/' && resign ellipse/tiny.ellipse.out.hex
 spoiled 'fewer words' 1 'FAIL ellipse/tiny: exact ellipse: expected 5 words of 32 bits, found 6 words of 32 bits'
 fresh && echo 00000000 >>"$copy/eigen/tiny.matrix.hex" && sed -i '/tiny.matrix.hex/{s/"bits": 64/"bits": 32/;s/"count": 6/"count": 13/}' "$copy/manifest.json" &&

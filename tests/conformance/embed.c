@@ -108,9 +108,13 @@ static void write_expected(writer *w, const char *tier, const conf_expected *exp
     for (i = 0; i < count; i++) {
         size_t k;
         data[i] = define_array(w, &expected[i].array);
-        fprintf(w->out, "static const uint32_t bound_%lu[] = {", w->bound_count++);
+        fprintf(w->out, "static const uint64_t bound_%lu[] = {", w->bound_count++);
         for (k = 0; k < expected[i].bound_count; k++) {
-            fprintf(w->out, "%luu,", (unsigned long)expected[i].bound[k]);
+            if (expected[i].bound[k] == CONF_UNDEFINED) {
+                fputs("CONF_UNDEFINED,", w->out);
+            } else {
+                fprintf(w->out, "%lluu,", (unsigned long long)expected[i].bound[k]);
+            }
         }
         fputs("};\n", w->out);
     }

@@ -197,7 +197,7 @@ START_TEST(widest_difference_fails)
     static conf_run run;
     static const int64_t matrix[6] = {0};
     static const int64_t low[12] = {0, 0, 0, INT64_MIN, 0, 0, 0, INT64_MIN, 0, 0, 0, INT64_MIN};
-    static const uint32_t bound[] = {UINT32_MAX};
+    static const uint64_t bound[] = {UINT32_MAX};
     const conf_array in = words("matrix", 64, 6, matrix);
     const conf_expected expected = {{"full", 64, 12, low, 0, 0}, bound, 1};
     const conf_case c = {"eigen/a", "eigen", "ordinary", &in, 1, &expected, 1, &expected, 0};
@@ -213,6 +213,49 @@ START_TEST(widest_difference_fails)
 }
 END_TEST
 
+/* Every row has a unit, a base within what it grants, and a reason if it is open; no absolute one grants a quarter unit. */
+START_TEST(no_measure_is_vacuous)
+{
+    int k;
+    for (k = 0; k < CONF_MEASURES; k++) {
+        const conf_measure *m = &conf_measures[k];
+        if (m->kind == CONF_LSB) {
+            ck_assert_uint_le(m->base_lsb, m->most);
+            ck_assert_uint_lt(m->most, ((uint64_t)1 << m->q) / 4);
+            ck_assert_uint_gt(strlen(m->unit), 0);
+        } else if (m->kind == CONF_OF_ITSELF || m->kind == CONF_OF_SCALE) {
+            ck_assert_uint_gt(m->most, 0);
+            ck_assert_uint_lt(m->most, 50000); /* 5 % */
+        } else {
+            ck_assert_uint_eq(m->most + m->base_lsb, 0);
+        }
+        ck_assert(m->kind != CONF_UNREFERENCED || m->undefined != NULL);
+    }
+}
+END_TEST
+
+START_TEST(measures_follow_the_layout)
+{
+    static const int64_t matrix[15] = {100, 0, 400, 0, 0, 900, 0, 0, 0, 1600, 0, 0, 0, 0, INT64_MAX};
+    const conf_array packed = words("covariance", 64, 15, matrix);
+    const conf_measure *m = conf_measure_of("frame", "covariance", 14);
+    size_t before = 0;
+    ck_assert_uint_eq(conf_measure_period(&before, "eigen", "full"), 1);
+    ck_assert_uint_eq(before, 3);
+    ck_assert_int_eq(conf_measure_of("eigen", "full", 2)->letter, 'V');
+    ck_assert_int_eq(conf_measure_of("eigen", "full", 11)->letter, 'D');
+    ck_assert_int_eq(conf_measure_of("undistort", "distorted", 3 * 70)->kind, CONF_EXACT);
+    ck_assert_int_eq(conf_measure_of("undistort", "distorted", 3 * 70 + 2)->letter, 'p');
+    ck_assert_ptr_null(conf_measure_of("ellipse", "ellipse", 6)); /* it has six words */
+    ck_assert_ptr_null(conf_measure_of("ellipse", "circle", 0));
+    ck_assert_ptr_null(conf_measure_of("ellipses", "ellipse", 0));
+    ck_assert_uint_eq(conf_measure_whole(m, &packed, 3), 10 * 30); /* row 2, column 0 */
+    ck_assert_uint_eq(conf_measure_whole(m, &packed, 8), 40 * 30);
+    ck_assert_uint_eq(conf_measure_whole(m, &packed, 14), 3037000499u * UINT64_C(3037000499)); /* root of 2^63 */
+    ck_assert_uint_eq(conf_measure_widest(m, &packed, 3), m->base_lsb + (300 * (uint64_t)m->most + 999999) / 1000000);
+}
+END_TEST
+
 SUITE_MAIN("runner", guards_notice_one_byte, stages_refuse_no_inputs, stages_refuse_other_inputs,
            stages_refuse_words_out_of_range, memory_holds_what_it_must, words_are_extended, nothing_run_is_a_failure,
-           widest_difference_fails)
+           widest_difference_fails, no_measure_is_vacuous, measures_follow_the_layout)

@@ -116,6 +116,10 @@ static void write_case(const char *stage, const conf_array *inputs, int input_co
     snprintf(class, sizeof class, "\"class\": \"lsb\", \"bound\": %s, ", bound != NULL ? bound : "");
     fprintf(manifest, "      \"reference\": [\n");
     write_array(id, &outputs[0], ".ref", bound != NULL ? class : "\"class\": \"exact\", ", at, off);
+    for (i = 1; i < count; i++) {
+        fputs(",\n", manifest);
+        write_array(id, &outputs[i], ".ref", "\"class\": \"exact\", ", 0, 0);
+    }
     fprintf(manifest, "],\n      \"exact\": [\n");
     for (i = 0; i < count; i++) {
         write_array(id, &outputs[i], ".out", "\"class\": \"exact\", ", 0, 0);
@@ -173,7 +177,7 @@ static void pixel_cases(const conf_array *image)
     in[1] = words("params", 32, COUNT(centroid), centroid);
     write_case("centroid", in, 2, "[0, 0, 0, 1, 1]", 3, 1);
     in[2] = words("expected", 32, COUNT(expected), expected);
-    write_case("disc", in, 3, "[0, 0, 0, 1, 1, 3, 0, 1, 0]", 3, 1);
+    write_case("disc", in, 3, "[0, 0, 0, 1, 1, 3, 0, 2, 0]", 3, 1);
 }
 
 static void geometry_cases(void)
@@ -246,7 +250,7 @@ static void pose_cases(const conf_array *image)
     }
     in[2] = words("bins", 32, COUNT(bins), bins);
     in[3] = words("params", 32, COUNT(joint), joint);
-    write_case("joint", in, 4, "[0, 4, 4, 4, 4, 4, 4, 4, 4, 8]", 1, 4);
+    write_case("joint", in, 4, "[0, 4, 4, 4, 4, 4, 4, 4, 4, 4]", 1, 4);
     for (i = 0; i < 26; i++) {
         filter[i] = i == 0 ? 20000 : 2000 * i;
     }

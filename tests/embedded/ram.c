@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* What the caller keeps in RAM, as arrays whose sizes sizes.py reads from the object. */
+#include "drogue/decide.h"
 #include "drogue/drogue.h"
 #include "drogue/track.h"
 
@@ -14,3 +15,14 @@ KEEP(drogue_config_, sizeof(drogue_config))
 KEEP(drogue_result_, sizeof(drogue_result))
 KEEP(drogue_frontend_, sizeof(drogue_frontend))
 KEEP(drogue_track_, sizeof(drogue_track))
+
+/* what passes from stage to stage */
+KEEP(drogue_edge_, sizeof(drogue_edge))
+KEEP(drogue_arc_, sizeof(drogue_arc))
+KEEP(drogue_outline_, sizeof(drogue_outline))
+KEEP(drogue_ellipse_, sizeof(drogue_ellipse))
+KEEP(drogue_evidence_, sizeof(drogue_evidence))
+KEEP(drogue_inner_evidence_, sizeof(drogue_inner_evidence))
+KEEP(drogue_decision_, sizeof(drogue_decision))
+KEEP(drogue_sighting_, sizeof(drogue_sighting))
+KEEP(drogue_track_estimate_, sizeof(drogue_track_estimate))

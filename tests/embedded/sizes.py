@@ -12,7 +12,7 @@ import sys
 from functools import lru_cache
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGE = ROOT / 'README.md'
+PAGES = {'sizes': ROOT / 'docs/sizes.md', 'ram': ROOT / 'docs/sizes.md', 'data': ROOT / 'docs/architecture.md'}
 
 
 def tool(name, *arguments):
@@ -180,6 +180,23 @@ def tables(library, ram):
     return '\n'.join(lines)
 
 
+def data_table(ram):
+    """What passes from stage to stage: bytes by struct."""
+    rows = (('drogue_edge', 'front end', 'an edge point: Q5 pixels, Sobel gradient, arc'),
+            ('drogue_arc', 'front end', 'a run of edge points of one direction class'),
+            ('drogue_outline', 'outline', 'ellipse in Q16 pixels, quality, support by bins'),
+            ('drogue_ellipse', 'outline', 'the ideal ellipse, without distortion, Q16 pixels'),
+            ('drogue_inner_evidence', 'inner part', 'centroid in Q16 pixels, its standard deviation, the nearer pose'),
+            ('drogue_evidence', 'pose', 'both poses of the cone, outline, inner part'),
+            ('drogue_decision', 'pose', 'pose in Q16 metres and radians, covariance Q48'),
+            ('drogue_result', 'measure', 'all of a frame'),
+            ('drogue_sighting', 'search', 'a region to measure'),
+            ('drogue_track', 'track', 'filters and state, kept from frame to frame'),
+            ('drogue_track_estimate', 'track', 'filtered pose and rates, Q16'))
+    lines = ['| struct | from | what | bytes |', '| --- | --- | --- | --- |']
+    return '\n'.join(lines + [f'| `{name}` | {stage} | {what} | {ram[name]} |' for name, stage, what in rows])
+
+
 def check_budgets(library, ram, folder):
     lines = (ROOT / 'tests/embedded/budgets').read_text().splitlines()
     limits = dict(line.split() for line in lines if not line.startswith('#'))
@@ -225,19 +242,16 @@ def workspace_table():
 
 
 def place(texts):
-    """Put the texts between their marks in the page; answers what stood there, by name."""
-    page = PAGE.read_text()
+    """Put the texts between their marks in their pages; answers what stood there, by name."""
     old = {}
-    for name in ('sizes', 'ram'):
+    for name, page in PAGES.items():
         begin, end = f'<!-- {name}: ./run sizes --update -->', f'<!-- end of {name} -->'
-        before, found, rest = page.partition(begin)
+        before, found, rest = page.read_text().partition(begin)
         old[name], found_end, after = rest.partition(end)
         if not found or not found_end:
-            sys.exit(f'sizes: {PAGE.name} has no place for the tables: {begin} ... {end}')
+            sys.exit(f'sizes: {page.name} has no place for the tables: {begin} ... {end}')
         if name in texts:
-            page = f'{before}{begin}\n{texts[name]}\n{end}{after}'
-    if texts:
-        PAGE.write_text(page)
+            page.write_text(f'{before}{begin}\n{texts[name]}\n{end}{after}')
     return old
 
 
@@ -246,19 +260,19 @@ def main():
     update = '--update' in sys.argv[2:]
     library = Library(folder)
     ram = caller_ram(folder)
-    measured = {'sizes': tables(library, ram), 'ram': workspace_table()}
+    measured = {'sizes': tables(library, ram), 'ram': workspace_table(), 'data': data_table(ram)}
     old = place(measured if update else {})
     if update:
-        print(f'sizes: written into {PAGE.name}')
+        print('sizes: written into docs/sizes.md and docs/architecture.md')
     good = check_budgets(library, ram, folder)
     good &= check_only_ellipse(library, folder)
     if compiler() not in old['sizes'] and old['sizes'].strip():
-        print(f'sizes: not compared with {PAGE.name}, which is of another compiler than {compiler()}')
+        print(f'sizes: not compared with docs/sizes.md, which is of another compiler than {compiler()}')
         del old['sizes']
     for name in old:
         if not update and old[name].strip() != measured[name].strip():
             good = False
-            print(f'sizes: the table "{name}" in {PAGE.name} is out of date: ./run sizes --update')
+            print(f'sizes: the table "{name}" in {PAGES[name].name} is out of date: ./run sizes --update')
     return 0 if good else 1
 
 

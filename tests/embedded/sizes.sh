@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Flash, RAM and worst-case stack of the library on a Cortex-M7 with -Os, against the budgets; and an image that only
 # fits ellipses, which must run and be small.
-# usage: sizes.sh            print and check; README.md must hold the tables as they are now
-#        sizes.sh --update   write the tables into README.md
+# usage: sizes.sh            print and check; docs/ must hold the tables as they are now
+#        sizes.sh --update   write the tables into docs/sizes.md and docs/architecture.md
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . tests/matrix/machine.sh

@@ -10,6 +10,6 @@ mkdir -p "$folder"
 rm -f "$folder"/cases_*.c
 read -ra libraries <<<"$(pkg-config --cflags --libs libpng libcjson)"
 gcc -O1 -std=c99 -D_POSIX_C_SOURCE=200809L -I include -I tests/conformance \
-    tests/conformance/{embed,vectors,vectors_files,stages,stages_*,sha256}.c $(core_files . '*.c') "${libraries[@]}" \
+    tests/conformance/{embed,vectors,vectors_fields,vectors_files,stages,stages_*,sha256}.c $(core_files . '*.c') "${libraries[@]}" \
     -o "$folder/conformance_embed"
 "$folder/conformance_embed" vectors "$folder" "${2:-4}" "${@:3}"

@@ -26,10 +26,13 @@ Array image_array(const std::string &name, const cv::Mat &image); /* CV_8U */
 Array word_array(const std::string &name, int bits, int q, std::vector<int64_t> words);
 cv::Mat image_of(const Array &array);
 
-/* Expected output: word i may differ by bound[i % size] LSB; an empty bound means not at all. */
+/* Bounds of an output's words: word i may differ by bound[i % size] LSB, CONF_UNDEFINED: it is not compared; an empty list
+ * means that no bit may differ. */
+using Bound = std::vector<uint64_t>;
+
 struct Expected {
     Array array;
-    std::vector<uint32_t> bound;
+    Bound bound;
 };
 
 enum class Tier { ordinary, boundary, stress, must_reject };

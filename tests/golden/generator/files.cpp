@@ -45,18 +45,25 @@ std::string describe(const Array &a, const std::string &path, const std::string 
     return text + ", \"sha256\": " + quoted(sha256_of(bytes));
 }
 
-std::string class_of(const Expected &e)
+/* LSB, or why the word is undefined. */
+std::string bound_text(const std::string &stage, const Expected &e, size_t i)
+{
+    return e.bound[i] != CONF_UNDEFINED ? std::to_string(e.bound[i])
+                                        : quoted(conf_measure_of(stage.c_str(), e.array.name.c_str(), i)->undefined);
+}
+
+std::string class_of(const std::string &stage, const Expected &e)
 {
     if (e.bound.empty()) {
         return ", \"class\": \"exact\"}";
     }
     std::string text = ", \"class\": \"lsb\", \"bound\": ";
     if (e.bound.size() == 1) {
-        return text + std::to_string(e.bound[0]) + "}";
+        return text + bound_text(stage, e, 0) + "}";
     }
     text += "[";
     for (size_t i = 0; i < e.bound.size(); i++) {
-        text += (i > 0 ? ", " : "") + std::to_string(e.bound[i]);
+        text += (i > 0 ? ", " : "") + bound_text(stage, e, i);
     }
     return text + "]}";
 }
@@ -83,7 +90,7 @@ std::vector<std::string> expected_objects(Files &files, const Case &c, const std
             path = path_of(c, e.array, suffix);
         }
         files[path] = bytes;
-        objects.push_back(describe(e.array, path, bytes) + class_of(e));
+        objects.push_back(describe(e.array, path, bytes) + class_of(c.stage, e));
     }
     return objects;
 }

@@ -19,7 +19,6 @@ using reference::Ellipse;
 using reference::q16;
 using reference::Real;
 using Words = std::vector<int64_t>;
-using Bound = std::vector<uint32_t>;
 
 enum Word {
     STATUS = 0,
@@ -36,8 +35,7 @@ enum Word {
     AMBIGUITY,
     WORDS
 };
-constexpr uint32_t ELLIPSE_LSB = 4;
-constexpr uint32_t ANY_ANGLE = 205887; /* pi */
+constexpr Real ELLIPSE_LSB = 4; /* of a fit, as stages_words.c has it */
 
 /* The three outputs with a reference, one after the other. */
 constexpr size_t COVARIANCE = WORDS, STD = COVARIANCE + 15, ALL = STD + 4;
@@ -101,15 +99,14 @@ Words words_of(const mirror::Result &r)
 
 /* Edge points enter the last fit exactly. With the lens undone they are rounded, each in its own way, to a grid in which
  * four semi-axes fit 16 bits: half a pitch bounds what that can do. */
-std::array<uint32_t, 5> ellipse_bound(const Ellipse &e, bool lens)
+std::array<Real, 5> ellipse_more(const Ellipse &e, bool lens)
 {
-    uint32_t pitch = 64; /* LSB */
+    Real pitch = 64; /* LSB */
     while (pitch < 65536 && 4 * e.a * 65536 / pitch > 32767) {
         pitch *= 2;
     }
-    const uint32_t axis = lens ? ELLIPSE_LSB + pitch / 2 : ELLIPSE_LSB;
-    const Real angle = axis + std::ceil(axis / std::max<Real>(e.a - e.b, 1e-9L));
-    return {axis, axis, axis, axis, angle < ANY_ANGLE ? static_cast<uint32_t>(angle) : ANY_ANGLE};
+    const Real axis = lens ? pitch / 2 : 0;
+    return {axis, axis, axis, axis, axis + angle_turn(e.a, e.b, ELLIPSE_LSB + axis)};
 }
 
 /* Relative error of the scatter of the bins' sums: every offset is rounded to 2^-16 semi-axes, on its own, and the ellipse
@@ -157,10 +154,7 @@ public:
             sum_[i] += most[i];
         }
     }
-    uint32_t at(size_t i, Real beside) const
-    {
-        return static_cast<uint32_t>(std::min<Real>(UINT32_MAX, std::ceil(sum_[i] + beside)));
-    }
+    Real at(size_t i) const { return sum_[i]; }
 
 private:
     const mirror::Task &task_;
@@ -193,13 +187,14 @@ Real ambiguity_error(const mirror::Task &task, const mirror::Features &f)
     return sum;
 }
 
-void bound_poses(Bound &bound, const mirror::Task &task, const mirror::Result &r, const mirror::Features &f,
-                 const std::array<uint32_t, 5> &ellipse, const drogue_result *library)
+void poses_more(std::vector<Real> &more, const mirror::Task &task, const mirror::Result &r, const mirror::Features &f,
+                const std::array<Real, 5> &ellipse, const drogue_result *library)
 {
     Sensitivity s(task, r, f, library);
     Real Ellipse::*const member[5] = {&Ellipse::xc, &Ellipse::yc, &Ellipse::a, &Ellipse::b, &Ellipse::angle};
     for (size_t k = 0; k < 5; k++) {
-        s.move([&](mirror::Features &g, Real by) { g.ideal.*member[k] += by; }, ellipse[k] / 65536.0L);
+        s.move([&](mirror::Features &g, Real by) { g.ideal.*member[k] += by; },
+               std::min((ELLIPSE_LSB + ellipse[k]) / 65536, std::acos(Real(-1))));
     }
     const Real error = scatter_error(f.support, f.ideal);
     s.move(
@@ -216,11 +211,11 @@ void bound_poses(Bound &bound, const mirror::Task &task, const mirror::Result &r
     }
     const Words own = words_of(r);
     for (size_t i = POSE; i < RESOLVED; i++) {
-        bound[i] = s.at(i, 4);
+        more[i] = s.at(i);
     }
-    bound[AMBIGUITY] = r.has_inner ? s.at(AMBIGUITY, ambiguity_error(task, f)) : 0;
+    more[AMBIGUITY] = r.has_inner ? s.at(AMBIGUITY) + ambiguity_error(task, f) : 0;
     for (size_t i = COVARIANCE; i < ALL; i++) {
-        bound[i] = s.at(i, 4 + std::fabs(static_cast<Real>(own[i])) * 0x1p-20L);
+        more[i] = s.at(i) + std::fabs(static_cast<Real>(own[i])) * 0x1p-20L;
     }
 }
 
@@ -255,11 +250,30 @@ drogue_result library_of(const std::vector<Array> &exact)
     return r;
 }
 
-Array like(const Array &exact, Words words)
+/* Region, list, arcs, quality, members and cover. Edge points and arcs are counted by the front end that the mirror has in
+ * common with the library; the stage 'arcs' has a reference of its own for them. */
+Expected detail_of(const Array &exact, const mirror::Result &r)
 {
-    Array a = exact;
-    a.words = std::move(words);
-    return a;
+    Words w = exact.words;
+    std::vector<Real> more(w.size(), EXACTLY);
+    if (r.found) {
+        const reference::Quality &q = r.outline.quality;
+        w[0] = r.region.x;
+        w[1] = r.region.y;
+        w[2] = r.region.width;
+        w[3] = r.region.height;
+        for (size_t k = 0; k < 4; k++) {
+            w[6 + k] = r.outline.arcs[k] == DROGUE_NO_ARC ? -1 : static_cast<int32_t>(r.outline.arcs[k]);
+        }
+        size_t at = 10;
+        for (const Real v : {q.fit_ratio, q.length_ratio, q.axis_ratio, q.score, q.reliability}) {
+            w[at] = q16(v);
+            more[at++] = 0;
+        }
+        w[15] = r.outline.members;
+        w[16] = q16(r.outline.cover);
+    }
+    return {like(exact, w), bounds("frame", like(exact, w), more)};
 }
 
 } // namespace
@@ -274,26 +288,30 @@ std::vector<Expected> frame_tier(const std::vector<Array> &in, const std::vector
     mirror::Features features = {};
     const mirror::Result r = mirror::measure(task, &library, &features);
     const Words w = words_of(r);
-    Bound bound(ALL, 0);
+    std::vector<Real> more(ALL, EXACTLY); /* what is not known is 0 */
     if (r.found) {
         const bool lens = std::any_of(in[1].words.begin() + 4, in[1].words.end(), [](int64_t v) { return v != 0; });
-        const std::array<uint32_t, 5> seen = ellipse_bound(r.seen, false), ideal = ellipse_bound(r.ideal, lens);
-        std::copy(seen.begin(), seen.end(), bound.begin() + SEEN);
-        std::copy(ideal.begin(), ideal.end(), bound.begin() + IDEAL);
+        const std::array<Real, 5> seen = ellipse_more(r.seen, false), ideal = ellipse_more(r.ideal, lens);
+        std::copy(seen.begin(), seen.end(), more.begin() + SEEN);
+        if (r.ideal.ok) {
+            std::copy(ideal.begin(), ideal.end(), more.begin() + IDEAL);
+        }
         if (r.has_inner) {
-            bound[INNER] = bound[INNER + 1] = 1;
-            bound[INNER + 4] = 3;
+            more[INNER] = more[INNER + 1] = more[INNER + 4] = 0;
         }
         if (r.status == DROGUE_OK) {
-            bound_poses(bound, task, r, features, ideal, &library);
+            poses_more(more, task, r, features, ideal, &library);
         }
     }
     const auto part = [](const auto &all, size_t from, size_t to) {
         return std::decay_t<decltype(all)>(all.begin() + static_cast<long>(from), all.begin() + static_cast<long>(to));
     };
-    return {{like(exact[0], part(w, 0, COVARIANCE)), part(bound, 0, COVARIANCE)},
-            {like(exact[2], part(w, COVARIANCE, STD)), part(bound, COVARIANCE, STD)},
-            {like(exact[3], part(w, STD, ALL)), part(bound, STD, ALL)}};
+    const auto expected = [&](const Array &array, size_t from, size_t to) {
+        const Array words = like(array, part(w, from, to));
+        return Expected{words, bounds("frame", words, part(more, from, to))};
+    };
+    return {expected(exact[0], 0, COVARIANCE), detail_of(exact[1], r), expected(exact[2], COVARIANCE, STD),
+            expected(exact[3], STD, ALL)};
 }
 
 } // namespace vectors

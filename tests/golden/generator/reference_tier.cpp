@@ -19,16 +19,8 @@ using reference::q16;
 using reference::Real;
 using Words = std::vector<int64_t>;
 
-constexpr uint32_t ANY_ANGLE = 205887; /* pi: the angle of a circle says nothing */
-
 Real real(int64_t word) { return static_cast<Real>(word) / 65536; }
-
-Array like(const Array &exact, Words words)
-{
-    Array a = exact;
-    a.words = std::move(words);
-    return a;
-}
+int64_t rounded(Real v, int frac) { return static_cast<int64_t>(std::floor(std::ldexp(v, frac) + 0.5L)); }
 
 Array image_like(const Array &exact, const cv::Mat &image)
 {
@@ -84,12 +76,44 @@ Tiers mask_tier(const Arrays &in, const Arrays &exact)
     return {{image_like(exact[0], mask(reference::ring)), {}}, {image_like(exact[1], mask(reference::disc)), {}}};
 }
 
+/* Across the edge, the vertex of the parabola through the L1 magnitudes of a pixel and its two neighbours, Q5. */
+class Offsets {
+public:
+    Offsets(const cv::Mat &gx, const cv::Mat &gy) : gx_(gx), gy_(gy) {}
+    void put(Words &words, int x, int y) const
+    {
+        const int gx = gx_.at<int16_t>(y, x), gy = gy_.at<int16_t>(y, x), ax = std::abs(gx), ay = std::abs(gy);
+        const int64_t tan22 = int64_t{13573} * ax, tan67 = tan22 + (int64_t{ax} << 16); /* as cv::Canny's, Q15 */
+        int step_x = (gx ^ gy) < 0 ? -1 : 1, step_y = 1;
+        if (int64_t{ay} << 15 < tan22) {
+            step_x = 1;
+            step_y = 0;
+        } else if (int64_t{ay} << 15 > tan67) {
+            step_x = 0;
+        }
+        const Real before = magnitude(x - step_x, y - step_y), at = magnitude(x, y),
+                   after = magnitude(x + step_x, y + step_y), curvature = 2 * at - before - after;
+        const Real offset = curvature > 0 ? std::floor(16 * (after - before) / curvature + 0.5L) : 0;
+        const int q5 = static_cast<int>(std::clamp<Real>(offset, -15, 15));
+        words.insert(words.end(), {32 * x + step_x * q5, 32 * y + step_y * q5, gx, gy});
+    }
+
+private:
+    Real magnitude(int x, int y) const
+    {
+        return x < 0 || y < 0 || x >= gx_.cols || y >= gx_.rows
+                   ? 0
+                   : std::abs(gx_.at<int16_t>(y, x)) + std::abs(gy_.at<int16_t>(y, x));
+    }
+    const cv::Mat &gx_, &gy_;
+};
+
 Tiers arcs_tier(const Arrays &in, const Arrays &exact)
 {
     const Words &p = in[1].words;
     const cv::Mat image = image_of(in[0]);
     if (p[0] < 0 || p[1] < p[0] || (p[3] != 0 && !valid_mask(&p[4]))) {
-        return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0}), {}}};
+        return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0}), {}}, {like(exact[1], {}), {}}};
     }
     cv::Mat candidates = reference::canny(image, as_int(p[0]), as_int(p[0]), p[2] != 0);
     cv::Mat edges = canny(in[0], in[1]);
@@ -127,7 +151,12 @@ Tiers arcs_tier(const Arrays &in, const Arrays &exact)
     } else if (count > CONF_MAX_ARCS) {
         words = {DROGUE_E_ARCS_FULL, 0, 0};
     }
-    return {{like(exact[0], words), {}}};
+    const Offsets offsets(gx, gy);
+    Words places;
+    for (size_t i = 3; i < words.size(); i += 4) {
+        offsets.put(places, as_int(words[i]), as_int(words[i + 1]));
+    }
+    return {{like(exact[0], words), {}}, {like(exact[1], places), {}}};
 }
 
 Tiers constraints_tier(const Arrays &in, const Arrays &exact)
@@ -138,16 +167,13 @@ Tiers constraints_tier(const Arrays &in, const Arrays &exact)
         points.emplace_back(as_int(in[0].words[i]), as_int(in[0].words[i + 1]));
     }
     const reference::Verdict v = reference::judge_arc(points, as_int(p[0]), as_int(p[1]), as_int(p[3]), p[4]);
-    return {{like(exact[0],
-                  {q16(v.rect.xc), q16(v.rect.yc), q16(v.rect.shorter), q16(v.rect.longer), v.quadrant, v.polarity}),
-             {4, 4, 4, 4, 0, 0}}};
-}
-
-/* LSB by which the angle may differ when each semi-axis may by 'px' LSB: it says less the rounder the ellipse. */
-uint32_t angle_bound(Real a, Real b, uint32_t px)
-{
-    const Real bound = px + std::ceil(px / std::max<Real>(a - b, 1e-9L));
-    return bound < ANY_ANGLE ? static_cast<uint32_t>(bound) : ANY_ANGLE;
+    const Array verdict = like(
+        exact[0], {q16(v.rect.xc), q16(v.rect.yc), q16(v.rect.shorter), q16(v.rect.longer), v.quadrant, v.polarity});
+    const Array distance2 = like(exact[1], {rounded(v.distance2, 32)});
+    /* the library's is that of the rounded centre */
+    const Real each = std::fabs(v.rect.xc - p[0] / 2.0L) + std::fabs(v.rect.yc - p[1] / 2.0L);
+    return {{verdict, bounds("constraints", verdict)},
+            {distance2, bounds("constraints", distance2, {std::max<Real>(0, 0x1p17L * each - 0x1p20L)})}};
 }
 
 Tiers ellipse_tier(const Arrays &in, const Arrays &exact)
@@ -169,8 +195,8 @@ Tiers ellipse_tier(const Arrays &in, const Arrays &exact)
     if (!e.ok) {
         return {{like(exact[0], {DROGUE_E_DEGENERATE, 0, 0, 0, 0, 0}), {}}};
     }
-    return {{like(exact[0], {DROGUE_OK, q16(e.xc), q16(e.yc), q16(e.a), q16(e.b), q16(e.angle)}),
-             {0, 4, 4, 4, 4, angle_bound(e.a, e.b, 4)}}};
+    const Array ellipse = like(exact[0], {DROGUE_OK, q16(e.xc), q16(e.yc), q16(e.a), q16(e.b), q16(e.angle)});
+    return {{ellipse, bounds("ellipse", ellipse, {0, 0, 0, 0, 0, angle_turn(e.a, e.b, 4)})}};
 }
 
 reference::Ellipse ellipse_of(const Words &w)
@@ -198,8 +224,10 @@ Tiers quality_tier(const Arrays &in, const Arrays &exact)
     const int64_t threshold = q16(reference::deviation_threshold(e, real(p[0])));
     int near_count = 0;
     Words words = {threshold, q16(reference::circumference(e))};
+    std::vector<Real> more(2, 0);
     if (!(e.a > 0) || e.a + e.b >= 8192) { /* beyond the domain of these two */
         words = {exact[0].words[0], exact[0].words[1]};
+        more = {UNDEFINED, UNDEFINED};
     }
     for (int i = 0; i < total; i++) {
         const size_t k = 2 * static_cast<size_t>(i);
@@ -207,13 +235,20 @@ Tiers quality_tier(const Arrays &in, const Arrays &exact)
         near_count += ok && words.back() < threshold;
     }
     if (!ok || e.a + e.b >= 8192) {
-        return {{like(exact[1], {ok ? DROGUE_OK : DROGUE_E_DOMAIN}), {}}};
+        more.resize(words.size(), ok ? 0 : EXACTLY);
+        for (size_t i = words.size(); i < exact[0].words.size(); i++) {
+            words.push_back(exact[0].words[i]);
+            more.push_back(UNDEFINED);
+        }
+        const Array quality = like(exact[0], words);
+        return {{quality, bounds("quality", quality, more)}, {like(exact[1], {ok ? DROGUE_OK : DROGUE_E_DOMAIN}), {}}};
     }
     const reference::Quality q = reference::quality(e, near_count, total, real(p[1]), real(p[2]));
     for (const Real v : {q.fit_ratio, q.length_ratio, q.axis_ratio, q.score, q.reliability}) {
         words.push_back(q16(v));
     }
-    return {{like(exact[0], words), {4}}, {like(exact[1], {DROGUE_OK}), {}}};
+    const Array quality = like(exact[0], words);
+    return {{quality, bounds("quality", quality)}, {like(exact[1], {DROGUE_OK}), {}}};
 }
 
 Tiers cluster_tier(const Arrays &in, const Arrays &exact)
@@ -239,52 +274,65 @@ Tiers centroid_tier(const Arrays &in, const Arrays &exact)
     }
     const reference::InnerPart part =
         reference::inner_part(image_of(in[0]), as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]));
-    Words words = {DROGUE_E_NO_INNER_PART, part.threshold, 0, 0, 0};
-    if (part.found) {
-        words = {DROGUE_OK, part.threshold, part.area, q16(part.x), q16(part.y)};
+    if (!part.found) {
+        return {{like(exact[0], {DROGUE_E_NO_INNER_PART, part.threshold, 0, 0, 0}), {}}};
     }
-    return {{like(exact[0], words), {0, 0, 0, 1, 1}}};
+    const Array words = like(exact[0], {DROGUE_OK, part.threshold, part.area, q16(part.x), q16(part.y)});
+    return {{words, bounds("centroid", words)}};
 }
 
 int64_t q30(Real v) { return static_cast<int64_t>(std::floor(v * 0x1p30L + 0.5L)); }
 
-/* Is the vector a matter of rounding: near one of an equal eigenvalue, or with two largest components? */
-bool vector_is_free(const reference::Eigen3 &e, size_t k)
+/* How far vector k may turn, of 1, when each entry of the matrix is off by so much. */
+Real eigenvector_turn(const reference::Eigen3 &e, size_t k, Real entry)
 {
-    const Real size = std::max(std::fabs(e.value[0]), std::fabs(e.value[2]));
-    const Real least = std::max(size * 1e-6L, 0x1p38L); /* eigenvalues are good to 2^6 units of the matrix */
+    Real turn = 0;
     for (size_t other = 0; other < 3; other++) {
-        if (other != k && std::fabs(e.value[k] - e.value[other]) < least) {
-            return true;
-        }
+        turn += other != k ? entry / std::max<Real>(std::fabs(e.value[k] - e.value[other]), 1) : 0;
     }
-    std::array<Real, 3> v = e.vector[k];
+    return turn;
+}
+
+/* Are two components of the vector, one of which gives its sign, equally large? */
+bool sign_is_free(std::array<Real, 3> v)
+{
     for (Real &c : v) {
         c = std::fabs(c);
     }
     std::sort(v.begin(), v.end());
-    return k < 2 && v[2] - v[1] < 1e-12L;
+    return v[2] - v[1] < 1e-12L;
 }
 
 Tiers eigen_tier(const Arrays &in, const Arrays &exact)
 {
+    constexpr Real ENTRY = 8; /* units of the matrix that eigenvalues are good to */
     std::array<int64_t, 6> a;
     std::copy(in[0].words.begin(), in[0].words.end(), a.begin());
     const reference::Eigen3 e = reference::eigen(a);
-    Words values, vectors;
-    bool free = false;
+    const Real size = std::max(std::fabs(e.value[0]), std::fabs(e.value[2]));
+    std::array<bool, 3> free;
+    Words values, vectors, full;
+    std::vector<Real> turn, full_turn(3, 0);
     for (size_t k = 0; k < 3; k++) {
         values.push_back(q30(e.value[k] * 0x1p-60L));
-        free = free || vector_is_free(e, k);
-        for (const Real v : e.vector[k]) {
-            vectors.push_back(q30(v));
+        full.push_back(rounded(e.value[k], 0));
+        /* the third is the product of the others, and has its sign from theirs */
+        free[k] = k < 2 ? sign_is_free(e.vector[k]) : free[0] || free[1];
+        for (size_t other = 0; other < 3; other++) {
+            const bool same = other != k && std::fabs(e.value[k] - e.value[other]) < std::max(size * 1e-6L, 0x1p38L);
+            free[k] = free[k] || same;
         }
     }
-    Tiers tiers = {{like(exact[0], values), {2}}};
-    if (!free) {
-        tiers.push_back({like(exact[1], vectors), {2}});
+    for (size_t k = 0; k < 3; k++) {
+        for (const Real v : e.vector[k]) {
+            vectors.push_back(q30(v));
+            full.push_back(rounded(v, 60));
+            turn.push_back(free[k] ? UNDEFINED : 0);
+            full_turn.push_back(free[k] ? UNDEFINED : 0x1p60L * eigenvector_turn(e, k, ENTRY));
+        }
     }
-    return tiers;
+    const Array v = like(exact[0], values), d = like(exact[1], vectors), f = like(exact[2], full);
+    return {{v, bounds("eigen", v)}, {d, bounds("eigen", d, turn)}, {f, bounds("eigen", f, full_turn)}};
 }
 
 reference::Camera camera_of(const Words &w)
@@ -303,7 +351,8 @@ Tiers undistort_tier(const Arrays &in, const Arrays &exact)
             words[k].insert(words[k].end(), {ok ? DROGUE_OK : DROGUE_E_DOMAIN, q16(p.x), q16(p.y)});
         }
     }
-    return {{like(exact[0], words[0]), {0, 4, 4}}, {like(exact[1], words[1]), {0, 4, 4}}};
+    const Array undone = like(exact[0], words[0]), done = like(exact[1], words[1]);
+    return {{undone, bounds("undistort", undone)}, {done, bounds("undistort", done)}};
 }
 
 Real saturated(Real v) { return std::clamp<Real>(v, -32768, real(INT32_MAX)); }
@@ -322,12 +371,10 @@ Tiers pose_tier(const Arrays &in, const Arrays &exact)
     const reference::Camera c = camera_of(in[1].words);
     std::array<reference::Pose, 2> pair;
     Words words(21, 0);
-    std::vector<uint32_t> bound = {0};
-    bound.resize(17, 4);
-    bound.insert(bound.end(), {0, 8, 8, 8});
+    std::vector<Real> more(21, 0);
     if (!reference::poses(ellipse_of(in[0].words), c, real(p[0]), pair)) {
         words[0] = DROGUE_E_DOMAIN;
-        return {{like(exact[0], words), {0}}};
+        return {{like(exact[0], words), {}}};
     }
     const Real error = cone_error(ellipse_of(in[0].words), c);
     for (size_t i = 0; i < 2; i++) {
@@ -343,7 +390,7 @@ Tiers pose_tier(const Arrays &in, const Arrays &exact)
         at[7] = q16(pair[i].pitch);
         const int64_t farthest = std::max({std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
         for (size_t k = 0; k < 8; k++) {
-            bound[1 + 8 * i + k] += static_cast<uint32_t>(error * static_cast<Real>(k < 3 ? farthest : DROGUE_Q16_ONE));
+            more[1 + 8 * i + k] = std::floor(error * static_cast<Real>(k < 3 ? farthest : DROGUE_Q16_ONE));
         }
     }
     for (size_t i = 0; i < 2; i++) {
@@ -351,14 +398,14 @@ Tiers pose_tier(const Arrays &in, const Arrays &exact)
         if (!reference::project(pair[i], real(p[1]), c, q)) {
             words[0] = DROGUE_E_BEHIND_CAMERA;
             words[18] = words[19] = 0;
-            return {{like(exact[0], words), bound}};
+            return {{like(exact[0], words), bounds("pose", like(exact[0], words), more)}};
         }
         words[18 + i] = q16(std::hypot(saturated(q.x) - real(p[2]), saturated(q.y) - real(p[3])));
     }
     words[17] = words[19] < words[18] ? 1 : 0;
     const auto [nearer, farther] = std::minmax(words[18], words[19]);
     words[20] = farther > 0 ? q16(real(nearer) / real(farther)) : 65536;
-    return {{like(exact[0], words), bound}};
+    return {{like(exact[0], words), bounds("pose", like(exact[0], words), more)}};
 }
 
 Tiers kalman_tier(const Arrays &in, const Arrays &exact)
@@ -392,7 +439,7 @@ Tiers kalman_tier(const Arrays &in, const Arrays &exact)
             }
         }
     }
-    return {{like(exact[0], words), {16}}};
+    return {{like(exact[0], words), bounds("kalman", like(exact[0], words))}};
 }
 
 } // namespace

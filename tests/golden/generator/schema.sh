@@ -26,6 +26,11 @@ readme = open("README.md").read()
 flags = {f for c in manifest["cases"] for f in c["flags"]}
 problems += ["README.md does not say what flag %s means" % f for f in sorted(flags) if "`%s`" % f not in readme]
 
+reasons = {b for c in manifest["cases"] for a in c["reference"] if isinstance(a.get("bound"), list) for b in a["bound"] if isinstance(b, str)}
+problems += ["README.md does not say what '%s' means" % r for r in sorted(reasons) if "`%s`" % r not in readme]
+problems += ["%s: output %s has no class" % (c["id"], a["name"]) for c in manifest["cases"] for a in c["exact"]
+             if a["name"] not in [r["name"] for r in c["reference"]]]
+
 # Each change makes the small manifest of one case wrong: the schema has to notice.
 words = next(c for c in manifest["cases"] if any("q" in a and a["class"] == "lsb" for a in c["reference"]))
 image = next(c for c in manifest["cases"] if any("width" in a for a in c["inputs"]))
@@ -56,6 +61,8 @@ changes = {
     "inexact exact tier": (words, lambda m, c: c["exact"][0].update({"class": "lsb", "bound": 4})),
     "bound of the exact class": (words, lambda m, c: c["exact"][0].update(bound=0)),
     "no bound": (words, lambda m, c: next(a for a in c["reference"] if a["class"] == "lsb").pop("bound")),
+    "bound beyond a double": (words, lambda m, c: c["reference"][0].update({"class": "lsb", "bound": 2**53 + 1})),
+    "unknown reason": (words, lambda m, c: c["reference"][0].update({"class": "lsb", "bound": [4, "difficult"]})),
     "negative bound": (words, lambda m, c: c["reference"][0].update({"class": "lsb", "bound": -1})),
 }
 for case in (words, image):

@@ -16,19 +16,10 @@ namespace {
 using reference::q16;
 using reference::Real;
 using Words = std::vector<int64_t>;
-using Bound = std::vector<uint32_t>;
 
 Real real(int64_t word) { return static_cast<Real>(word) / 65536; }
 int as_int(int64_t word) { return static_cast<int>(word); }
 int64_t rounded(Real v, int frac) { return static_cast<int64_t>(std::floor(std::ldexp(v, frac) + 0.5L)); }
-uint32_t lsb(Real v) { return static_cast<uint32_t>(std::min<Real>(UINT32_MAX, std::ceil(v))); }
-
-Array like(const Array &exact, Words words)
-{
-    Array a = exact;
-    a.words = std::move(words);
-    return a;
-}
 
 /* Each of n offsets is rounded to an LSB on its own: five standard deviations of their sum, or all alike where that is
  * less; and what the frame's own roundings shift every one of them by. */
@@ -70,14 +61,14 @@ int64_t status_of(reference::Solved solved)
 Expected packed(const Array &exact, const reference::Covariance &c, Real share)
 {
     Words words;
-    Bound bound;
+    std::vector<Real> more;
     for (int i = 0; i < 5; i++) {
         for (int j = 0; j <= i; j++) {
             words.push_back(rounded(c(i, j), 48));
-            bound.push_back(lsb(4 + share * std::ldexp(std::sqrt(static_cast<Real>(c(i, i)) * c(j, j)), 48)));
+            more.push_back(share * std::ldexp(std::sqrt(static_cast<Real>(c(i, i)) * c(j, j)), 48));
         }
     }
-    return {like(exact, words), bound};
+    return {like(exact, words), bounds("joint", like(exact, words), more)};
 }
 
 } // namespace
@@ -148,19 +139,20 @@ Tiers support_tier(const Arrays &in, const Arrays &exact)
         }
     }
     Words bins;
-    Bound bound;
+    std::vector<Real> more;
     for (size_t k = 0; k < added.sum.size(); k++) {
         bins.insert(bins.end(), {added.count[k][0], added.count[k][1], q16(added.sum[k])});
-        bound.insert(bound.end(), {0, 0, lsb(sum_error(added.count[k][added.bright >> k & 1], e))});
+        more.insert(more.end(), {0, 0, sum_error(added.count[k][added.bright >> k & 1], e)});
     }
     const Real each = 2 * (1e-4L * e.a + 4e-3L);
     const Real squares = 10 * 0.29L * 65536 * std::sqrt(added.squares) + each * 65536 * distances + added.points;
+    const Array sums = like(exact[3], {rounded(added.squares, 32), static_cast<int64_t>(added.gradient)});
     return {{like(exact[0], {DROGUE_OK, looked, static_cast<int32_t>(counted.bright), counted.covered,
                              counted.covered * 65536 / reference::SUPPORT_BINS, added.points}),
              {}},
-            {like(exact[1], bins), bound},
+            {like(exact[1], bins), bounds("support", like(exact[1], bins), more)},
             {like(exact[2], members), {}},
-            {like(exact[3], {rounded(added.squares, 32), static_cast<int64_t>(added.gradient)}), {lsb(squares), 0}}};
+            {sums, bounds("support", sums, {squares, 0})}};
 }
 
 Tiers disc_tier(const Arrays &in, const Arrays &exact)
@@ -179,9 +171,9 @@ Tiers disc_tier(const Arrays &in, const Arrays &exact)
         return {{like(exact[0], {DROGUE_E_NO_INNER_PART, d.threshold, 0, 0, 0, 0, 0, 0, 0}), {}}};
     }
     /* each centroid is rounded once, their distance twice from those */
-    return {{like(exact[0], {DROGUE_OK, d.threshold, d.area, q16(d.x), q16(d.y), q16(d.spread), d.which, q16(d.fill),
-                             d.contrast}),
-             {0, 0, 0, 1, 1, 3, 0, 1 + lsb(65536 * d.fill * 0x1p-16L), 0}}};
+    const Array part = like(exact[0], {DROGUE_OK, d.threshold, d.area, q16(d.x), q16(d.y), q16(d.spread), d.which,
+                                       q16(d.fill), d.contrast});
+    return {{part, bounds("disc", part, {0, 0, 0, 0, 0, 0, 0, std::floor(std::min<Real>(d.fill, 32767)), 0})}};
 }
 
 Tiers joint_tier(const Arrays &in, const Arrays &exact)
@@ -204,7 +196,7 @@ Tiers joint_tier(const Arrays &in, const Arrays &exact)
     }
     support.gradient = static_cast<Real>(p[13]);
     Words joint(10, 0), disc(5, 0);
-    Bound pose(10, 0);
+    std::vector<Real> more(10, 0);
     reference::Ellipse image;
     const reference::Solved seen = reference::disc_image(image, start, camera, model);
     disc[0] = status_of(seen);
@@ -212,7 +204,7 @@ Tiers joint_tier(const Arrays &in, const Arrays &exact)
         disc = {DROGUE_OK, q16(image.xc), q16(image.yc), q16(image.a), q16(image.b)};
     }
     Tiers tiers = {{like(exact[0], joint), {}},
-                   {like(exact[1], disc), {0, 4, 4, 4, 4}},
+                   {like(exact[1], disc), disc[0] == DROGUE_OK ? bounds("joint", like(exact[1], disc)) : Bound()},
                    {like(exact[2], Words(15, 0)), {}},
                    {like(exact[3], Words(15, 0)), {}}};
     reference::Covariance outline;
@@ -224,9 +216,6 @@ Tiers joint_tier(const Arrays &in, const Arrays &exact)
      * nothing for a whole outline, all of them for an arc of few bins, whose covariance has no reference then */
     const Real share = 0x1p-30L * static_cast<Real>(reference::condition_of(support));
     tiers[3] = packed(exact[3], outline, share);
-    if (share > 0x1p-14L) {
-        tiers.pop_back();
-    }
     const reference::Joint j = reference::solve_joint(start, e, outline, inner, camera, model, as_int(p[14]));
     tiers[0].array.words[0] = status_of(j.solved);
     if (j.solved != reference::Solved::ok) {
@@ -237,9 +226,9 @@ Tiers joint_tier(const Arrays &in, const Arrays &exact)
                        j.pose.yaw,         j.pose.pitch,       static_cast<Real>(j.chi2)};
     for (size_t k = 0; k < 9; k++) {
         tiers[0].array.words[1 + k] = q16(v[k]);
-        pose[1 + k] = k < 8 ? 4 : lsb(4 + 65536 * std::min<Real>(32768, v[k]) * 0x1p-14L);
     }
-    tiers[0].bound = pose;
+    more[9] = static_cast<Real>(tiers[0].array.words[9]) * 0x1p-14L;
+    tiers[0].bound = bounds("joint", tiers[0].array, more);
     tiers[2] = packed(exact[2], j.covariance, 0x1p-20L);
     return tiers;
 }

@@ -2,12 +2,32 @@
 /* The reference tiers that have files of their own; reference_tier.cpp has the others. */
 #pragma once
 
+#include <cmath>
+
 #include "case.hpp"
+#include "reference.hpp"
 
 namespace vectors {
 
 using Arrays = std::vector<Array>;
 using Tiers = std::vector<Expected>;
+
+/* The exact tier's array with the reference's words. */
+Array like(const Array &exact, std::vector<int64_t> words);
+
+/* For 'more' of bounds(): no bit of this word may differ in this case; nothing can be said of it. */
+constexpr reference::Real EXACTLY = -HUGE_VALL, UNDEFINED = HUGE_VALL;
+
+/* Bounds of a stage's output from the table of tests/conformance/stages_words.c: each word's base and beside it what this
+ * case's conditioning adds, LSB ('more'; empty: nothing). A word that needs more than the table grants is undefined; throws
+ * where the table says that it cannot be. */
+Bound bounds(const std::string &stage, const Array &reference, const std::vector<reference::Real> &more = {});
+
+/* An output with its words of the bit-exact tier that has no reference. */
+Expected unreferenced(const std::string &stage, const Array &exact);
+
+/* LSB by which the angle may turn when each semi-axis may differ by 'px' LSB: it says less the rounder the ellipse. */
+reference::Real angle_turn(reference::Real a, reference::Real b, reference::Real px);
 
 Tiers select_tier(const Arrays &inputs, const Arrays &exact);
 Tiers support_tier(const Arrays &inputs, const Arrays &exact);

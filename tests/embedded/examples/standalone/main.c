@@ -45,13 +45,14 @@ int main(void)
     const drogue_capacity capacity = DROGUE_CAPACITY_FOR(SIDE_PX);
     const drogue_image image = {pixels, SIDE_PX, SIDE_PX, SIDE_PX};
     const drogue_region region = {30, 27, 200, 200}; /* the drogue about its middle, 2 to 3 semi-axes wide */
+    const drogue_setup setup = {&camera, &model, &config};
     drogue_status status = drogue_workspace_init(&workspace, memory, sizeof memory, &capacity);
     uint64_t clocks;
     take_picture();
     drogue_config_default(&config);
     clocks = board_ticks();
     if (status == DROGUE_OK) {
-        status = drogue_measure(&result, &workspace, &config, &camera, &model, &image, &region);
+        status = drogue_measure(&result, &workspace, &setup, &image, &region);
     }
     clocks = (board_ticks() - clocks) * BOARD_CLOCKS_A_TICK;
     printf("status %s\n", drogue_status_name(status));
