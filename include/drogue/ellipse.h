@@ -93,7 +93,7 @@ drogue_status drogue_conic_ellipse(drogue_ellipse *out, const drogue_real q[6], 
  *  return     DROGUE_OK, DROGUE_E_TOO_FEW_POINTS, DROGUE_E_DEGENERATE (collinear points, no ellipse, or one
  *             whose parameters leave Q16), DROGUE_E_ARGUMENT
  *  scaling    centred and freed of its linear part in 96-bit integers, then 31-bit mantissas; no overflow for any input
- *  error      <= ERRLSB LSB for arcs of 90 degrees and more, against exact arithmetic on the same moments
+ *  error      <= 4 LSB for arcs of 90 degrees, <= 1 for more, against exact arithmetic on the same moments
  *  source     Halir and Flusser 1998; paper (7)-(9) with the corrections of naming and arctangent
  */
 drogue_status drogue_ellipse_fit(drogue_ellipse *out, const drogue_moments *m, int frac_bits);

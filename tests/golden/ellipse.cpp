@@ -122,7 +122,7 @@ double opencv_difference(const Case &c)
 
 int main()
 {
-    Report arcs("ellipse", 1), quarter("ellipse_90_degrees", 1), angles("ellipse_angle", 1),
+    Report arcs("ellipse", 1), quarter("ellipse_90_degrees", 4), angles("ellipse_angle", 1),
         circles("ellipse_near_circle", 1);
     Report opencv("ellipse_opencv_px", 0.5);
     for (int seed = 1; seed <= 3000; seed++) {

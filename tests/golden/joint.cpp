@@ -79,7 +79,7 @@ bool random_task(Task *t, int seed, const drogue_camera *camera)
 int main()
 {
     Report position("joint_position", 4), axis("joint_axis", 4), angles("joint_angles", 4),
-        covariance("joint_covariance", 1), outline("outline_covariance", 1), chi2("joint_chi2", 4),
+        covariance("joint_covariance", 64), outline("outline_covariance", 1), chi2("joint_chi2", 16),
         disc("inner_disc", 4);
     const drogue_camera camera = pinhole(1465.5, 1465.5, 1023.5, 1023.5);
     const reference::Camera model_camera = {1465.5L, 1465.5L, 1023.5L, 1023.5L};

@@ -196,7 +196,8 @@ Tiers ellipse_tier(const Arrays &in, const Arrays &exact)
         return {{like(exact[0], {DROGUE_E_DEGENERATE, 0, 0, 0, 0, 0}), {}}};
     }
     const Array ellipse = like(exact[0], {DROGUE_OK, q16(e.xc), q16(e.yc), q16(e.a), q16(e.b), q16(e.angle)});
-    return {{ellipse, bounds("ellipse", ellipse, {0, 0, 0, 0, 0, angle_turn(e.a, e.b, 4)})}};
+    const Real flat = e.a > 8 * e.b ? 4 : 0; /* the minor axis takes the last bits of the major one's */
+    return {{ellipse, bounds("ellipse", ellipse, {0, flat, flat, flat, flat, angle_turn(e.a, e.b, 4)})}};
 }
 
 reference::Ellipse ellipse_of(const Words &w)
@@ -305,34 +306,30 @@ bool sign_is_free(std::array<Real, 3> v)
 
 Tiers eigen_tier(const Arrays &in, const Arrays &exact)
 {
-    constexpr Real ENTRY = 8; /* units of the matrix that eigenvalues are good to */
+    constexpr Real ENTRY = 0x1p-28L; /* of the largest value: what the others are good to */
     std::array<int64_t, 6> a;
     std::copy(in[0].words.begin(), in[0].words.end(), a.begin());
     const reference::Eigen3 e = reference::eigen(a);
     const Real size = std::max(std::fabs(e.value[0]), std::fabs(e.value[2]));
     std::array<bool, 3> free;
-    Words values, vectors, full;
-    std::vector<Real> turn, full_turn(3, 0);
+    Words values, vectors;
+    std::vector<Real> turn;
     for (size_t k = 0; k < 3; k++) {
         values.push_back(q30(e.value[k] * 0x1p-60L));
-        full.push_back(rounded(e.value[k], 0));
         /* the third is the product of the others, and has its sign from theirs */
         free[k] = k < 2 ? sign_is_free(e.vector[k]) : free[0] || free[1];
         for (size_t other = 0; other < 3; other++) {
-            const bool same = other != k && std::fabs(e.value[k] - e.value[other]) < std::max(size * 1e-6L, 0x1p38L);
-            free[k] = free[k] || same;
+            free[k] = free[k] || (other != k && std::fabs(e.value[k] - e.value[other]) <= size * 1e-3L);
         }
     }
     for (size_t k = 0; k < 3; k++) {
         for (const Real v : e.vector[k]) {
             vectors.push_back(q30(v));
-            full.push_back(rounded(v, 60));
-            turn.push_back(free[k] ? UNDEFINED : 0);
-            full_turn.push_back(free[k] ? UNDEFINED : 0x1p60L * eigenvector_turn(e, k, ENTRY));
+            turn.push_back(free[k] ? UNDEFINED : 0x1p30L * eigenvector_turn(e, k, ENTRY * size));
         }
     }
-    const Array v = like(exact[0], values), d = like(exact[1], vectors), f = like(exact[2], full);
-    return {{v, bounds("eigen", v)}, {d, bounds("eigen", d, turn)}, {f, bounds("eigen", f, full_turn)}};
+    const Array v = like(exact[0], values), d = like(exact[1], vectors);
+    return {{v, bounds("eigen", v)}, {d, bounds("eigen", d, turn)}, unreferenced("eigen", exact[2])};
 }
 
 reference::Camera camera_of(const Words &w)
@@ -357,12 +354,16 @@ Tiers undistort_tier(const Arrays &in, const Arrays &exact)
 
 Real saturated(Real v) { return std::clamp<Real>(v, -32768, real(INT32_MAX)); }
 
-/* Relative error of the cone: its matrix comes from a sine of 30 bits, whose last one weighs (a / b)^2, and has 58 bits
- * itself, of which the smallest eigenvalue takes (a / f)^2. Nothing for a drogue, something for a needle or a dot. */
+/* Relative error of the cone: its matrix comes from a sine of 30 bits, whose last one weighs (a / b)^2. Nothing for a
+ * drogue, something for a needle; far from the optical axis the frame along the ray takes more, with the fourth power of
+ * its obliquity: not compared beyond three focal lengths, where no camera without distortion looks. */
 Real cone_error(const reference::Ellipse &e, const reference::Camera &c)
 {
-    const Real flat = e.a / e.b, distant = std::max(c.fx, c.fy) / e.a;
-    return 0x1p-30L * flat * flat + 0x1p-56L * distant * distant;
+    const Real flat = e.a / e.b;
+    if (std::hypot((e.xc - c.cx) / c.fx, (e.yc - c.cy) / c.fy) > 3) {
+        return UNDEFINED;
+    }
+    return 0x1p-30L * flat * flat;
 }
 
 Tiers pose_tier(const Arrays &in, const Arrays &exact)

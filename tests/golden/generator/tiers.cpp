@@ -229,7 +229,7 @@ Tiers joint_tier(const Arrays &in, const Arrays &exact)
     }
     more[9] = static_cast<Real>(tiers[0].array.words[9]) * 0x1p-14L;
     tiers[0].bound = bounds("joint", tiers[0].array, more);
-    tiers[2] = packed(exact[2], j.covariance, 0x1p-20L);
+    tiers[2] = packed(exact[2], j.covariance, 0x1p-13L);
     return tiers;
 }
 

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* From the two poses that an outline allows to the one that the result gives, with its covariance. */
+#ifndef DROGUE_DECIDE_H
+#define DROGUE_DECIDE_H
+
+#include "drogue/config.h"
+#include "drogue/joint.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a frame says about the pose. */
+typedef struct drogue_evidence {
+    drogue_pose poses[2];          /* from drogue_pose_from_ellipse() */
+    uint32_t nearer;               /* index of the one whose projected inner centre is nearer; either without one */
+    drogue_ellipse ideal;          /* the outline without distortion, px of the whole image */
+    const drogue_support *support; /* of the outline's last fit */
+    drogue_joint_inner inner;      /* std_px_q16 is 0 when there is none */
+} drogue_evidence;
+
+typedef struct drogue_decision {
+    drogue_pose pose;              /* unresolved: the nearer one */
+    drogue_pose alternative;       /* the other one that the outline allows */
+    int32_t orientation_resolved;  /* 1: the inner part decided between the two */
+    int64_t covariance_q48[5][5];  /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric */
+    int64_t position_std_m_q32[3]; /* roots of its first three diagonal entries, Q32 */
+    int64_t axis_std_rad_q32;      /* root mean square angle between measured and true axis, Q32 */
+} drogue_decision;
+
+/* Solve for outline and inner part together; for the outline alone when they contradict each other or there is no inner
+ * part to be believed.
+ *
+ *  out     undefined on failure
+ *  return  DROGUE_OK, DROGUE_E_DOMAIN
+ */
+drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Drogue: the pose of a refuelling drogue from one camera image, in fixed point.
+ *
+ * drogue_measure() does a frame in one call; each stage can be called alone through its own header. State lives
+ * in structs of the caller, memory in a workspace of the caller (frontend.h):
+ *
+ *     static uint32_t memory[DROGUE_WORKSPACE_BYTES_FOR(256) / 4 + 1];
+ *     const drogue_capacity capacity = DROGUE_CAPACITY_FOR(256);
+ *     drogue_workspace workspace;
+ *     drogue_config config;
+ *     const drogue_setup setup = {&camera, &model, &config};
+ *     drogue_result result;
+ *
+ *     drogue_workspace_init(&workspace, memory, sizeof memory, &capacity);
+ *     drogue_config_default(&config);
+ *     if (drogue_measure(&result, &workspace, &setup, &image, &region) == DROGUE_OK) {
+ *         use(result.pose.position_m_q16);
+ *     }
+ */
+#ifndef DROGUE_H
+#define DROGUE_H
+
+#include "drogue/config.h"
+#include "drogue/frontend.h"
+#include "drogue/inner.h"
+#include "drogue/outline.h"
+#include "drogue/pose.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DROGUE_VERSION_MAJOR 0
+#define DROGUE_VERSION_MINOR 1
+#define DROGUE_VERSION_PATCH 0
+
+/* "MAJOR.MINOR.PATCH" of the library. */
+const char *drogue_version(void);
+
+#define DROGUE_CAPACITY_FOR(side_px)                                                                    \
+    {                                                                                                   \
+        (uint32_t)(side_px), (uint32_t)DROGUE_EDGES_FOR(side_px), (uint32_t)DROGUE_LABELS_FOR(side_px), \
+            (uint32_t)DROGUE_ARCS_FOR(side_px)                                                          \
+    }
+
+#define DROGUE_MAX_REGION 8192 /* px, largest side of a region asked for, before it is clipped to the image */
+
+/* What a frame gives. Coordinates are px of the whole image. */
+typedef struct drogue_result {
+    drogue_status status;     /* what drogue_measure() returned */
+    drogue_region region;     /* the region used: the one asked for, clipped to the image */
+    drogue_edge_list list;    /* edges and arcs in the workspace, in coordinates of the region */
+    uint32_t arcs[4];         /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
+    drogue_ellipse ellipse;   /* outline of the end plane, as seen (distorted) */
+    drogue_ellipse ideal;     /* the same without distortion: what the pose is computed from */
+    drogue_quality quality;   /* of the fit of the arcs */
+    drogue_polarity polarity; /* DARK or BRIGHT: the outline's inside against its outside; BOTH: it changes */
+    uint32_t cluster_members; /* candidates that agree with the winner, itself included */
+    uint32_t refit_points;    /* points in the final fit */
+    drogue_q16 cover_q16;     /* edge points that belong to the outline over its circumference, at most 1 */
+    int32_t has_inner;        /* 1: an inner part was found and believed: of its size, in its place, with contrast */
+    drogue_inner_part inner;  /* its centroid, as seen; meaningful when has_inner */
+    drogue_pose pose;         /* the pose chosen; unresolved: the one nearer to what is dark inside, unproved */
+    drogue_pose alternative;  /* the other one that the outline allows */
+    int32_t orientation_resolved; /* 1: the inner part decided between the two */
+    drogue_q16 ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 without one */
+    int64_t covariance_q48[5][5];  /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric */
+    int64_t position_std_m_q32[3]; /* roots of its first three diagonal entries, Q32 */
+    int64_t axis_std_rad_q32;      /* root mean square angle between measured and true axis, Q32 */
+} drogue_result;
+
+/* Measure one frame.
+ *
+ *  out        result; every member is defined for every return value, zero where there is nothing to say
+ *  workspace  holds the edge points and arcs after the call
+ *  setup      camera, model, thresholds; the model's inner_radius 0: inner part unknown, both poses are given and the
+ *             orientation stays unresolved
+ *  image      the caller's; not written
+ *  region     where to look, drogue about its middle, longest side 2 to 3 major semi-axes; may reach past the
+ *             image, then the part inside is used and the masks stay where they were
+ *  return     DROGUE_OK, or why there is no pose: DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE,
+ *             DROGUE_E_LABELS_FULL, DROGUE_E_EDGES_FULL, DROGUE_E_ARCS_FULL, DROGUE_E_NO_EDGES, DROGUE_E_NO_ARCS,
+ *             DROGUE_E_NO_ELLIPSE, DROGUE_E_DOMAIN, DROGUE_E_BEHIND_CAMERA
+ */
+drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
+                             const drogue_image *image, const drogue_region *region);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

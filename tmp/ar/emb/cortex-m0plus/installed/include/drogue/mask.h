@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Ring and disc masks as integer inequalities on squared distances. */
+#ifndef DROGUE_MASK_H
+#define DROGUE_MASK_H
+
+#include "drogue/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Circle family of a region: centre ((w-1)/2, (h-1)/2) and longest side, kept exact by doubling. */
+typedef struct drogue_mask {
+    int32_t centre2_x; /* twice the centre, px, [-2^15, 2^15] */
+    int32_t centre2_y;
+    int32_t longest_px; /* longest side of the region, [1, 2^20] */
+} drogue_mask;
+
+static inline int drogue_mask_valid(const drogue_mask *mask)
+{
+    const int32_t most = 1 << 15;
+    return mask->longest_px >= 1 && mask->longest_px <= (1 << 20) && mask->centre2_x >= -most &&
+           mask->centre2_x <= most && mask->centre2_y >= -most && mask->centre2_y <= most;
+}
+
+/* What the ring leaves to the columns of one row: bounds of (2x - centre2_x)^2. */
+typedef struct drogue_ring_row {
+    int64_t least_x9;
+    int64_t most;
+    int32_t centre2_x;
+} drogue_ring_row;
+
+/* Ring: longest / 3 <= distance <= longest / 2 (paper, section III-A-1). */
+static inline drogue_ring_row drogue_mask_ring_row(const drogue_mask *mask, int32_t y)
+{
+    int64_t side2 = (int64_t)mask->longest_px * mask->longest_px;
+    int64_t dy = 2 * (int64_t)y - mask->centre2_y;
+    drogue_ring_row row;
+    row.least_x9 = 4 * side2 - 9 * dy * dy;
+    row.most = side2 - dy * dy;
+    row.centre2_x = mask->centre2_x;
+    return row;
+}
+
+/* Is the column whose (2x - centre2_x)^2 is d in the ring? */
+static inline int drogue_ring_row_holds_square(const drogue_ring_row *row, int64_t d)
+{
+    return (9 * d >= row->least_x9) & (d <= row->most);
+}
+
+static inline int drogue_ring_row_holds(const drogue_ring_row *row, int32_t x)
+{
+    const int64_t dx = 2 * (int64_t)x - row->centre2_x;
+    return drogue_ring_row_holds_square(row, dx * dx);
+}
+
+static inline int drogue_mask_in_ring(const drogue_mask *mask, int32_t x, int32_t y)
+{
+    drogue_ring_row row = drogue_mask_ring_row(mask, y);
+    return drogue_ring_row_holds(&row, x);
+}
+
+/* Disc: distance <= longest / 3 (paper, section III-A-2). What it leaves to a row: 9 (2x - centre2_x)^2 is at most this. */
+static inline int64_t drogue_mask_disc_row(const drogue_mask *mask, int32_t y)
+{
+    int64_t dy = 2 * (int64_t)y - mask->centre2_y;
+    return 4 * (int64_t)mask->longest_px * mask->longest_px - 9 * dy * dy;
+}
+
+static inline int drogue_disc_row_holds(int64_t most_x9, int32_t centre2_x, int32_t x)
+{
+    const int64_t dx = 2 * (int64_t)x - centre2_x;
+    return 9 * dx * dx <= most_x9;
+}
+
+static inline int drogue_mask_in_disc(const drogue_mask *mask, int32_t x, int32_t y)
+{
+    return drogue_disc_row_holds(drogue_mask_disc_row(mask, y), mask->centre2_x, x);
+}
+
+/* Mask of a region of its own coordinates, (0, 0) its top-left pixel. */
+static inline drogue_mask drogue_mask_of_size(int32_t width_px, int32_t height_px)
+{
+    drogue_mask m;
+    m.centre2_x = width_px - 1;
+    m.centre2_y = height_px - 1;
+    m.longest_px = width_px > height_px ? width_px : height_px;
+    return m;
+}
+
+#ifdef __cplusplus
+}
+#endif
+#endif

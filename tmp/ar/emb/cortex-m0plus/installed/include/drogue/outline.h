@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* From edge points and arcs to the outline of the end plane: fits of pairs of arcs, each scored by all edge points of
+ * the region, clustering, and a last fit on every edge point that belongs to the winner. */
+#ifndef DROGUE_OUTLINE_H
+#define DROGUE_OUTLINE_H
+
+#include "drogue/cluster.h"
+#include "drogue/config.h"
+#include "drogue/constraints.h"
+#include "drogue/frontend.h"
+#include "drogue/quality.h"
+#include "drogue/support.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef char
+    drogue_assume_candidates_fit[DROGUE_MAX_CANDIDATES * sizeof(drogue_candidate) <= DROGUE_SCRATCH_BYTES ? 1 : -1];
+
+typedef struct drogue_outline {
+    drogue_ellipse ellipse;   /* region coordinates, as seen, what blur took put back */
+    drogue_ellipse fitted;    /* the same before the blur was put back: what edge points lie about */
+    drogue_quality quality;   /* of the winning candidate; l_r is the share of the circumference that is covered */
+    drogue_polarity polarity; /* DARK, BRIGHT, or BOTH where the background crosses the drogue's own grey */
+    uint32_t arcs[4];         /* the arcs of the winning candidate by quadrant: index, or DROGUE_NO_ARC */
+    uint32_t cluster_members; /* candidates that agree with the winner, itself included */
+    uint32_t refit_points;    /* points in the last fit; 0 when the fit of the arcs was kept */
+    drogue_q16 cover_q16;     /* share of the circumference that edge points cover */
+    drogue_q16 band_px_q16;   /* half width of the band about the ellipse that they lie in */
+    drogue_support support;   /* of the last fit, before the blur was put back */
+} drogue_outline;
+
+/* Find the outline.
+ *
+ *  out        outline; on failure what is known of the best candidate, zero when there is none
+ *  workspace  edges and arcs as the front end left them
+ *  mask       centre and longest side of the region
+ *  return     DROGUE_OK, DROGUE_E_NO_EDGES, DROGUE_E_NO_ARCS, DROGUE_E_NO_ELLIPSE
+ */
+drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
+                                  const drogue_mask *mask, const drogue_config *config);
+
+/* Fit the edge points that belong to an outline, each with the lens distortion removed.
+ *
+ *  out       ellipse as an ideal pinhole camera would see it, px of the whole image
+ *  outline   found in a region whose pixel (0, 0) is pixel (x_px, y_px) of the image
+ *  return    DROGUE_OK, DROGUE_E_TOO_FEW_POINTS, DROGUE_E_DEGENERATE; points outside the lens model's domain
+ *            are left out, more than a quarter of them degenerate
+ */
+drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outline *outline,
+                                         const drogue_workspace *workspace, const drogue_edge_list *list,
+                                         const drogue_setup *setup, int32_t x_px, int32_t y_px);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Coarse search of a whole frame for the drogue: a dark disc inside a ring, over scales.
+ *
+ * Rows of pixels go in; block means of 2, 4, 8 ... 64 px a side come about in line buffers, one level for each octave
+ * of the drogue's size. In each level a cell that is darker than a circle of eight cells about it, for one of three
+ * radii, is a dark disc; rays from it look for the rim, and a circle through what they meet gives centre and size.
+ * The inner part is darker than the canopy on every background, so neither the canopy's own grey nor the
+ * background's matters. The best few are regions for drogue_measure(). */
+#ifndef DROGUE_SEARCH_H
+#define DROGUE_SEARCH_H
+
+#include "drogue/drogue.h"
+#include "drogue/rim.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DROGUE_SEARCH_MAX 8    /* candidates */
+#define DROGUE_SEARCH_LEVELS 6 /* block means of 2 to 64 px a side: semi-axes from 12 to 800 px */
+
+/* Bytes of memory for frames up to the given width: 100352 for 2048 px. Usable in a static array's size. */
+#define DROGUE_SEARCH_BYTES(width_px) ((size_t)(width_px) * (DROGUE_SEARCH_ROWS + 1u))
+
+/* A place where the drogue may be. */
+typedef struct drogue_sighting {
+    drogue_region region; /* for drogue_measure() */
+    int32_t x_px;         /* middle of the outline, about */
+    int32_t y_px;
+    int32_t radius_px;
+    uint32_t score; /* by evenness and contrast of disc and rim; compares sightings of one frame */
+} drogue_sighting;
+
+/* A search in progress; set by drogue_search_init(). */
+typedef struct drogue_search {
+    uint8_t *memory;
+    int32_t capacity_px;  /* widest frame */
+    int32_t min_contrast; /* 6 grey levels: least contrast of inner part and canopy; the caller may change it */
+    int32_t width_px;
+    int32_t rows_in;
+    int32_t count;
+    drogue_search_level levels[DROGUE_SEARCH_LEVELS];
+    drogue_sighting best[DROGUE_SEARCH_MAX]; /* by falling score */
+} drogue_search;
+
+/* Lay a search out in the caller's memory, which must live as long as the search.
+ *
+ *  memory    at least DROGUE_SEARCH_BYTES(width_px) bytes of any alignment
+ *  width_px  of the widest frame, [1, 32767]
+ *  return    DROGUE_OK, DROGUE_E_WORKSPACE (too few bytes), DROGUE_E_ARGUMENT
+ */
+drogue_status drogue_search_init(drogue_search *search, void *memory, size_t bytes, int32_t width_px);
+
+/* Begin a frame; DROGUE_E_WORKSPACE when it is wider than the memory, DROGUE_E_ARGUMENT when width_px < 1. */
+drogue_status drogue_search_begin(drogue_search *search, int32_t width_px);
+
+/* Feed the next row, width_px grey levels; the row is copied. */
+void drogue_search_row(drogue_search *search, const uint8_t *row);
+
+/* End the frame: search->best[0 .. count - 1] are its sightings. Returns the count. */
+int32_t drogue_search_end(drogue_search *search);
+
+/* Search a part of an image, and measure what was sighted in order of score, last the part itself with the drogue
+ * about its middle, until an inner part decides the orientation within an outline covered to four fifths. When none
+ * does, the result is the one of most cover whose inner part decides; or else the first with an inner part; or else the
+ * first with a pose.
+ *
+ *  out     as of drogue_measure()
+ *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not
+ *          measured itself
+ *  return  DROGUE_OK; DROGUE_E_ARGUMENT (the image), DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else the
+ *          status of the last, DROGUE_E_REGION where the part itself is too large
+ */
+drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
+                             const drogue_setup *setup, const drogue_image *image, const drogue_region *region);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

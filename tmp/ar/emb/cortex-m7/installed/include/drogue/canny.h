@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Canny's non-maximum suppression and double threshold on the L1 Sobel magnitude, and the subpixel offset
+ * across the edge; equal to cv::Canny(aperture 3, L1) in every pixel once hysteresis has run (label.h). */
+#ifndef DROGUE_CANNY_H
+#define DROGUE_CANNY_H
+
+#include "drogue/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DROGUE_CANNY_TG22 13573 /* tan(22.5 degrees) * 2^15 */
+
+/* Sector of the gradient: the neighbours that a maximum is compared with. */
+typedef enum drogue_sector {
+    DROGUE_SECTOR_HORIZONTAL = 0,  /* left, right */
+    DROGUE_SECTOR_VERTICAL = 1,    /* above, below */
+    DROGUE_SECTOR_DIAGONAL = 2,    /* above left, below right */
+    DROGUE_SECTOR_ANTIDIAGONAL = 3 /* above right, below left */
+} drogue_sector;
+
+/* Verdict of suppression and thresholds. */
+enum { DROGUE_CANNY_NONE = 0, DROGUE_CANNY_WEAK = 1, DROGUE_CANNY_STRONG = 2 };
+
+/* Sector of a gradient; ax |gx|, tg22 ax tan(22.5 degrees) * 2^15. */
+static inline drogue_sector drogue_canny_sector_by(int16_t gx, int16_t gy, uint32_t ax, uint32_t tg22)
+{
+    const uint32_t ay = (uint32_t)(gy < 0 ? -gy : gy) << 15;
+    const int flat = ay < tg22;
+    const int steep = ay > tg22 + (ax << 16);
+    const drogue_sector slanted = (gx ^ gy) < 0 ? DROGUE_SECTOR_ANTIDIAGONAL : DROGUE_SECTOR_DIAGONAL;
+    return flat ? DROGUE_SECTOR_HORIZONTAL : steep ? DROGUE_SECTOR_VERTICAL : slanted;
+}
+
+static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
+{
+    const uint32_t ax = (uint32_t)(gx < 0 ? -gx : gx);
+    return drogue_canny_sector_by(gx, gy, ax, ax * (uint32_t)DROGUE_CANNY_TG22);
+}
+
+/* Step from a pixel to the neighbour 'after' it across the edge: x and y component in {-1, 0, 1}. */
+static inline int32_t drogue_canny_step_x(drogue_sector sector)
+{
+    return sector == DROGUE_SECTOR_VERTICAL ? 0 : sector == DROGUE_SECTOR_ANTIDIAGONAL ? -1 : 1;
+}
+
+static inline int32_t drogue_canny_step_y(drogue_sector sector) { return sector == DROGUE_SECTOR_HORIZONTAL ? 0 : 1; }
+
+/* Magnitudes on both sides of the edge at column x; 0 beyond the left and right border. */
+static inline void drogue_canny_neighbours(int32_t *before, int32_t *after, drogue_sector sector,
+                                           const uint16_t *const magnitude[3], int32_t x, int32_t width_px)
+{
+    int32_t dx = drogue_canny_step_x(sector);
+    int32_t dy = drogue_canny_step_y(sector);
+    *before = x - dx >= 0 && x - dx < width_px ? magnitude[1 - dy][x - dx] : 0;
+    *after = x + dx >= 0 && x + dx < width_px ? magnitude[1 + dy][x + dx] : 0;
+}
+
+/* The same where the rows bring a 0 on both sides. */
+static inline void drogue_canny_padded_neighbours(int32_t *before, int32_t *after, drogue_sector sector,
+                                                  const uint16_t *const magnitude[3], int32_t x)
+{
+    int32_t dx = drogue_canny_step_x(sector);
+    int32_t dy = drogue_canny_step_y(sector);
+    *before = magnitude[1 - dy][x - dx];
+    *after = magnitude[1 + dy][x + dx];
+}
+
+/* Is m a maximum across the edge?  before: left or the neighbour in the row above (above itself for the
+ * vertical sector); after: the opposite one. Magnitudes outside the image are 0. */
+static inline int drogue_canny_is_maximum(drogue_sector sector, int32_t before, int32_t m, int32_t after)
+{
+    if (sector == DROGUE_SECTOR_HORIZONTAL || sector == DROGUE_SECTOR_VERTICAL) {
+        return m > before && m >= after;
+    }
+    return m > before && m > after;
+}
+
+/* Vertex of the parabola through (-1, before), (0, m), (1, after), where m is the maximum.
+ *
+ *  return  offset Q5 in [-15, 15], rounded to nearest, towards 'after' positive; 0 when all three are equal
+ */
+int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after);
+
+/* The division that gives the offset, begun; then a step for each bit of the quotient, 4 down to 0; then the offset. */
+typedef struct drogue_canny_vertex {
+    int32_t curvature;
+    int32_t slope;
+    int32_t rest;
+    int32_t quotient;
+} drogue_canny_vertex;
+
+static inline drogue_canny_vertex drogue_canny_vertex_begin(int32_t before, int32_t m, int32_t after)
+{
+    drogue_canny_vertex v;
+    v.curvature = 2 * m - before - after;
+    v.slope = after - before;
+    v.rest = 32 * v.slope + 33 * v.curvature; /* floor(rest / (2 curvature)) - 16 rounds 16 slope / curvature */
+    v.quotient = 0;
+    return v;
+}
+
+static inline void drogue_canny_vertex_step(drogue_canny_vertex *v, int32_t bit)
+{
+    const int32_t part = v->curvature * (2 << bit);
+    const int32_t fits = v->rest >= part;
+    v->rest -= fits ? part : 0;
+    v->quotient += fits ? 1 << bit : 0;
+}
+
+static inline int32_t drogue_canny_vertex_offset(const drogue_canny_vertex *v)
+{
+    const int32_t offset = v->quotient - 16; /* where |slope| < curvature: quotient in [0, 32) */
+    const int32_t within = offset < -15 || v->slope <= -v->curvature ? -15 : v->slope >= v->curvature ? 15 : offset;
+    return v->curvature <= 0 ? 0 : within;
+}
+
+/* Direction class by the signs of the gradient, gy counted upward as in (2): 0..3 for I..IV.
+ * (0, 0) has no direction and cannot be an edge; it gives 3. */
+static inline uint32_t drogue_direction_class(int16_t gx, int16_t gy_down)
+{
+    int gy = -gy_down;
+    if (gx >= 0 && gy > 0) {
+        return 0;
+    }
+    if (gx < 0 && gy >= 0) {
+        return 1;
+    }
+    if (gx <= 0 && gy < 0) {
+        return 2;
+    }
+    return 3;
+}
+
+/* Suppression and thresholds for one row.
+ *
+ *  out        width_px verdicts: DROGUE_CANNY_NONE, _WEAK (m > low) or _STRONG (m > high)
+ *  magnitude  rows y-1, y, y+1; a row outside the image is all 0
+ *  gx, gy     row y
+ *  low, high  L1 magnitude, 0 <= low <= high
+ */
+void drogue_canny_row(uint8_t *out, const uint16_t *const magnitude[3], const int16_t *gx, const int16_t *gy,
+                      int32_t width_px, int32_t low, int32_t high);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

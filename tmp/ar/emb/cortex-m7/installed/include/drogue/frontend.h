@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The one-pass front end: rows of pixels in, list of edge points and table of arcs out.
+ *
+ * smooth -> gradient -> non-maximum suppression -> labelling run in line buffers. Hysteresis and arc
+ * labelling are two union-finds in the same pass; an arc remembers its candidate component and survives when
+ * that turns out strong, which gives Canny's exact edge map without a frame store. */
+#ifndef DROGUE_FRONTEND_H
+#define DROGUE_FRONTEND_H
+
+#include <stddef.h>
+
+#include "drogue/canny.h"
+#include "drogue/gradient.h"
+#include "drogue/label.h"
+#include "drogue/mask.h"
+#include "drogue/smooth.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Sizes of a workspace. */
+typedef struct drogue_capacity {
+    uint32_t width_px; /* widest region, [1, DROGUE_MAX_SIDE] */
+    uint32_t edges;    /* candidate edge points in the ring mask, weak ones included; [1, 2^24] */
+    uint32_t labels;   /* provisional labels of candidate components, of arcs, of dark components, each; [2, 2^24] */
+    uint32_t arcs;     /* arcs of the least length and more; [1, 2^24] */
+} drogue_capacity;
+
+/* Capacity that suits a region of the given longest side. What noise needs grows with the area: at 8 grey levels and
+ * 443 px 10.6 edge points and 5.6 labels a pixel of side, where the frames in vectors/ need 6.3 and 2.1. No more than 88
+ * arcs of an eighth of the side fit into the edge points. */
+#define DROGUE_EDGES_FOR(side_px) (10u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 512u)
+#define DROGUE_LABELS_FOR(side_px) (3u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 140u + 2u)
+#define DROGUE_ARCS_FOR(side_px) ((size_t)96u)
+
+#define DROGUE_FOURS(width_px) (((size_t)(width_px) + 3u) / 4u) /* words that hold a row of pixels */
+
+/* Bytes of the row buffers. What the outline needs after them lies in the same place: constraints.h and outline.h check
+ * that it fits. */
+#define DROGUE_ROWS_BYTES(width_px)                                                                            \
+    ((size_t)(width_px) * (sizeof(drogue_merge) + 18u) +                                                       \
+     DROGUE_FOURS(width_px) * (5u * 4u + 3u * 8u + 4u * 8u + 8u * sizeof(drogue_slope)) + 5u * 4u + 3u * 16u + \
+     4u * 8u)
+#define DROGUE_SCRATCH_BYTES ((size_t)4608)
+
+/* Bytes of memory for a workspace: usable in a static array's size. */
+#define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                         \
+    ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels)*16u + 256u * 4u + \
+     (DROGUE_ROWS_BYTES(width_px) > DROGUE_SCRATCH_BYTES ? DROGUE_ROWS_BYTES(width_px) : DROGUE_SCRATCH_BYTES))
+
+/* The same for a region of the given longest side with the capacity that suits it. */
+#define DROGUE_WORKSPACE_BYTES_FOR(side_px) \
+    DROGUE_WORKSPACE_BYTES(side_px, DROGUE_EDGES_FOR(side_px), DROGUE_LABELS_FOR(side_px), DROGUE_ARCS_FOR(side_px))
+
+struct drogue_point;     /* constraints.h */
+struct drogue_candidate; /* cluster.h */
+
+/* Line buffers, tables and lists in the caller's memory; set by drogue_workspace_init(). After a frame
+ * 'edges' and 'arcs' hold its edge points and arcs; everything else is scratch. */
+typedef struct drogue_workspace {
+    drogue_capacity capacity;
+    drogue_edge *edges;                  /* edges */
+    drogue_arc *arcs;                    /* arcs */
+    uint32_t *component_parent;          /* labels; these four also serve the inner part's components */
+    uint32_t *component_strong;          /* labels */
+    uint32_t *arc_parent;                /* labels */
+    uint32_t *arc_component;             /* labels */
+    uint32_t *histogram;                 /* 256 */
+    struct drogue_point *hull;           /* DROGUE_HULL_MAX, in the place of the rows below */
+    struct drogue_candidate *candidates; /* DROGUE_MAX_CANDIDATES, in the place of the hull when that has served */
+    drogue_merge *merges;                /* width */
+    uint32_t *component_rows;            /* 2 x width */
+    uint32_t *arc_rows;                  /* 2 x width */
+    uint8_t *
+        raw_rows; /* 5 x (fours + 1) words, ring of input rows, pixel 0 at byte 2; aligned for uint32_t, like the next */
+    uint8_t *smooth_rows;     /* 3 x 2 (fours + 2) words, ring of rows of lanes, pixel 0 at word 2 */
+    uint16_t *magnitude_rows; /* 4 x 4 (fours + 1), pixel 0 at 2; the fourth stays 0 and stands for rows outside */
+    drogue_slope *slope_rows; /* 2 x 4 fours */
+    uint8_t *code_rows;       /* 2 x width: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1 in the ring */
+} drogue_workspace;
+
+/* Bytes that drogue_workspace_init() needs; equals DROGUE_WORKSPACE_BYTES. */
+size_t drogue_workspace_bytes(const drogue_capacity *capacity);
+
+/* Lay a workspace out in the caller's memory, which must live as long as the workspace.
+ *
+ *  workspace  out
+ *  memory     at least drogue_workspace_bytes(capacity) bytes, aligned for uint32_t
+ *  return     DROGUE_OK, DROGUE_E_WORKSPACE (too few bytes), DROGUE_E_ARGUMENT (capacity out of range, misaligned)
+ */
+drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, size_t bytes,
+                                    const drogue_capacity *capacity);
+
+/* What the front end is asked for. */
+typedef struct drogue_frontend_config {
+    int32_t canny_low;   /* L1 magnitude, 0 <= low <= high: a candidate's exceeds it */
+    int32_t canny_high;  /* L1 magnitude: an edge has at least one pixel that exceeds it */
+    int32_t smooth;      /* 0: no smoothing before the gradient */
+    int32_t use_ring;    /* 0: list the edge points of the whole region */
+    drogue_mask ring;    /* in region coordinates; used when use_ring is set */
+    uint32_t min_arc_px; /* edge points an arc needs to enter the arc table, Th_length */
+} drogue_frontend_config;
+
+/* A frame in progress; the members are the front end's own. */
+typedef struct drogue_frontend {
+    drogue_workspace *workspace;
+    drogue_frontend_config config;
+    int32_t width_px;
+    int32_t height_px;
+    int32_t rows_in;
+    drogue_labels components;
+    drogue_labels arc_labels;
+    uint32_t edge_count;
+    uint32_t edges_full;
+    uint32_t slope_count[2]; /* slopes in the even and in the odd row */
+} drogue_frontend;
+
+/* The lists a frame leaves in the workspace. */
+typedef struct drogue_edge_list {
+    uint32_t edge_count; /* surviving points: those of arcs 0, 1, ... first, each arc in raster order, then the rest */
+    uint32_t arc_count;  /* arcs in raster order of their first point */
+} drogue_edge_list;
+
+/* Begin a frame.
+ *
+ *  frontend   out
+ *  workspace  width_px <= capacity.width_px
+ *  config     copied
+ *  return     DROGUE_OK, DROGUE_E_ARGUMENT, DROGUE_E_REGION (sides outside [1, DROGUE_MAX_SIDE]),
+ *             DROGUE_E_WORKSPACE (wider than the workspace)
+ */
+drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace *workspace,
+                                    const drogue_frontend_config *config, int32_t width_px, int32_t height_px);
+
+/* Feed the next row, width_px grey levels; the row is copied. Exactly height_px rows make a frame. */
+void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row);
+
+/* End a frame: resolve hysteresis, drop what did not survive, sort the points by arc.
+ *
+ *  list    out; defined for every return value
+ *  return  DROGUE_OK; DROGUE_E_ARGUMENT when rows are missing (list empty); DROGUE_E_LABELS_FULL,
+ *          DROGUE_E_EDGES_FULL or DROGUE_E_ARCS_FULL when a table filled: what did fit is in the list
+ */
+drogue_status drogue_frontend_end(drogue_edge_list *list, drogue_frontend *frontend);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

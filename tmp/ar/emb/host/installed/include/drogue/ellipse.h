@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Direct least-squares fit of an ellipse (Fitzgibbon, in Halir and Flusser's form; paper (7)-(9)) from exact
+ * moments, which do not depend on the order of the points. */
+#ifndef DROGUE_ELLIPSE_H
+#define DROGUE_ELLIPSE_H
+
+#include "drogue/types.h"
+#include "drogue/real.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DROGUE_MAX_FIT_POINTS (1 << 17) /* points that one set of moments can hold */
+
+/* A sum of up to DROGUE_MAX_FIT_POINTS 64-bit terms, high * 2^32 + low: 96 bits, carries not yet passed on. */
+typedef struct drogue_long_sum {
+    int64_t high;
+    uint64_t low;
+} drogue_long_sum;
+
+/* Sums over points of x^p y^q for p + q <= 4, exact integers; coordinates are 16-bit. m[p][q] would be sparse:
+ * the members name p and q. */
+typedef struct drogue_moments {
+    int64_t n;
+    int64_t m10, m01;
+    int64_t m20, m11, m02;
+    int64_t m30, m21, m12, m03;
+    drogue_long_sum m40, m31, m22, m13, m04;
+} drogue_moments;
+
+void drogue_moments_clear(drogue_moments *m);
+
+/* Add a product of four coordinates. */
+static inline void drogue_long_sum_add(drogue_long_sum *sum, int64_t product)
+{
+    sum->high += product >> 32;
+    sum->low += (uint32_t)product;
+}
+
+/* Add one point; x and y in [-32768, 32767], in units of the caller's choice. */
+static inline void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
+{
+    const int32_t xx = x * x; /* at most 2^30 */
+    const int32_t xy = x * y;
+    const int32_t yy = y * y;
+    DROGUE_NOTE("ellipse: x", x, 16);
+    DROGUE_NOTE("ellipse: y", y, 16);
+    m->n++;
+    m->m10 += x;
+    m->m01 += y;
+    m->m20 += xx;
+    m->m11 += xy;
+    m->m02 += yy;
+    m->m30 += (int64_t)xx * x;
+    m->m21 += (int64_t)xx * y;
+    m->m12 += (int64_t)yy * x;
+    m->m03 += (int64_t)yy * y;
+    drogue_long_sum_add(&m->m40, (int64_t)xx * xx);
+    drogue_long_sum_add(&m->m31, (int64_t)xx * xy);
+    drogue_long_sum_add(&m->m22, (int64_t)xx * yy);
+    drogue_long_sum_add(&m->m13, (int64_t)xy * yy);
+    drogue_long_sum_add(&m->m04, (int64_t)yy * yy);
+}
+
+/* Scatter matrix of the monomials 1, x, y, x^2, xy, y^2 about the points' centre, packed by rows of its lower triangle
+ * (cholesky.h). From each of the last three, 'taken' times 1, x and y is taken in the exact sums. */
+typedef struct drogue_scatter {
+    drogue_real entry[21];
+    int32_t centre[2]; /* mean of x and of y, rounded */
+    int32_t taken[3][3];
+} drogue_scatter;
+
+/* Sums of 96 bits until all that whole numbers explain has been taken, then rounded.
+ *
+ *  m       n >= 1
+ *  return  1 when x and y have changed roles, so that x has the larger spread; not in 'centre'
+ */
+int drogue_moments_scatter(drogue_scatter *out, const drogue_moments *m);
+
+/* Centre, semi-axes and angle of a conic about 'centre'; its unit is 2^-frac_bits px.
+ *
+ *  q       coefficients of 1, x, y, x^2, xy, y^2; those of x^2 and y^2 positive in sum
+ *  return  DROGUE_OK, DROGUE_E_DEGENERATE (no ellipse, or one whose parameters leave Q16)
+ */
+drogue_status drogue_conic_ellipse(drogue_ellipse *out, const drogue_real q[6], const int32_t centre[2], int frac_bits);
+
+/* Fit an ellipse to summed moments.
+ *
+ *  out        centre, semi-axes, angle of the major axis; 0 for the angle of a circle
+ *  m          6 <= n <= DROGUE_MAX_FIT_POINTS
+ *  frac_bits  the moments' unit is 2^-frac_bits px; [0, 15]
+ *  return     DROGUE_OK, DROGUE_E_TOO_FEW_POINTS, DROGUE_E_DEGENERATE (collinear points, no ellipse, or one
+ *             whose parameters leave Q16), DROGUE_E_ARGUMENT
+ *  scaling    centred and freed of its linear part in 96-bit integers, then 31-bit mantissas; no overflow for any input
+ *  error      <= 4 LSB for arcs of 90 degrees, <= 1 for more, against exact arithmetic on the same moments
+ *  source     Halir and Flusser 1998; paper (7)-(9) with the corrections of naming and arctangent
+ */
+drogue_status drogue_ellipse_fit(drogue_ellipse *out, const drogue_moments *m, int frac_bits);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The rim about a dark disc in one level of the search: rays from the disc, each to its largest step, and the circle
+ * through the places where they meet it. */
+#ifndef DROGUE_RIM_H
+#define DROGUE_RIM_H
+
+#include "drogue/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DROGUE_SEARCH_REACH 18   /* cells that a ray goes at most */
+#define DROGUE_SEARCH_ROWS 48    /* rows that a level keeps: two reaches and what a dark disc waits */
+#define DROGUE_SEARCH_PENDING 16 /* dark discs of a level that may still grow with the next row */
+
+typedef struct drogue_search_disc {
+    int32_t x; /* cells */
+    int32_t y;
+    int32_t ring_q4;  /* radius of the circle that is brighter, cells Q4; the rim's is about twice as large */
+    int32_t contrast; /* grey levels */
+} drogue_search_disc;
+
+/* Block means of a frame in a ring of rows. */
+typedef struct drogue_search_level {
+    uint8_t *rows; /* DROGUE_SEARCH_ROWS x width */
+    int32_t width; /* cells */
+    int32_t rows_in;
+    int32_t pending_count;
+    drogue_search_disc pending[DROGUE_SEARCH_PENDING];
+} drogue_search_level;
+
+static inline const uint8_t *drogue_search_level_row(const drogue_search_level *level, int32_t y)
+{
+    return level->rows + (y % DROGUE_SEARCH_ROWS) * level->width;
+}
+
+/* Circle relative to the disc, cells Q4. */
+typedef struct drogue_rim {
+    int32_t x_q4;
+    int32_t y_q4;
+    int32_t radius_q4;
+} drogue_rim;
+
+/* Find the rim, be it a step to brighter or to darker.
+ *
+ *  return  score: the square of the number of rays that meet the circle, times the mean contrast of disc and rim; 0
+ *          when fewer than 9 of 16 meet it, or it does not suit the disc (out undefined)
+ */
+uint32_t drogue_rim_find(drogue_rim *out, const drogue_search_level *level, const drogue_search_disc *disc);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

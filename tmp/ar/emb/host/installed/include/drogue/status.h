@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What a call can answer: one named status, the same set for every stage. */
+#ifndef DROGUE_STATUS_H
+#define DROGUE_STATUS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum drogue_status {
+    DROGUE_OK = 0,
+    DROGUE_E_ARGUMENT,       /* an argument is outside its documented range */
+    DROGUE_E_REGION,         /* the region does not meet the image, or exceeds DROGUE_MAX_SIDE */
+    DROGUE_E_WORKSPACE,      /* the workspace is too small for the region */
+    DROGUE_E_LABELS_FULL,    /* more components or arcs than the workspace holds */
+    DROGUE_E_EDGES_FULL,     /* more edge points than the workspace holds */
+    DROGUE_E_ARCS_FULL,      /* more long arcs than the workspace holds */
+    DROGUE_E_NO_EDGES,       /* no edge point in the ring mask */
+    DROGUE_E_NO_ARCS,        /* no arc meets length, straightness and position */
+    DROGUE_E_NO_ELLIPSE,     /* no combination of arcs gives an acceptable ellipse */
+    DROGUE_E_TOO_FEW_POINTS, /* fewer than the six points a conic needs */
+    DROGUE_E_DEGENERATE,     /* the points do not determine an ellipse */
+    DROGUE_E_NO_INNER_PART,  /* no dark component of the least size */
+    DROGUE_E_DOMAIN,         /* a value outside the domain of the function */
+    DROGUE_E_BEHIND_CAMERA,  /* the geometry puts the drogue behind the camera */
+    DROGUE_STATUS_COUNT
+} drogue_status;
+
+/* Name of a status in lower case, such as "no_ellipse"; never NULL.
+ *
+ *  status  any value; one outside the enumeration gives "unknown"
+ */
+const char *drogue_status_name(drogue_status status);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Tracking over frames: the filter's prediction places the next region, a gate keeps outliers out, missed frames are
+ * coasted through, and what was lost is searched anew.
+ *
+ * drogue_track_frame() does a frame in one call. The parts are there too: drogue_track_begin() says where to look,
+ * drogue_measure() or drogue_acquire() looks, drogue_track_end() says what to believe.
+ *
+ * The gate is the squared Mahalanobis distance between the five measured and predicted parameters, with the
+ * covariance of both. A measurement beyond it is not believed and the frame counts as missed; but it opens a second
+ * filter beside the first, and when so many frames in a row are refused that agree with each other, or the track
+ * would be lost, the second filter takes over: a drogue that truly jumped is followed again.
+ *
+ * Of the two poses that an outline allows, one whose orientation is not resolved goes by the smaller distance. A
+ * resolved one that the gate refuses gives way to its twin when that passes; after the same number of frames in
+ * a row with the same verdict the measurement is believed and the angles start anew. */
+#ifndef DROGUE_TRACK_H
+#define DROGUE_TRACK_H
+
+#include "drogue/drogue.h"
+#include "drogue/kalman.h"
+#include "drogue/search.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum drogue_track_state {
+    DROGUE_LOST = 0,     /* no estimate: the first region, or the whole frame, is searched */
+    DROGUE_TRACKING = 1, /* this frame was measured and believed */
+    DROGUE_COASTING = 2  /* this frame was missed or refused: the estimate is the prediction */
+} drogue_track_state;
+
+/* Name of a state: "lost", "tracking", "coasting"; never NULL. */
+const char *drogue_track_state_name(drogue_track_state state);
+
+typedef struct drogue_track_config {
+    uint32_t max_missed;          /* 10 frames: after more in a row, missed or refused, the track is lost */
+    uint32_t agree_frames;        /* 4: so many refused measurements that agree are believed, frames without one between
+                                        them not counted; at least 1 */
+    uint32_t reconsider_frames;   /* 50 frames: after so many in a row whose inner part, known to the model, does not
+                                   decide, drogue_track_frame() searches the whole frame for one that does; 0: never */
+    drogue_q16 gate_q16;          /* 20.515: chi-square of 5 degrees of freedom at 0.1 % */
+    drogue_q16 position_gate_q16; /* 16.266: the same of 3, where the angles are not compared */
+    drogue_q16 region_scale_q16;  /* 2.5: side of the next region in predicted major semi-axes */
+    drogue_q16 region_sigmas_q16; /* 3: standard deviations that region and search allow for */
+    int32_t min_region_px;        /* 32 px */
+    int32_t max_region_px;        /* DROGUE_MAX_SIDE; what the workspace holds */
+    drogue_q16 lateral_std_q16;   /* 0.0005: standard deviation of x and y, share of the distance; this and the */
+    drogue_q16 depth_std_q16;     /* 0.002: of z, share of the distance; next two where a result has no covariance */
+    drogue_q16 angle_std_rad_q16; /* 0.02 rad: of pitch and yaw */
+    drogue_q16 position_floor_m_q16; /* 0.0001 m: added in quadrature to the measured standard deviations */
+    drogue_q16 angle_floor_rad_q16;  /* 0.0005 rad */
+    drogue_q16 process_std_q16[DROGUE_PARAMETERS]; /* change of acceleration per frame: x, y 0.2 m/s^2, z 0.02 m/s^2,
+                                                      angles 0.15 rad/s^2; for a swing to 1.1 m at 0.2 Hz and an
+                                                      approach at constant speed, 25 to 50 frames a second */
+    drogue_q16 start_rate_std_q16;                 /* 2 m/s and rad/s: of the unknown rate at the start */
+    drogue_q16 start_accel_std_q16;                /* 2 m/s^2 and rad/s^2 */
+} drogue_track_config;
+
+void drogue_track_config_default(drogue_track_config *config);
+
+/* 1 when agree_frames and region_scale_q16 are above 0, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and
+ * nothing else is negative. */
+int drogue_track_config_valid(const drogue_track_config *config);
+
+typedef struct drogue_track {
+    drogue_track_config config;
+    drogue_camera camera;
+    drogue_model model;
+    drogue_region first_region; /* width 0: none, the whole frame */
+    drogue_track_state state;
+    uint32_t missed;     /* frames in a row, missed or refused */
+    int32_t gated;       /* 1: this frame's measurement was refused */
+    int32_t search;      /* 1: the drogue may be anywhere in 'reach', more than drogue_measure() can cover */
+    drogue_region reach; /* square that holds the predicted outline to region_sigmas; like first_region when lost */
+    int32_t orientation_known; /* 1: a resolved measurement has chosen between the twin poses */
+    uint32_t open_frames;      /* unresolved measurements believed in a row */
+    uint32_t turned;           /* resolved measurements in a row that gave way to their twins */
+    uint32_t agreeing;         /* refused measurements in a row that agree; 'second' holds them */
+    int32_t second_known;      /* orientation_known of 'second' */
+    drogue_kalman filter;
+    drogue_kalman second;
+} drogue_track;
+
+/* The filter's estimate, Q16, with standard deviations, Q32. */
+typedef struct drogue_track_estimate {
+    drogue_q16 position_m_q16[3];
+    drogue_q16 velocity_mps_q16[3];
+    drogue_q16 axis_q16[3];
+    drogue_q16 yaw_rad_q16;
+    drogue_q16 pitch_rad_q16;
+    int32_t orientation_resolved; /* 1: not only one of two twins, see drogue_track */
+    int64_t position_std_m_q32[3];
+    int64_t yaw_std_rad_q32;
+    int64_t pitch_std_rad_q32;
+    int64_t axis_std_rad_q32; /* root mean square angle between estimated and true axis */
+} drogue_track_estimate;
+
+/* Start lost.
+ *
+ *  camera, model  examined frame by frame, by drogue_measure()
+ *  first_region   to be searched until something is found; NULL: the whole frame
+ *  return         DROGUE_OK; DROGUE_E_ARGUMENT when drogue_track_config_valid() refuses the configuration: the track is
+ *                 all zero then, not to be used. drogue_track_frame() stays lost with it: it has no camera
+ */
+drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *config, const drogue_camera *camera,
+                                const drogue_model *model, const drogue_region *first_region);
+
+/* Begin a frame dt_us after the one before: predict and place the region for drogue_measure().
+ *
+ *  region  out, may reach past the image; all zero when the whole frame is to be searched. Its side grows by up to a
+ *          tenth with the predicted uncertainty, as far as the ring mask bears it; beyond that track->search is set
+ */
+void drogue_track_begin(drogue_region *region, drogue_track *track, uint32_t dt_us);
+
+/* End the frame with its measurement: correct, refuse, coast or give up. Returns the new state. */
+drogue_track_state drogue_track_end(drogue_track *track, const drogue_result *result);
+
+/* The estimate; all zero while lost. */
+void drogue_track_get(drogue_track_estimate *out, const drogue_track *track);
+
+/* A frame in one call: begin; measure where the drogue is expected, and when that fails and 'search' is set search
+ * where it may be; end. While lost the first region is measured, then the whole frame searched; a drogue of known
+ * inner part that a search finds starts a track only when its inner part resolved the orientation, or was seen within an
+ * outline of three quarters. A track of something else, which shows no inner part, gives way after reconsider_frames
+ * when the drogue is in sight.
+ *
+ *  result  out, the frame's measurement; its region is where it was taken
+ *  region  out, the region asked for
+ *  search  memory for a frame as wide as the image
+ */
+drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *region, drogue_track *track,
+                                      drogue_workspace *workspace, drogue_search *search, const drogue_config *config,
+                                      const drogue_image *image, uint32_t dt_us);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

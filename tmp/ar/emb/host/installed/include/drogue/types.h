@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The few types that several stages share: image, region, camera, drogue model, edge point, arc. */
+#ifndef DROGUE_TYPES_H
+#define DROGUE_TYPES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "drogue/fixed.h"
+#include "drogue/status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DROGUE_MAX_SIDE 2048 /* px, largest width and height of a region */
+
+/* 8-bit grey image of the caller's, row y at data + y * stride.
+ * The centre of the top-left pixel is (0, 0), x right, y down. */
+typedef struct drogue_image {
+    const uint8_t *data;
+    int32_t width_px;
+    int32_t height_px;
+    int32_t stride; /* bytes from row to row, >= width_px */
+} drogue_image;
+
+/* Can a stage work on this image: sides in [1, DROGUE_MAX_SIDE], a stride that holds a row, data there? */
+static inline int drogue_image_valid(const drogue_image *image)
+{
+    return image->data != NULL && image->width_px >= 1 && image->width_px <= DROGUE_MAX_SIDE && image->height_px >= 1 &&
+           image->height_px <= DROGUE_MAX_SIDE && image->stride >= image->width_px;
+}
+
+static inline const uint8_t *drogue_image_row(const drogue_image *image, int32_t y)
+{
+    return image->data + (size_t)y * (size_t)image->stride;
+}
+
+/* Rectangle of whole pixels [x, x + width) x [y, y + height); may reach past the image. */
+typedef struct drogue_region {
+    int32_t x_px;
+    int32_t y_px;
+    int32_t width_px;
+    int32_t height_px;
+} drogue_region;
+
+/* Clip one side [*at, *at + *length) of a region to [0, limit); *length is 0 or less when nothing is left. */
+static inline void drogue_clip(int32_t *at, int32_t *length, int32_t limit)
+{
+    const int64_t end = (int64_t)*at + *length;
+    *at = *at < 0 ? 0 : *at;
+    *length = (int32_t)((end > limit ? limit : end) - *at);
+}
+
+/* Pinhole camera with Brown-Conrady distortion, in OpenCV's order and sense. */
+typedef struct drogue_camera {
+    drogue_q16 fx_px_q16; /* > 0 */
+    drogue_q16 fy_px_q16; /* > 0 */
+    drogue_q16 cx_px_q16;
+    drogue_q16 cy_px_q16;
+    drogue_q16 k1_q16;
+    drogue_q16 k2_q16;
+    drogue_q16 p1_q16;
+    drogue_q16 p2_q16;
+    drogue_q16 k3_q16;
+} drogue_camera;
+
+/* The drogue: its end plane is a circle, its inner black part a disc behind it on the axis. */
+typedef struct drogue_model {
+    drogue_q16 rim_radius_m_q16;   /* > 0 */
+    drogue_q16 inner_radius_m_q16; /* 0: inner part unknown */
+    drogue_q16 inner_depth_m_q16;  /* from the end plane along the axis, into the drogue */
+} drogue_model;
+
+/* Ellipse: centre, semi-axes a >= b, angle of the major axis from +x towards +y in (-pi/2, pi/2]. */
+typedef struct drogue_ellipse {
+    drogue_q16 xc_px_q16;
+    drogue_q16 yc_px_q16;
+    drogue_q16 a_px_q16;
+    drogue_q16 b_px_q16;
+    drogue_q16 angle_rad_q16;
+} drogue_ellipse;
+
+/* Pixel of a row, its Sobel gradient, and the subpixel offset across the edge once that is known. */
+typedef struct drogue_slope {
+    uint16_t x;
+    int16_t gx;
+    int16_t gy; /* y downward */
+    int8_t dx_q5;
+    int8_t dy_q5;
+} drogue_slope;
+
+/* One edge point. The pixel is (x_q5 + 16) >> 5 in region coordinates; the low bits are the subpixel
+ * offset across the edge, at most 15/32 px each way. */
+typedef struct drogue_edge {
+    uint32_t arc; /* while streaming: provisional label; after: index into the arc table, or DROGUE_NO_ARC */
+    uint16_t x_q5;
+    uint16_t y_q5;
+    int16_t gx; /* Sobel gradient, grey levels * 8, [-1020, 1020] */
+    int16_t gy; /* y downward */
+} drogue_edge;
+
+#define DROGUE_NO_ARC UINT32_C(0xFFFFFFFF)
+
+static inline drogue_q16 drogue_edge_x_q16(const drogue_edge *e) { return (drogue_q16)((int32_t)e->x_q5 * 2048); }
+static inline drogue_q16 drogue_edge_y_q16(const drogue_edge *e) { return (drogue_q16)((int32_t)e->y_q5 * 2048); }
+static inline int32_t drogue_edge_x_px(const drogue_edge *e) { return ((int32_t)e->x_q5 + 16) >> 5; }
+static inline int32_t drogue_edge_y_px(const drogue_edge *e) { return ((int32_t)e->y_q5 + 16) >> 5; }
+
+/* Edge points [first, first + count) of the edge list, 8-connected, one direction class (0..3 = I..IV). */
+typedef struct drogue_arc {
+    uint32_t first;
+    uint32_t count;
+    uint32_t direction;
+} drogue_arc;
+
+/* Polarity of an arc or of the whole outline. */
+typedef enum drogue_polarity {
+    DROGUE_POLARITY_DARK = 0,   /* darker inside: the gradient points outward */
+    DROGUE_POLARITY_BRIGHT = 1, /* brighter inside: the gradient points inward */
+    DROGUE_POLARITY_BOTH = 2    /* configuration only: try both */
+} drogue_polarity;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

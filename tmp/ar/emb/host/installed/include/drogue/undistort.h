@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Brown-Conrady lens distortion (k1 k2 p1 p2 k3, as OpenCV) applied and removed. */
+#ifndef DROGUE_UNDISTORT_H
+#define DROGUE_UNDISTORT_H
+
+#include "drogue/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DROGUE_MAX_DISTORTION_Q16 (256 * DROGUE_Q16_ONE) /* largest magnitude of a coefficient */
+
+/* Does the camera distort at all? */
+static inline int drogue_camera_distorts(const drogue_camera *c)
+{
+    return (c->k1_q16 | c->k2_q16 | c->p1_q16 | c->p2_q16 | c->k3_q16) != 0;
+}
+
+/* Pixel as an ideal pinhole camera of the same fx, fy, cx, cy would see it -> pixel as seen.
+ *
+ *  x, y    in/out, px Q16
+ *  return  DROGUE_OK; DROGUE_E_DOMAIN when the point lies more than 4 focal lengths off the axis, a
+ *          coefficient exceeds DROGUE_MAX_DISTORTION_Q16, or the result leaves Q16
+ *  error   <= 2 LSB for coefficients up to 2, 4 LSB over the domain
+ */
+drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);
+
+/* Pixel as seen -> pixel of the ideal pinhole camera, by damped Newton steps from the axis.
+ *
+ *  x, y    in/out, px Q16; unchanged on failure
+ *  return  DROGUE_OK; DROGUE_E_DOMAIN as above, when the model cannot be inverted there (beyond a
+ *          fold), or when it stretches more than 64-fold
+ *  error   <= 4 LSB
+ */
+drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
