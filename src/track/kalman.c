@@ -173,8 +173,8 @@ void drogue_kalman_std(int64_t out_q32[DROGUE_PARAMETERS], const drogue_kalman *
 }
 
 void drogue_kalman_distance2(drogue_real *out, const drogue_kalman *filter,
-                             const drogue_q16 value_q16[DROGUE_PARAMETERS],
-                             const drogue_real noise[DROGUE_PACKED_MAX], int n)
+                             const drogue_q16 value_q16[DROGUE_PARAMETERS], const drogue_real noise[DROGUE_PACKED_MAX],
+                             int n)
 {
     drogue_real innovation[DROGUE_PARAMETERS];
     drogue_real covariance[DROGUE_PACKED_MAX];
