@@ -14,8 +14,9 @@
 #define MAX_STEPS 64
 
 static const int64_t one_q24 = INT64_C(1) << DERIVATIVE_FRAC;
-static const int64_t noise_q29 = 128; /* a miss that need not lessen */
-static const int64_t still_q29 = 64;  /* a step this short, 2^-23, squares to nothing in the next */
+static const int64_t most_q29 = INT64_C(4) << FRAC; /* off the axis, in focal lengths */
+static const int64_t noise_q29 = 128;               /* a miss that need not lessen */
+static const int64_t still_q29 = 64;                /* a step this short, 2^-23, squares to nothing in the next */
 
 /* a * b / 2^n, rounded. */
 static int64_t mul(int32_t a, int32_t b, int n) { return drogue_shr_round_s64((int64_t)a * b, n); }
@@ -140,6 +141,9 @@ static void distort(distorted *d, const lens *l, int32_t x_q29, int32_t y_q29)
     DROGUE_NOTE("undistort: derivative, Q24", d->xx_q24, 52);
 }
 
+/* A coordinate within the domain; 4 itself is one unit less. */
+static int64_t clamp(int64_t v) { return v > INT32_MAX ? INT32_MAX : v < -INT32_MAX ? -INT32_MAX : v; }
+
 /* Pixel -> normalised; 0 when too far off the axis. */
 static int normalise(int32_t *x_q29, drogue_q16 px_q16, drogue_q16 centre_q16, drogue_q16 focal_q16)
 {
@@ -151,8 +155,8 @@ static int normalise(int32_t *x_q29, drogue_q16 px_q16, drogue_q16 centre_q16, d
     drogue_real_set(&x, (int64_t)px_q16 - centre_q16, 0);
     drogue_real_set(&focal, focal_q16, 0);
     drogue_real_quotient(&x, &x, &focal);
-    *x_q29 = drogue_real_to_s32(x, FRAC);
-    return *x_q29 > -INT32_MAX && *x_q29 < INT32_MAX;
+    *x_q29 = (int32_t)clamp(drogue_real_to_s64(x, FRAC));
+    return abs_s64(drogue_real_to_s64(x, FRAC)) <= most_q29;
 }
 
 /* Both coordinates, and coefficients that the arithmetic holds. */
@@ -165,14 +169,20 @@ static int enter(lens *l, int32_t *x_q29, int32_t *y_q29, drogue_q16 x_px_q16, d
            normalise(y_q29, y_px_q16, c->cy_px_q16, c->fy_px_q16);
 }
 
-/* Move a pixel by a normalised displacement; 0 when that is 4 or more, or the pixel leaves Q16. */
+/* Move a pixel by a normalised displacement; 0 when it leaves Q16. */
 static int move_pixel(drogue_q16 *px_q16, int64_t by_q29, drogue_q16 focal_q16)
 {
+    drogue_real by;
+    drogue_real focal;
     int64_t px;
-    if (abs_s64(by_q29) > INT32_MAX) {
+    drogue_real_set(&by, by_q29, -FRAC);
+    drogue_real_set(&focal, focal_q16, 0);
+    drogue_real_product(&by, &by, &focal);
+    px = drogue_real_to_s64(by, 0);
+    if (px > UINT32_MAX || px < -(int64_t)UINT32_MAX) {
         return 0;
     }
-    px = *px_q16 + mul((int32_t)by_q29, focal_q16, FRAC);
+    px += *px_q16;
     *px_q16 = (drogue_q16)px;
     return *px_q16 == px;
 }
@@ -256,9 +266,6 @@ static int64_t step_of(int64_t a_q24, int64_t b_q29, int64_t c_q24, int64_t d_q2
     drogue_real_quotient(&t, &t, det);
     return drogue_real_to_s64(t, FRAC);
 }
-
-/* A coordinate within the domain. */
-static int64_t clamp(int64_t v) { return v > INT32_MAX ? INT32_MAX : v < -INT32_MAX ? -INT32_MAX : v; }
 
 drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera)
 {
