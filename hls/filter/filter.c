@@ -27,6 +27,7 @@ static inline void load(drogue_kalman *filter, const int32_t memory[DROGUE_HLS_F
             get_real(&filter->parameter[p].variance[k], words + 6 + 2 * k);
             get_real(&filter->parameter[p].slope[k], words + 12 + 2 * k);
         }
+        get_real(&filter->parameter[p].rest, words + 18);
     }
 }
 
@@ -41,6 +42,7 @@ static inline void store(int32_t memory[DROGUE_HLS_FILTER_WORDS], const drogue_k
             put_real(words + 6 + 2 * k, &filter->parameter[p].variance[k]);
             put_real(words + 12 + 2 * k, &filter->parameter[p].slope[k]);
         }
+        put_real(words + 18, &filter->parameter[p].rest);
     }
 }
 

@@ -13,9 +13,9 @@ enum drogue_hls_filter_command {
     DROGUE_HLS_FILTER_COAST = 3    /* predict over dt_us */
 };
 
-/* Words of the filter's memory: mantissa and exponent of state 0 1 2, variance 0 1 2 and slope 0 1 2 of each parameter,
- * the factors of its covariance (drogue_kalman3). */
-#define DROGUE_HLS_FILTER_REALS 9
+/* Words of the filter's memory: mantissa and exponent of state 0 1 2, variance 0 1 2, slope 0 1 2 and rest of each
+ * parameter (drogue_kalman3). */
+#define DROGUE_HLS_FILTER_REALS 10
 #define DROGUE_HLS_FILTER_WORDS (DROGUE_PARAMETERS * DROGUE_HLS_FILTER_REALS * 2)
 
 /* A step of the filter.

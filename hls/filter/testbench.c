@@ -49,9 +49,10 @@ static void compare(bench *b, const drogue_kalman *filter)
         (void)bench_word(b, "std of a value", value_std[p], expected_std[p]);
     }
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
+        const drogue_kalman3 *f = &filter->parameter[p];
+        compare_real(b, 2 * (10 * p + 9), &f->rest);
         for (k = 0; k < 9; k++) {
-            const drogue_kalman3 *f = &filter->parameter[p];
-            compare_real(b, 2 * (9 * p + k), k < 3 ? &f->state[k] : k < 6 ? &f->variance[k - 3] : &f->slope[k - 6]);
+            compare_real(b, 2 * (10 * p + k), k < 3 ? &f->state[k] : k < 6 ? &f->variance[k - 3] : &f->slope[k - 6]);
         }
     }
 }

@@ -22,6 +22,7 @@ enum { DROGUE_X = 0, DROGUE_Y = 1, DROGUE_Z = 2, DROGUE_PITCH = 3, DROGUE_YAW = 
 /* One parameter: value, rate, acceleration, and the factors of their covariance. variance[0] is that of the value. */
 typedef struct drogue_kalman3 {
     drogue_real state[3];
+    drogue_real rest;        /* of the value, below its last place: rates are differences of values over short times */
     drogue_real variance[3]; /* D: of the value; of the rate given the value; of the acceleration given both */
     drogue_real slope[3];    /* L: of the rate over the value, of the acceleration over the value and over the rate */
 } drogue_kalman3;
@@ -71,8 +72,8 @@ void drogue_kalman_std(int64_t out_q32[DROGUE_PARAMETERS], const drogue_kalman *
  *  n        the first n parameters in the order above, [1, DROGUE_PARAMETERS]
  */
 void drogue_kalman_distance2(drogue_real *out, const drogue_kalman *filter,
-                             const drogue_q16 value_q16[DROGUE_PARAMETERS],
-                             const drogue_real noise[DROGUE_PACKED_MAX], int n);
+                             const drogue_q16 value_q16[DROGUE_PARAMETERS], const drogue_real noise[DROGUE_PACKED_MAX],
+                             int n);
 
 #ifdef __cplusplus
 }

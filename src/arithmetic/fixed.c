@@ -9,9 +9,9 @@
 #define TAN_PI_8_Q32 1779033704u
 
 /* Coefficients of the alternating series below, Q32: what follows the first terms, which are 1. */
-#define COS_TERMS 6  /* 1 / 2!, 1 / 4!, ... */
-#define SIN_TERMS 5  /* 1 / 3!, 1 / 5!, ... */
-#define EXP_TERMS 11 /* 1 / 2!, 1 / 3!, ... */
+#define COS_TERMS 6   /* 1 / 2!, 1 / 4!, ... */
+#define SIN_TERMS 5   /* 1 / 3!, 1 / 5!, ... */
+#define EXP_TERMS 11  /* 1 / 2!, 1 / 3!, ... */
 #define ATAN_TERMS 10 /* 1 / 3, 1 / 5, ... */
 static const uint32_t cos_q32[COS_TERMS] = {2147483648u, 178956971u, 5965232u, 106522u, 1184u, 9u};
 static const uint32_t sin_q32[SIN_TERMS] = {715827883u, 35791394u, 852176u, 11836u, 108u};
@@ -192,9 +192,12 @@ int32_t drogue_atan2_q29(int64_t y, int64_t x)
         more = less;
         less = t;
     }
-    if (less > upper(more, TAN_PI_8_Q32)) { /* turned by pi / 4; half of sum and difference, and twice that where it is 30 bits */
+    if (less >
+        upper(more,
+              TAN_PI_8_Q32)) { /* turned by pi / 4; half of sum and difference, and twice that where it is 30 bits */
         const int up = (more + less) >> 31 == 0;
-        angle_q32 = QUARTER_PI_Q32 - atan_of_ratio(up ? more - less : (more - less) >> 1, (more + less) >> (up ? 0 : 1));
+        angle_q32 =
+            QUARTER_PI_Q32 - atan_of_ratio(up ? more - less : (more - less) >> 1, (more + less) >> (up ? 0 : 1));
     } else {
         angle_q32 = atan_of_ratio(less, more);
     }

@@ -14,7 +14,9 @@
 #define MAX_STEPS 64
 
 static const int64_t one_q24 = INT64_C(1) << DERIVATIVE_FRAC;
-static const int64_t still_q29 = 32; /* a step this short, 2^-24, squares to nothing in the next */
+static const int64_t most_q29 = INT64_C(4) << FRAC; /* off the axis, in focal lengths */
+static const int64_t noise_q29 = 128;               /* a miss that need not lessen */
+static const int64_t still_q29 = 64;                /* a step this short, 2^-23, squares to nothing in the next */
 
 /* a * b / 2^n, rounded. */
 static int64_t mul(int32_t a, int32_t b, int n) { return drogue_shr_round_s64((int64_t)a * b, n); }
@@ -45,7 +47,7 @@ static void lens_of(lens *l, const drogue_camera *c)
     l->q16[P1] = c->p1_q16;
     l->q16[P2] = c->p2_q16;
     for (i = 0; i < COEFFICIENTS; i++) {
-        l->bits[i] = 64 - drogue_clz_u64(drogue_abs_u64(l->q16[i]));
+        l->bits[i] = 32 - drogue_clz_u32((uint32_t)drogue_abs_u64(l->q16[i]));
     }
 }
 
@@ -63,7 +65,7 @@ typedef struct block {
 /* v * 2^n, rounded; the caller knows that it fits */
 static int32_t shifted(int32_t v, int n)
 {
-    return n >= 0 ? (int32_t)drogue_shl_s64(v, n) : n < -31 ? 0 : (int32_t)drogue_shr_round_s64(v, -n);
+    return n >= 0 ? (int32_t)((uint32_t)v << n) : n < -31 ? 0 : (v >> -n) + ((v >> (-n - 1)) & 1);
 }
 
 static void block_at(block *b, const lens *l, int32_t x_q29, int32_t y_q29)
@@ -139,6 +141,9 @@ static void distort(distorted *d, const lens *l, int32_t x_q29, int32_t y_q29)
     DROGUE_NOTE("undistort: derivative, Q24", d->xx_q24, 52);
 }
 
+/* A coordinate within the domain; 4 itself is one unit less. */
+static int64_t clamp(int64_t v) { return v > INT32_MAX ? INT32_MAX : v < -INT32_MAX ? -INT32_MAX : v; }
+
 /* Pixel -> normalised; 0 when too far off the axis. */
 static int normalise(int32_t *x_q29, drogue_q16 px_q16, drogue_q16 centre_q16, drogue_q16 focal_q16)
 {
@@ -150,8 +155,8 @@ static int normalise(int32_t *x_q29, drogue_q16 px_q16, drogue_q16 centre_q16, d
     drogue_real_set(&x, (int64_t)px_q16 - centre_q16, 0);
     drogue_real_set(&focal, focal_q16, 0);
     drogue_real_quotient(&x, &x, &focal);
-    *x_q29 = drogue_real_to_s32(x, FRAC);
-    return *x_q29 > -INT32_MAX && *x_q29 < INT32_MAX;
+    *x_q29 = (int32_t)clamp(drogue_real_to_s64(x, FRAC));
+    return abs_s64(drogue_real_to_s64(x, FRAC)) <= most_q29;
 }
 
 /* Both coordinates, and coefficients that the arithmetic holds. */
@@ -164,14 +169,20 @@ static int enter(lens *l, int32_t *x_q29, int32_t *y_q29, drogue_q16 x_px_q16, d
            normalise(y_q29, y_px_q16, c->cy_px_q16, c->fy_px_q16);
 }
 
-/* Move a pixel by a normalised displacement; 0 when that is 4 or more, or the pixel leaves Q16. */
+/* Move a pixel by a normalised displacement; 0 when it leaves Q16. */
 static int move_pixel(drogue_q16 *px_q16, int64_t by_q29, drogue_q16 focal_q16)
 {
+    drogue_real by;
+    drogue_real focal;
     int64_t px;
-    if (abs_s64(by_q29) > INT32_MAX) {
+    drogue_real_set(&by, by_q29, -FRAC);
+    drogue_real_set(&focal, focal_q16, 0);
+    drogue_real_product(&by, &by, &focal);
+    px = drogue_real_to_s64(by, 0);
+    if (px > UINT32_MAX || px < -(int64_t)UINT32_MAX) {
         return 0;
     }
-    px = *px_q16 + mul((int32_t)by_q29, focal_q16, FRAC);
+    px += *px_q16;
     *px_q16 = (drogue_q16)px;
     return *px_q16 == px;
 }
@@ -256,14 +267,12 @@ static int64_t step_of(int64_t a_q24, int64_t b_q29, int64_t c_q24, int64_t d_q2
     return drogue_real_to_s64(t, FRAC);
 }
 
-/* A coordinate within the domain. */
-static int64_t clamp(int64_t v) { return v > INT32_MAX ? INT32_MAX : v < -INT32_MAX ? -INT32_MAX : v; }
-
 drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera)
 {
     int32_t u;
     int32_t v;
-    int64_t x = 0; /* from the axis, where the map is the identity: what is seen without a fold can be followed from there */
+    int64_t x =
+        0; /* from the axis, where the map is the identity: what is seen without a fold can be followed from there */
     int64_t y = 0;
     int64_t dx;
     int64_t dy;
@@ -286,7 +295,7 @@ drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16,
         miss_x = u - (x + dx) - d.x_q29;
         miss_y = v - (y + dy) - d.y_q29;
         miss = abs_s64(miss_x) + abs_s64(miss_y);
-        if (!regular(&d, miss_x, miss_y) || (miss >= nearest && miss > still_q29)) {
+        if (!regular(&d, miss_x, miss_y) || (miss >= nearest && miss > noise_q29)) {
             dx >>= 1; /* across a fold or too far: half the step */
             dy >>= 1;
             continue;
@@ -298,9 +307,10 @@ drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16,
         dx = step_of(d.yy_q24, miss_x, d.xy_q24, miss_y, &det);
         dy = step_of(d.xx_q24, miss_y, d.xy_q24, miss_x, &det);
         if (abs_s64(dx) + abs_s64(dy) <= still_q29) {
-            return !before_fold(&l, (int32_t)x, (int32_t)y)
-                       ? DROGUE_E_DOMAIN
-                       : leave(x_px_q16, y_px_q16, x + dx - u, y + dy - v, camera);
+            if (!before_fold(&l, (int32_t)x, (int32_t)y)) {
+                break;
+            }
+            return leave(x_px_q16, y_px_q16, x + dx - u, y + dy - v, camera);
         }
         dx = clamp(x + dx) - x;
         dy = clamp(y + dy) - y;

@@ -80,7 +80,8 @@ drogue_q16 drogue_inner_std(const drogue_inner_part *part, const drogue_ellipse 
         !within_outline(part, expected, outline)) {
         return 0;
     }
-    return drogue_sat_s32(drogue_isqrt_u64(drogue_square_sum(share, config->inner_std_px_q16) + drogue_square_sum(spread, 0)));
+    return drogue_sat_s32(
+        drogue_isqrt_u64(drogue_square_sum(share, config->inner_std_px_q16) + drogue_square_sum(spread, 0)));
 }
 
 void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_region *region, const drogue_ellipse *expected,

@@ -4,6 +4,18 @@
 
 #include <string.h>
 
+/* Change a value; what its mantissa does not take stays in its rest (Kahan 1965). */
+static void move(drogue_kalman3 *f, const drogue_real *by)
+{
+    drogue_real change;
+    drogue_real t;
+    drogue_real_sum(&change, by, &f->rest);
+    drogue_real_copy(&t, &f->state[0]);
+    drogue_real_sum(&f->state[0], &t, &change);
+    drogue_real_difference(&t, &f->state[0], &t);
+    drogue_real_difference(&f->rest, &change, &t);
+}
+
 static const drogue_real two_pi = {1686629713, -28};
 
 void drogue_kalman_restart(drogue_kalman *filter, int parameter, drogue_q16 value_q16, const drogue_q16 std_q16[3])
@@ -103,8 +115,13 @@ void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q
     drogue_real_product(&t.half_dt2, &t.dt, &t.dt);
     drogue_real_shift(&t.half_dt2, -1);
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        advance(filter->parameter[p].state, &t);
-        spread(&filter->parameter[p], &t, std_q16[p]);
+        drogue_kalman3 *f = &filter->parameter[p];
+        drogue_real change;
+        drogue_real_products(&change, &t.dt, &f->state[1], &t.half_dt2, &f->state[2]);
+        move(f, &change);
+        drogue_real_product(&change, &t.dt, &f->state[2]);
+        drogue_real_sum(&f->state[1], &f->state[1], &change);
+        spread(f, &t, std_q16[p]);
     }
 }
 
@@ -122,6 +139,7 @@ static void innovation_of(drogue_real *out, const drogue_kalman *filter, int p, 
 {
     drogue_real_set_q16(out, value_q16);
     drogue_real_difference(out, out, &filter->parameter[p].state[0]);
+    drogue_real_difference(out, out, &filter->parameter[p].rest);
     if (p == DROGUE_PITCH || p == DROGUE_YAW) {
         wrap(out);
     }
@@ -143,7 +161,7 @@ void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DRO
         innovation_of(&change, filter, p, value_q16[p]);
         drogue_real_quotient(&t, &f->variance[0], &variance);
         drogue_real_product(&change, &change, &t);
-        drogue_real_sum(&f->state[0], &f->state[0], &change);
+        move(f, &change);
         drogue_real_product(&t, &f->slope[0], &change);
         drogue_real_sum(&f->state[1], &f->state[1], &t);
         drogue_real_product(&t, &f->slope[1], &change);
@@ -173,8 +191,8 @@ void drogue_kalman_std(int64_t out_q32[DROGUE_PARAMETERS], const drogue_kalman *
 }
 
 void drogue_kalman_distance2(drogue_real *out, const drogue_kalman *filter,
-                             const drogue_q16 value_q16[DROGUE_PARAMETERS],
-                             const drogue_real noise[DROGUE_PACKED_MAX], int n)
+                             const drogue_q16 value_q16[DROGUE_PARAMETERS], const drogue_real noise[DROGUE_PACKED_MAX],
+                             int n)
 {
     drogue_real innovation[DROGUE_PARAMETERS];
     drogue_real covariance[DROGUE_PACKED_MAX];

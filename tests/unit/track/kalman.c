@@ -269,7 +269,7 @@ START_TEST(no_negative_variance)
     drogue_kalman_correct(&filter, value, std);
     must_be_positive(&filter);
     covariance_of(p, &filter.parameter[0]);
-    {   /* rate - 2 / dt value does not depend on the acceleration: 7.6e-5; before the correction it was 9.6e6, and to that
+    { /* rate - 2 / dt value does not depend on the acceleration: 7.6e-5; before the correction it was 9.6e6, and to that
            mantissas of 31 bits are true */
         const double dt = 674.651533, before = 931817865.0 / 65536 * dt, rate = 5.0 / 65536;
         MUST(p[3] > 0 && fabs(sqrt(p[3]) - rate) < ldexp(before, -31), "standard deviation of the rate %g", sqrt(p[3]));
@@ -307,5 +307,5 @@ START_TEST(states_saturate)
 }
 END_TEST
 
-SUITE_MAIN("kalman", same_states_as_fifteen_in_one, angles_pass_half_a_turn, ends_of_the_ranges,
-           no_negative_variance, states_saturate)
+SUITE_MAIN("kalman", same_states_as_fifteen_in_one, angles_pass_half_a_turn, ends_of_the_ranges, no_negative_variance,
+           states_saturate)
