@@ -189,6 +189,9 @@ int bench_place(drogue_region *part, drogue_mask *mask, const drogue_image *imag
     }
     drogue_clip(&part->x_px, &part->width_px, image->width_px);
     drogue_clip(&part->y_px, &part->height_px, image->height_px);
+    if (part->width_px < 1 || part->height_px < 1) {
+        return 0;
+    }
     *mask = drogue_mask_of_size(region->width_px, region->height_px);
     mask->centre2_x += 2 * (region->x_px - part->x_px);
     mask->centre2_y += 2 * (region->y_px - part->y_px);

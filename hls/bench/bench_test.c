@@ -27,6 +27,25 @@ static int run(bench *b, const char *stage, const int32_t *last)
     return bench_end(b);
 }
 
+/* Regions with nothing of the image in them, some by numbers that wrap: how many are taken. */
+static int refuses_regions(void)
+{
+    static const drogue_region none[] = {
+        {64, 0, 8, 8}, {0, -8, 8, 8}, {0, INT32_MIN, 8, 8}, {INT32_MAX, 0, 8, 8}, {0, 0, 8, INT32_MIN + 5000}};
+    static const drogue_image image = {NULL, 64, 48, 64};
+    const drogue_region inside = {-4, 40, 8, 16};
+    drogue_region part;
+    drogue_mask mask;
+    int taken = 0;
+    size_t i;
+    for (i = 0; i < sizeof none / sizeof none[0]; i++) {
+        taken += bench_place(&part, &mask, &image, &none[i]);
+    }
+    taken +=
+        !(bench_place(&part, &mask, &image, &inside) && part.x_px == 0 && part.width_px == 4 && part.height_px == 8);
+    return taken;
+}
+
 int main(void)
 {
     bench b;
@@ -35,6 +54,8 @@ int main(void)
     wrong += !(run(&b, "a", other_words) == 1 && b.cases == 2 && b.failed == 1);
     wrong += !(run(&b, "b", words) == 0 && b.cases == 1);
     wrong += !(run(&b, "c", words) == 1 && b.cases == 0);
+
+    wrong += refuses_regions();
 
     bench_begin(&b, "skips all");
     while (bench_next(&b, "b") != NULL) {

@@ -12,7 +12,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+(?:"([^"]+)"|<([^>]+)>).*\n', re.M)
-WORD = r'(?<![\w.>]){}\b'  # not a member
+WORD = r'(?<![\w.>"/]){}\b'  # not a member, nor in the name of a header
 
 
 def version():

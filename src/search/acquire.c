@@ -56,14 +56,18 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     whole.y_px = 0;
     whole.width_px = image->width_px;
     whole.height_px = image->height_px;
-    part = region != NULL ? *region : whole;
-    whole = part;
-    drogue_clip(&part.x_px, &part.width_px, image->width_px);
-    drogue_clip(&part.y_px, &part.height_px, image->height_px);
+    whole = region != NULL ? *region : whole;
     if (image->data == NULL || image->stride < image->width_px) {
         out->status = DROGUE_E_ARGUMENT;
         return out->status;
     }
+    if (whole.width_px < 1 || whole.height_px < 1) {
+        out->status = DROGUE_E_REGION;
+        return out->status;
+    }
+    part = whole;
+    drogue_clip(&part.x_px, &part.width_px, image->width_px);
+    drogue_clip(&part.y_px, &part.height_px, image->height_px);
     if (part.width_px < 1 || part.height_px < 1) {
         out->status = DROGUE_E_REGION;
         return out->status;

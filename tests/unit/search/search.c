@@ -304,6 +304,56 @@ START_TEST(acquire_measures_what_it_finds)
 }
 END_TEST
 
+/* Nothing is left, or a part of [0, limit), whatever the numbers are. */
+START_TEST(clipping_saturates)
+{
+    static const int32_t edges[] = {INT32_MIN, INT32_MIN + 1, -70000,        -65,      -64, -1, 0, 1, 63, 64,
+                                    65,        70000,         INT32_MAX - 1, INT32_MAX};
+    enum { EDGES = sizeof edges / sizeof edges[0] };
+    int i;
+    for (i = 0; i < EDGES * EDGES * EDGES; i++) {
+        const int32_t from = edges[i / EDGES / EDGES], length = edges[i / EDGES % EDGES], limit = edges[i % EDGES];
+        const int64_t most = limit > 0 ? limit : 0, end = (int64_t)from + length, first = from > 0 ? from : 0;
+        const int64_t left = (end < most ? end : most) - first;
+        int32_t at = from, rest = length;
+        drogue_clip(&at, &rest, limit);
+        MUST(at >= 0 && at <= most && rest >= 0 && at + (int64_t)rest <= most && rest == (left > 0 ? left : 0) &&
+                 (rest == 0 || at == first),
+             "[%ld, + %ld) of %ld: [%ld, + %ld)", (long)from, (long)length, (long)limit, (long)at, (long)rest);
+    }
+}
+END_TEST
+
+/* Regions that wrap when their sides are clipped carelessly: refused before a pixel is read; the image is a block of its
+ * own, so that a sanitizer sees any that is. */
+START_TEST(acquire_refuses_hostile_regions)
+{
+    static const drogue_region regions[] = {{0, INT32_MIN, 64, INT32_MIN + 5000},
+                                            {INT32_MIN, 0, INT32_MIN + 5000, 64},
+                                            {INT32_MIN, INT32_MIN, INT32_MIN + 64, INT32_MIN + 64},
+                                            {INT32_MIN, INT32_MIN, -1, -1},
+                                            {0, INT32_MIN, 64, INT32_MAX},
+                                            {0, INT32_MAX, 64, INT32_MAX},
+                                            {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX},
+                                            {0, 0, 0, 64},
+                                            {0, 0, 64, 0},
+                                            {0, 0, INT32_MIN, INT32_MIN},
+                                            {64, 0, 64, 64}};
+    frame f = new_frame(64, 64, 210, 1);
+    rig r = new_rig(&f);
+    const drogue_image image = image_of(&f);
+    drogue_result result;
+    size_t i;
+    for (i = 0; i < sizeof regions / sizeof regions[0]; i++) {
+        const drogue_status status = drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+                                                    &(drogue_setup){&r.camera, &model, &r.config}, &image, &regions[i]);
+        MUST(status == DROGUE_E_REGION && result.status == status, "region %d: %s", (int)i, drogue_status_name(status));
+    }
+    free_rig(&r);
+    free(f.pixels);
+}
+END_TEST
+
 /* Wide with a drogue at the far end, tall with one at the bottom, one as large as a region bears, none. */
 START_TEST(frames_larger_than_a_region)
 {
@@ -453,5 +503,6 @@ START_TEST(what_shows_no_inner_part_is_reconsidered)
 END_TEST
 
 SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
-           any_size_of_frame, refusals, acquire_measures_what_it_finds, frames_larger_than_a_region, track_frames,
-           first_region_then_anywhere, what_shows_no_inner_part_is_reconsidered)
+           any_size_of_frame, refusals, acquire_measures_what_it_finds, clipping_saturates,
+           acquire_refuses_hostile_regions, frames_larger_than_a_region, track_frames, first_region_then_anywhere,
+           what_shows_no_inner_part_is_reconsidered)
