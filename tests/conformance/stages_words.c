@@ -64,7 +64,7 @@ const conf_measure conf_measures[CONF_MEASURES] = {
     {"disc", 'f', "fill", "itself", 16, CONF_OF_ITSELF, 2, 16, NULL},
     {"eigen", 'v', "values", "1", 30, CONF_LSB, 4, 4, NULL},
     {"eigen", 'd', "vectors", "1", 30, CONF_LSB, 4, 4096, "free-vector"},
-    {"undistort", 'p', "point", "px", 16, CONF_LSB, 4, 4, NULL},
+    {"undistort", 'p', "point", "px", 16, CONF_LSB, 4, 36, NULL},
     {"pose", 'm', "position", "m", 16, CONF_LSB, 4, 20, "ill-conditioned"},
     {"pose", 'r', "axis, angles", "rad", 16, CONF_LSB, 4, 20, "ill-conditioned"},
     {"pose", 'd', "distances", "px", 16, CONF_LSB, 8, 8, NULL},

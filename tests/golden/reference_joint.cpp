@@ -303,7 +303,7 @@ Joint solve_joint(const Pose &start, const Ellipse &e, const Covariance &outline
         out.solved = Solved::degenerate;
         return out;
     }
-    out.solved = in_range(rays) ? Solved::ok : Solved::domain;
+    out.solved = !(at[2] > 0) ? Solved::behind : in_range(rays) ? Solved::ok : Solved::domain;
     bool last = out.solved != Solved::ok;
     for (int step = 0; !last; step++) {
         const Frame f = frame_of(at);

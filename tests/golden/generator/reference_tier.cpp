@@ -348,8 +348,15 @@ Tiers undistort_tier(const Arrays &in, const Arrays &exact)
             words[k].insert(words[k].end(), {ok ? DROGUE_OK : DROGUE_E_DOMAIN, q16(p.x), q16(p.y)});
         }
     }
+    /* 31 bits of an offset: beyond any image, more than the last place */
+    std::vector<Real> more[2];
+    for (int k = 0; k < 2; k++) {
+        for (size_t i = 0; i < words[k].size(); i++) {
+            more[k].push_back(i % 3 == 0 ? 0 : std::max<Real>(0, std::fabs(static_cast<Real>(words[k][i])) * 0x1p-26L - 2));
+        }
+    }
     const Array undone = like(exact[0], words[0]), done = like(exact[1], words[1]);
-    return {{undone, bounds("undistort", undone)}, {done, bounds("undistort", done)}};
+    return {{undone, bounds("undistort", undone, more[0])}, {done, bounds("undistort", done, more[1])}};
 }
 
 Real saturated(Real v) { return std::clamp<Real>(v, -32768, real(INT32_MAX)); }
