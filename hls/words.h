@@ -196,8 +196,9 @@ void drogue_hls_pose(const int32_t parameters[DROGUE_HLS_PARAMETERS], const int3
 
 /* Stages alone, to prove and to measure them. */
 
-/* drogue_eigen_sym3(): matrix a00 a01 a02 a11 a12 a22 -> three values, three vectors Q60; returns the sweeps. */
-int32_t drogue_hls_eigen(const int64_t matrix[6], int64_t eigen[12]);
+/* drogue_eigen_sym3(): matrix a00 a01 a02 a11 a12 a22 -> Q60 -> mantissa and exponent of each value, then
+ * three vectors Q30; returns the sweeps. */
+int32_t drogue_hls_eigen(const int64_t matrix[6], int32_t eigen[15]);
 
 /* drogue_ellipse_fit(): points x in the low and y in the high 16 bits, unit 2^-frac_bits px -> xc yc a b angle, 0 on
  * failure; returns the drogue_status, DROGUE_E_ARGUMENT for more points than the memory. */

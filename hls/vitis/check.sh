@@ -36,7 +36,7 @@ bites() {
         status=1
     fi
 }
-bites 's|src/arithmetic/wide\.c|src/arithmetic/wade.c|' 'no file .*wade\.c'
+bites 's|src/arithmetic/real\.c|src/arithmetic/reel.c|' 'no file .*reel\.c'
 bites 's/^set top .*/set top another/' 'top another'
 bites '/^set replaced/s/.*/set replaced src\/drogue.c/' 'not those of hls_config.cfg'
 bites '/^ *cosim_design/d' 'steps .* csynth export'

@@ -82,18 +82,6 @@ int64_t checked_div_round_s64(int64_t num, int64_t den, const char *file, int li
     return drogue_div_round_s64(num, den);
 }
 
-int64_t checked_s128_shr_round(drogue_s128 v, int n, const char *file, int line)
-{
-    if (n < 1 || n > 63) {
-        checked_fail("drogue_s128_shr_round: count", file, line);
-        return 0;
-    }
-    if (v.hi >= (INT64_C(1) << (n - 1)) || v.hi < -(INT64_C(1) << (n - 1))) {
-        checked_fail("drogue_s128_shr_round: result beyond 64 bits", file, line);
-    }
-    return drogue_s128_shr_round(v, n);
-}
-
 void checked_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29, const char *file, int line)
 {
     const int32_t pi_q29 = 1686629713 + (1 << 13); /* pi, and half a Q16 unit of rounding */
@@ -101,14 +89,6 @@ void checked_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q2
         checked_fail("drogue_sincos_q30: beyond one turn", file, line);
     }
     drogue_sincos_q30(sin_q30, cos_q30, angle_rad_q29);
-}
-
-drogue_wide checked_wide_div(drogue_wide a, drogue_wide b, const char *file, int line)
-{
-    if (b.mantissa == 0) {
-        checked_fail("drogue_wide_div: by zero", file, line);
-    }
-    return drogue_wide_div(a, b);
 }
 
 /* The report follows whatever the program did; an excess is a failure. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Checked arithmetic: included ahead of every source of the core, it gives the primitives of fixed.h and wide.h bodies
+/* Checked arithmetic: included ahead of every source of the core, it gives the primitives of fixed.h and real.h bodies
  * that verify their stated ranges, and makes DROGUE_NOTE record peaks. Same names, same bits.
  *
  * What no primitive stands for, plain + - * << on integers, the compiler's undefined-behaviour sanitizer verifies in
@@ -31,7 +31,7 @@ void checked_fail(const char *what, const char *file, int line);
     } while (0)
 
 #include "drogue/fixed.h"
-#include "drogue/wide.h"
+#include "drogue/real.h"
 
 #ifndef CHECKED_PRIMITIVES /* the sources that define the primitives only take DROGUE_NOTE */
 
@@ -48,20 +48,20 @@ void checked_fail(const char *what, const char *file, int line);
         CHECKED_SATURATION("drogue_sat_s32", checked_v > INT32_MAX || checked_v < INT32_MIN); \
         (drogue_sat_s32)(checked_v);                                                          \
     })
-#define drogue_wide_to_q16(v)                                                                     \
+#define drogue_real_to_s64(v, frac)                                                                                  \
+    __extension__({                                                                                                  \
+        drogue_real checked_v = (v);                                                                                 \
+        int checked_frac = (frac);                                                                                   \
+        CHECKED_SATURATION("drogue_real_to_s64", checked_v.mantissa != 0 && checked_v.exponent + checked_frac > 32); \
+        (drogue_real_to_s64)(checked_v, checked_frac);                                                               \
+    })
+#define drogue_real_to_s32(v, frac)                                                               \
     __extension__({                                                                               \
-        drogue_wide checked_v = (v);                                                              \
-        int64_t checked_q = (drogue_wide_to_s64)(checked_v, 16);                                  \
-        CHECKED_SATURATION("drogue_wide_to_q16", checked_q > INT32_MAX || checked_q < INT32_MIN); \
-        (drogue_wide_to_q16)(checked_v);                                                          \
+        int64_t checked_q = drogue_real_to_s64(v, frac);                                          \
+        CHECKED_SATURATION("drogue_real_to_s32", checked_q > INT32_MAX || checked_q < INT32_MIN); \
+        (drogue_sat_s32)(checked_q);                                                              \
     })
-#define drogue_wide_to_s64(v, frac)                                                                                 \
-    __extension__({                                                                                                 \
-        drogue_wide checked_v = (v);                                                                                \
-        int checked_frac = (frac);                                                                                  \
-        CHECKED_SATURATION("drogue_wide_to_s64", checked_v.mantissa != 0 && checked_v.exponent + checked_frac > 1); \
-        (drogue_wide_to_s64)(checked_v, checked_frac);                                                              \
-    })
+#define drogue_real_to_q16(v) drogue_real_to_s32(v, 16)
 #define drogue_q16_div(a, b)                                          \
     __extension__({                                                   \
         drogue_q16 checked_a = (a);                                   \
@@ -77,19 +77,14 @@ void checked_fail(const char *what, const char *file, int line);
 #define drogue_shl_s64(v, n) checked_shl_s64(v, n, __FILE__, __LINE__)
 #define drogue_shr_round_s64(v, n) checked_shr_round_s64(v, n, __FILE__, __LINE__)
 #define drogue_div_round_s64(num, den) checked_div_round_s64(num, den, __FILE__, __LINE__)
-#define drogue_s128_shr_round(v, n) checked_s128_shr_round(v, n, __FILE__, __LINE__)
-#define drogue_mul_shr_round_s64(a, b, n) drogue_s128_shr_round(drogue_s128_mul(a, b), n)
 #define drogue_sincos_q30(s, c, angle) checked_sincos_q30(s, c, angle, __FILE__, __LINE__)
-#define drogue_wide_div(a, b) checked_wide_div(a, b, __FILE__, __LINE__)
 
 #endif
 
 int64_t checked_shl_s64(int64_t v, int n, const char *file, int line);
 int64_t checked_shr_round_s64(int64_t v, int n, const char *file, int line);
 int64_t checked_div_round_s64(int64_t num, int64_t den, const char *file, int line);
-int64_t checked_s128_shr_round(drogue_s128 v, int n, const char *file, int line);
 void checked_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29, const char *file, int line);
-drogue_wide checked_wide_div(drogue_wide a, drogue_wide b, const char *file, int line);
 
 /* Print the table of peaks and saturations; returns the number of excesses so far. */
 int checked_report(void);
