@@ -196,7 +196,7 @@ void drogue_hls_pose(const int32_t parameters[DROGUE_HLS_PARAMETERS], const int3
 
 /* Stages alone, to prove and to measure them. */
 
-/* drogue_eigen_sym3(): matrix a00 a01 a02 a11 a12 a22 -> Q60 -> mantissa and exponent of each value, then
+/* drogue_eigen_sym3(): matrix a00 a01 a02 a11 a12 a22, Q60 -> mantissa and exponent of each value, then
  * three vectors Q30; returns the sweeps. */
 int32_t drogue_hls_eigen(const int64_t matrix[6], int32_t eigen[15]);
 

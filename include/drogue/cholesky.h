@@ -5,8 +5,8 @@
 #ifndef DROGUE_CHOLESKY_H
 #define DROGUE_CHOLESKY_H
 
-#include "drogue/status.h"
 #include "drogue/real.h"
+#include "drogue/status.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -4,8 +4,8 @@
 #ifndef DROGUE_ELLIPSE_H
 #define DROGUE_ELLIPSE_H
 
-#include "drogue/types.h"
 #include "drogue/real.h"
+#include "drogue/types.h"
 
 #ifdef __cplusplus
 extern "C" {

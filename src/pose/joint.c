@@ -139,7 +139,7 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
     if (status == DROGUE_OK) {
         status = drogue_joint_begin(&s, &frame, start, &outline->ellipse, inner, camera, model);
     }
-    memset(&rows, 0, sizeof rows); /* no inner part */
+    memset(&rows, 0, sizeof rows);                         /* no inner part */
     for (step = 0; !last && status == DROGUE_OK; step++) { /* bound: steps + 1 */
         status = drogue_joint_outline_rows(&rows, &s, &frame);
         if (status == DROGUE_OK && inner->std_px_q16 > 0) {

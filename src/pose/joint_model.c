@@ -8,8 +8,8 @@
 
 #include <string.h>
 
-#define FARTHEST 16                  /* an outline of 1 px is nearer than 2^16 radii with any focal length in Q16 */
-#define NEAREST (-8)                 /* finest scale of a position */
+#define FARTHEST 16                   /* an outline of 1 px is nearer than 2^16 radii with any focal length in Q16 */
+#define NEAREST (-8)                  /* finest scale of a position */
 #define LIFT_LIMIT (INT64_C(1) << 30) /* 4 radii, Q28 */
 
 static const drogue_real one = {1 << 30, -30};
@@ -19,8 +19,8 @@ static int32_t mul_q30(int32_t a, int32_t b) { return (int32_t)drogue_shr_round_
 /* a . b / 2^30; |a| <= 1 Q30 */
 static int32_t dot_q30(const int32_t a_q30[3], const int32_t b[3])
 {
-    return (int32_t)drogue_shr_round_s64(
-        (int64_t)a_q30[0] * b[0] + (int64_t)a_q30[1] * b[1] + (int64_t)a_q30[2] * b[2], 30);
+    return (int32_t)drogue_shr_round_s64((int64_t)a_q30[0] * b[0] + (int64_t)a_q30[1] * b[1] + (int64_t)a_q30[2] * b[2],
+                                         30);
 }
 
 int drogue_joint_squeeze(int32_t *out, const int64_t *in, int n)
@@ -115,7 +115,7 @@ static int put_ray(int32_t *out_q29, int64_t length_px_q16, int32_t factor_q30, 
     drogue_real_set(&factor, factor_q30, -30);
     drogue_real_product(&ray, &ray, &factor);
     *out_q29 = drogue_real_to_s32(ray, 29);
-    return *out_q29 < limit && *out_q29 > -limit;
+    return *out_q29<limit && * out_q29> - limit;
 }
 
 drogue_status drogue_joint_begin(drogue_joint_state *state, drogue_joint_frame *frame, const drogue_pose *pose,
@@ -156,8 +156,7 @@ static int lift_ray(lift *out, int32_t d_q30, const int32_t p_q29[3], int32_t m_
     int fits = 1;
     int k;
     for (k = 0; k < 3; k++) {
-        const int64_t v_q28 =
-            drogue_shr_round_s64((int64_t)d_q30 * p_q29[k] - (int64_t)m_q29 * c_q30[k], 31 - scale);
+        const int64_t v_q28 = drogue_shr_round_s64((int64_t)d_q30 * p_q29[k] - (int64_t)m_q29 * c_q30[k], 31 - scale);
         fits &= v_q28 < LIFT_LIMIT && v_q28 > -LIFT_LIMIT;
         out->v_q28[k] = (int32_t)v_q28;
     }
@@ -214,8 +213,8 @@ static int turn_lifts(lift out[3], int p, const drogue_joint_state *s, const dro
             out[i].v_q28[p] -= (int32_t)drogue_shr_round_s64(dot_q30(s->axis_q30, ray), 1);
         } else {
             const int32_t *turn = s->turn_q30[p - 3];
-            fits &= lift_ray(&out[i], dot_q30(turn, s->position_q30), ray, dot_q30(turn, ray), s->position_q30,
-                             s->scale);
+            fits &=
+                lift_ray(&out[i], dot_q30(turn, s->position_q30), ray, dot_q30(turn, ray), s->position_q30, s->scale);
         }
     }
     return fits;
@@ -270,8 +269,7 @@ drogue_status drogue_joint_outline_rows(drogue_joint_rows *out, const drogue_joi
         column->exponent = harmonics(h, q_q54) + over.exponent + 33; /* the conic itself is doubled */
         for (i = 0; i < DROGUE_JOINT_FIT; i++) {
             const int64_t own = drogue_shl_s64(h[i], 29) + (int64_t)residual_q29[i] * h[DROGUE_JOINT_FIT];
-            column->outline[i] =
-                -(int32_t)drogue_shr_round_s64(drogue_shr_round_s64(own, 30) * over.mantissa, 31);
+            column->outline[i] = -(int32_t)drogue_shr_round_s64(drogue_shr_round_s64(own, 30) * over.mantissa, 31);
             DROGUE_NOTE("joint: row", column->outline[i], 31);
         }
     }
@@ -314,7 +312,8 @@ static drogue_status see_disc(disc *out, const drogue_joint_state *s, const drog
         drogue_real_set(&t, s->position_q30[k], s->scale - 30);
         drogue_real_products(&t, &t, &one, &frame->depth, &out->axis[k]);
         drogue_real_product(&out->middle[k], &t, &out->over_depth);
-        if ((out->middle[k].mantissa != 0 && out->middle[k].exponent > -30) || size.mantissa <= 0) { /* two focal lengths off the axis */
+        if ((out->middle[k].mantissa != 0 && out->middle[k].exponent > -30) ||
+            size.mantissa <= 0) { /* two focal lengths off the axis */
             return DROGUE_E_DOMAIN;
         }
         drogue_real_products(&t, &out->middle[k], &one, &r2, &out->axis[k]);

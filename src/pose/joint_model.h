@@ -10,8 +10,8 @@
 
 /* Pose as the solver moves it. */
 typedef struct drogue_joint_state {
-    int32_t position_q30[3]; /* in units of 2^scale radii: below 1, the largest at least a quarter */
-    int scale;               /* -8 .. 16 */
+    int32_t position_q30[3];  /* in units of 2^scale radii: below 1, the largest at least a quarter */
+    int scale;                /* -8 .. 16 */
     int32_t angle_rad_q29[2]; /* yaw, pitch */
     int32_t axis_q30[3];
     int32_t turn_q30[2][3]; /* derivatives of the axis by yaw and pitch */

@@ -9,7 +9,7 @@
 /* The cone through an ellipse in a frame of its own, whose z axis is the ray through the ellipse's centre. */
 typedef struct view {
     drogue_real axis[3][3]; /* the frame's axes, in camera coordinates */
-    drogue_real dual[6];    /* the cone's inverse, up to scale: m00 m01 m02 m11 m12 m22. Its entries are graded: those of
+    drogue_real dual[6]; /* the cone's inverse, up to scale: m00 m01 m02 m11 m12 m22. Its entries are graded: those of
                                the two axes across as the squared semi-axis over the focal length, the last about 1 */
 } view;
 

@@ -96,7 +96,8 @@ std::array<Vector, 3> rays_of(const Ellipse &e, const Camera &c)
 
 /* The ranges that the library's solver is for (joint_model.h): poses, rays, conics and rows outside have nothing to do
  * with a drogue that was seen. Lengths in radii of the rim. */
-constexpr Real FARTHEST = 65536, WIDEST = 2, STEEPEST = 1024, MOST_OFF = 2, LEAST_CONIC = 1 / 65536.0L, LARGEST_CONIC = 128;
+constexpr Real FARTHEST = 65536, WIDEST = 2, STEEPEST = 1024, MOST_OFF = 2, LEAST_CONIC = 1 / 65536.0L,
+               LARGEST_CONIC = 128;
 
 bool in_range(const std::array<Real, PARAMETERS> &at, Real radius)
 {
@@ -134,7 +135,8 @@ bool outline_residual(std::array<Dual, 5> &out, const Frame &f, Real radius, con
     }
     out = {((q[0] + q[2]) / Dual(2) + q[5]) / radial, Dual(2) * q[3] / radial, Dual(2) * q[4] / radial,
            (q[0] - q[2]) / Dual(2) / radial, q[1] / radial};
-    return std::all_of(out.begin(), out.end(), [&](const Dual &d) { return std::fabs(d.v) < MOST_OFF && in_range(d.v, d.d, radius); });
+    return std::all_of(out.begin(), out.end(),
+                       [&](const Dual &d) { return std::fabs(d.v) < MOST_OFF && in_range(d.v, d.d, radius); });
 }
 
 /* Centre of the inner disc's image in ray coordinates, and the disc's middle in space. */

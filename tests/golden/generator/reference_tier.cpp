@@ -352,7 +352,8 @@ Tiers undistort_tier(const Arrays &in, const Arrays &exact)
     std::vector<Real> more[2];
     for (int k = 0; k < 2; k++) {
         for (size_t i = 0; i < words[k].size(); i++) {
-            more[k].push_back(i % 3 == 0 ? 0 : std::max<Real>(0, std::fabs(static_cast<Real>(words[k][i])) * 0x1p-26L - 2));
+            more[k].push_back(i % 3 == 0 ? 0
+                                         : std::max<Real>(0, std::fabs(static_cast<Real>(words[k][i])) * 0x1p-26L - 2));
         }
     }
     const Array undone = like(exact[0], words[0]), done = like(exact[1], words[1]);

@@ -95,8 +95,8 @@ static void check_matrix(int n, int reach, double near, uint64_t *rng, int numbe
              "matrix %d of condition %g: solution %d", number, kappa, i);
     }
     drogue_cholesky_square(&length2, b, l, n);
-    MUST(quad_abs(quad_of(length2) - square) <= (quad)(256 * ulp * kappa * kappa),
-         "matrix %d of condition %g: square", number, kappa);
+    MUST(quad_abs(quad_of(length2) - square) <= (quad)(256 * ulp * kappa * kappa), "matrix %d of condition %g: square",
+         number, kappa);
 }
 
 START_TEST(random_matrices)

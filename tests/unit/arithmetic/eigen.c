@@ -193,7 +193,8 @@ START_TEST(graded_matrices_keep_their_small_values)
         (void)drogue_eigen_sym3(&e, m);
         if (value[1] > 0.01L * value[0]) {
             for (k = 0; k < 3; k++) {
-                MUST(quad_abs(quad_of(e.value[k]) - value[k]) <= quad_abs(value[k]) * (quad)0x1p-27L * (k == 1 ? 100 : 1),
+                MUST(quad_abs(quad_of(e.value[k]) - value[k]) <=
+                         quad_abs(value[k]) * (quad)0x1p-27L * (k == 1 ? 100 : 1),
                      "grade %g: value %d is %.9g instead of %.9g", grade, k, (double)quad_of(e.value[k]),
                      (double)value[k]);
             }
