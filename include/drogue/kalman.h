@@ -45,7 +45,9 @@ void drogue_kalman_restart(drogue_kalman *filter, int parameter, drogue_q16 valu
  */
 void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q16 std_q16[DROGUE_PARAMETERS]);
 
-/* Correct (40) with one frame's measurement, in Joseph form: the covariance stays symmetric and positive.
+/* Correct (40) with one frame's measurement, in Joseph form. Of standard deviations and a step so far apart that 62 bits do
+ * not hold their squares beside each other, rounding can make a variance negative: it becomes 0, its covariances with it,
+ * here and in drogue_kalman_predict(). No variance is ever below 0.
  *
  *  value    m and rad, Q16; angles are compared modulo 2 pi
  *  std      of the measurement, Q16, > 0; L in (40) is diagonal

@@ -177,7 +177,8 @@ void json_measurement(FILE *out, const char *path, const drogue_result *result)
 {
     fputs("{\"image\":", out);
     json_string(out, path);
-    fprintf(out, ",\"status\":\"%s\",", drogue_status_name(result->status));
+    fprintf(out, ",\"status\":\"%s\",\"second_look\":\"%s\",", drogue_status_name(result->status),
+            drogue_second_look_name(result->second_look));
     put_outline(out, result);
     put_inner_centre(out, result);
     put_pose(out, result);

@@ -115,6 +115,7 @@ static int read_image(transfer *t)
     if (setjmp(png_jmpbuf(t->png)) != 0) {
         return EXIT_BAD;
     }
+    png_set_crc_action(t->png, PNG_CRC_DEFAULT, PNG_CRC_ERROR_QUIT); /* those of ancillary chunks, too */
     png_set_read_fn(t->png, t, read_bytes);
     png_set_sig_bytes(t->png, 8);
     if (read_header(t) || make_rows(t)) {

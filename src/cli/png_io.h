@@ -29,7 +29,9 @@ int picture_create(picture *out, const char *path, int32_t width_px, int32_t hei
 
 void picture_free(picture *image);
 
-/* Read a file as grey. A file with anything missing or damaged, as far as its check sums tell, is refused.
+/* Read a file as grey. A file that ends early is refused, and one that a check sum belies: that of any chunk, critical or
+ * not, or of the compressed pixels. What was false when its sum was made is taken, where it does not bear on the stored
+ * pixels, and so is whatever lies behind the last chunk.
  *
  *  out     free with picture_free(); empty on failure
  *  return  EXIT_MEASURED, or EXIT_BAD after a complaint

@@ -64,7 +64,8 @@ void table_print(const char *path, const drogue_result *r, const char *unit)
     put_label("image");
     puts(path);
     put_label("status");
-    puts(drogue_status_name(r->status));
+    fputs(drogue_status_name(r->status), stdout);
+    puts(r->second_look >= DROGUE_SECOND_TOO_WIDE ? ", but the workspace was too small for a second look" : "");
     put_label("ellipse");
     if (r->ellipse.a_px_q16 > 0) {
         put_outline(r);

@@ -45,6 +45,20 @@ static void advance(drogue_wide *v, int apart, const drogue_wide *dt, const drog
     drogue_wide_sum(&v[apart], &v[apart], &change);
 }
 
+/* A variance that rounding made negative is 0, and then nothing goes with it. */
+static void keep_positive(drogue_kalman3 *f)
+{
+    int i;
+    int j;
+    for (i = 0; i < 3; i++) {
+        if (f->covariance[packed(i, i)].mantissa < 0) {
+            for (j = 0; j < 3; j++) {
+                drogue_wide_set(&f->covariance[packed(i, j)], 0, 0);
+            }
+        }
+    }
+}
+
 void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q16 std_q16[DROGUE_PARAMETERS])
 {
     drogue_wide dt;
@@ -83,6 +97,7 @@ void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q
                 drogue_wide_sum(to, &c[i][j], to);
             }
         }
+        keep_positive(f);
     }
 }
 
@@ -145,6 +160,7 @@ void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DRO
                 drogue_wide_sum(c, c, &t);
             }
         }
+        keep_positive(f);
     }
 }
 

@@ -70,6 +70,7 @@ prints 'dark and bright inside'
 # The keys are all there when nothing is found.
 run 1 measure black.png $camera --json
 same "$(json status)" '"no_edges"'
+same "$(json second_look)" '"none"'
 for key in ellipse reliability polarity inner_centre position_m axis yaw_deg pitch_deg alternative orientation_resolved ambiguity \
     covariance position_std_m axis_std_deg; do
     same "$(json $key)" null

@@ -219,6 +219,47 @@ START_TEST(ends_of_the_ranges)
 }
 END_TEST
 
+static void must_not_be_negative(const drogue_kalman *filter, const char *when)
+{
+    int i, k;
+    for (i = 0; i < PARAMETERS; i++) {
+        const drogue_wide *c = filter->parameter[i].covariance;
+        for (k = 0; k < 3; k++) {
+            const double variance = real_of_wide(c[k == 0 ? 0 : k == 1 ? 3 : 5]);
+            MUST(variance >= 0, "%s: variance %d of parameter %d is %g", when, k, i, variance);
+        }
+    }
+}
+
+/* A start and a step so far apart that the rate's variance would come to -3e-5; then any start, step and measurement. */
+START_TEST(no_negative_variance)
+{
+    const drogue_q16 value[PARAMETERS] = {0, 0, 0, 0, 0};
+    drogue_q16 std[PARAMETERS], far_std[PARAMETERS][3];
+    drogue_kalman filter;
+    uint64_t rng = 1;
+    int i, k, run, step;
+    for (run = 0; run < 3000; run++) {
+        for (i = 0; i < PARAMETERS; i++) {
+            std[i] = run == 0 ? 12 : rng_range(&rng, 1, INT32_MAX) >> rng_range(&rng, 0, 30) | 1;
+            for (k = 0; k < 3; k++) {
+                static const drogue_q16 first[3] = {14, 5, 931817865};
+                far_std[i][k] = run == 0 ? first[k] : rng_range(&rng, 0, INT32_MAX) >> rng_range(&rng, 0, 30);
+            }
+        }
+        drogue_kalman_init(&filter, value, (const drogue_q16(*)[3])far_std);
+        for (step = 0; step < 4; step++) {
+            drogue_kalman_predict(
+                &filter, run == 0 ? 674651533 : (uint32_t)(rng_range(&rng, 1, INT32_MAX) >> rng_range(&rng, 0, 30) | 1),
+                std);
+            must_not_be_negative(&filter, "predicted");
+            drogue_kalman_correct(&filter, value, std);
+            must_not_be_negative(&filter, "corrected");
+        }
+    }
+}
+END_TEST
+
 START_TEST(states_saturate)
 {
     drogue_kalman filter;
@@ -243,4 +284,5 @@ START_TEST(states_saturate)
 }
 END_TEST
 
-SUITE_MAIN("kalman", same_states_as_fifteen_in_one, angles_pass_half_a_turn, ends_of_the_ranges, states_saturate)
+SUITE_MAIN("kalman", same_states_as_fifteen_in_one, angles_pass_half_a_turn, ends_of_the_ranges, no_negative_variance,
+           states_saturate)
