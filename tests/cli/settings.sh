@@ -6,9 +6,10 @@
 run 0 --help-config
 sed 1d out | awk '{ print $1 }' | sort >named
 {
-    sed -n '/^typedef struct drogue_config {/,/^}/p' "$root/include/drogue/config.h"
-    sed -n '/^typedef struct drogue_quality_config {/,/^}/p' "$root/include/drogue/quality.h" | sed 's/ \([a-z_0-9]*;\)/ quality.\1/'
-    sed -n '/^typedef struct drogue_cluster_config {/,/^}/p' "$root/include/drogue/cluster.h" | sed 's/ \([a-z_0-9]*;\)/ cluster.\1/'
+    cat "$root"/include/drogue/*.h >headers
+    sed -n '/^typedef struct drogue_config {/,/^}/p' headers
+    sed -n '/^typedef struct drogue_quality_config {/,/^}/p' headers | sed 's/ \([a-z_0-9]*;\)/ quality.\1/'
+    sed -n '/^typedef struct drogue_cluster_config {/,/^}/p' headers | sed 's/ \([a-z_0-9]*;\)/ cluster.\1/'
 } | tr '\n' ' ' | sed 's,/\*[^*]*\*/,,g;s/;/;\n/g' | sed -nE 's/.* ([a-z][a-z_0-9.]*);$/\1/p' | sed 's/_q16$//' |
     grep -vxE 'quality|cluster|.*drogue_.*' | sort >members
 cmp named members || fail "named and existing thresholds differ: $(diff named members)"
