@@ -74,7 +74,7 @@ static const setting SETTINGS[] = {
     REAL("max_chi2", max_chi2_q16, 0, INT32_MAX, "outline and inner part contradict each other above this"),
     REAL("min_chi2_gap", min_chi2_gap_q16, 0, INT32_MAX, "the orientation is resolved when the twin is worse by this"),
 };
-enum { SETTING_COUNT = sizeof SETTINGS / sizeof SETTINGS[0] };
+enum { SETTING_COUNT = sizeof SETTINGS / sizeof SETTINGS[0], RANGE_TEXT = 2 * DECIMAL_TEXT + 8 };
 
 static int32_t *member(drogue_config *config, const setting *s)
 {
@@ -91,18 +91,18 @@ static void format(char out[DECIMAL_TEXT], const setting *s, int32_t value)
     }
 }
 
-static void format_range(char out[2 * DECIMAL_TEXT], const setting *s)
+static void format_range(char out[RANGE_TEXT], const setting *s)
 {
     char least[DECIMAL_TEXT];
     char most[DECIMAL_TEXT];
     format(least, s, s->least);
     format(most, s, s->most);
-    snprintf(out, 2 * DECIMAL_TEXT, s->most == INT32_MAX ? "%s or more" : "%s to %s", least, most);
+    snprintf(out, RANGE_TEXT, s->most == INT32_MAX ? "%s or more" : "%s to %s", least, most);
 }
 
 static int parse(int32_t *out, const setting *s, const char *text)
 {
-    char range[2 * DECIMAL_TEXT];
+    char range[RANGE_TEXT];
     if (s->kind == KIND_WHOLE) {
         return numbers_whole(out, s->name, text, strlen(text), s->least, s->most);
     }
@@ -132,7 +132,7 @@ void settings_print(void)
 {
     drogue_config defaults;
     char value[DECIMAL_TEXT];
-    char range[2 * DECIMAL_TEXT];
+    char range[RANGE_TEXT];
     int i;
     drogue_config_default(&defaults);
     printf("%-22s %-10s %-20s %s\n", "--set NAME", "default", "range", "unit, effect");
