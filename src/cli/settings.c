@@ -1,89 +1,24 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The thresholds of drogue_config (include/drogue/config.h, where each is explained), with the ranges that
- * drogue_config_valid() demands. */
+/* One threshold by its name in the table. */
 #include "settings.h"
 
-#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli.h"
 #include "numbers.h"
+#include "thresholds.h"
 
-typedef enum kind { KIND_WHOLE, KIND_Q16 } kind;
+enum { RANGE_TEXT = 2 * DECIMAL_TEXT + 8 };
 
-typedef struct setting {
-    const char *name; /* the member's, without Q format */
-    size_t offset;
-    kind kind;
-    int32_t least; /* as the member is kept */
-    int32_t most;
-    const char *unit; /* and effect */
-} setting;
-
-#define WHOLE(name, member, least, most, unit)                               \
-    {                                                                        \
-        name, offsetof(drogue_config, member), KIND_WHOLE, least, most, unit \
-    }
-#define REAL(name, member, least, most, unit)                              \
-    {                                                                      \
-        name, offsetof(drogue_config, member), KIND_Q16, least, most, unit \
-    }
-#define ONE DROGUE_Q16_ONE
-
-static const setting SETTINGS[] = {
-    WHOLE("canny_low", canny_low, 0, 16320, "L1 Sobel magnitude: lower links weaker edges"),
-    WHOLE("canny_high", canny_high, 0, 16320, "L1 Sobel magnitude: an edge needs one pixel above it"),
-    WHOLE("smooth", smooth, 0, 1, "1: smooth 5x5 before the gradient"),
-    WHOLE("min_arc_px", min_arc_px, 0, INT32_MAX, "edge points: shorter arcs are not fitted"),
-    REAL("min_arc_share", min_arc_share_q16, 0, ONE, "of the region's longest side: the same"),
-    REAL("min_short_px", min_short_px_q16, 0, INT32_MAX, "px: straighter arcs are not fitted"),
-    WHOLE("polarity", polarity, 0, 2, "0: outlines darker inside only, 1: brighter only, 2: both"),
-    REAL("quality.fit_error_px", quality.fit_error_px_q16, 0, 1024 * ONE,
-         "px: points this near count as on the ellipse"),
-    REAL("quality.k1", quality.k1_q16, 0, 64 * ONE, "decay of the score of flat ellipses"),
-    REAL("quality.k2", quality.k2_q16, 0, ONE - 1, "axis ratio at which that score is 0"),
-    REAL("min_fit_ratio", min_fit_ratio_q16, 0, ONE, "share of fitted points near the ellipse"),
-    REAL("min_axis_ratio", min_axis_ratio_q16, 0, ONE, "flatter ellipses are no drogue"),
-    REAL("min_size", min_size_q16, 0, INT32_MAX, "major semi-axis, share of the region's longest side"),
-    REAL("max_size", max_size_q16, 0, INT32_MAX, "major semi-axis, share of the region's longest side"),
-    REAL("cluster.centre_px", cluster.centre_px_q16, 0, INT32_MAX, "px: ellipses this alike count as one"),
-    REAL("cluster.a_px", cluster.a_px_q16, 0, INT32_MAX, "px: the same of the major semi-axis"),
-    REAL("cluster.b_px", cluster.b_px_q16, 0, INT32_MAX, "px: the same of the minor semi-axis"),
-    REAL("cluster.angle_rad", cluster.angle_rad_q16, 0, INT32_MAX, "rad: the same of the angle"),
-    REAL("cluster.round", cluster.round_q16, 0, ONE, "axis ratio above which the angle does not count"),
-    REAL("search_band", search_band_q16, 0, ONE, "of the major semi-axis: a candidate's edge points lie this near"),
-    REAL("refit_band_px", refit_band_px_q16, 1, 8 * ONE, "px: the last fit takes all edge points this near"),
-    REAL("refit_cos", refit_cos_q16, 0, ONE, "cosine between gradient and normal that agrees"),
-    WHOLE("refit_rounds", refit_rounds, 0, 16, "times the band is applied; 0 keeps the fit of the arcs"),
-    REAL("min_cover", min_cover_q16, 0, ONE, "edge points of the outline over its circumference"),
-    REAL("recentre_cover", recentre_cover_q16, 0, ONE,
-         "an outline covered less that the ring cuts is looked for again"),
-    REAL("optics_blur_px", optics_blur_px_q16, 0, 16 * ONE, "px: standard deviation of lens and sensor blur"),
-    WHOLE("min_inner_area_px", min_inner_area_px, 0, INT32_MAX, "px: smaller inner parts are noise"),
-    WHOLE("min_inner_contrast", min_inner_contrast, 0, 255, "grey levels: less is no inner part"),
-    REAL("inner_gate_px", inner_gate_px_q16, 0, INT32_MAX, "px: how far from its place the inner part is believed"),
-    REAL("inner_gate", inner_gate_q16, 0, INT32_MAX, "of the major semi-axis: the same"),
-    REAL("min_fill", min_fill_q16, 0, INT32_MAX, "area of the inner part over what is expected"),
-    REAL("max_fill", max_fill_q16, 0, INT32_MAX, "area of the inner part over what is expected"),
-    REAL("outline_shading", outline_shading_q16, 1, 1024 * ONE, "px grey * 8: error of the outline by uneven light"),
-    REAL("optics_blur_std_px2", optics_blur_std_px2_q16, 0, 16 * ONE, "px^2: uncertainty of half the blur's variance"),
-    REAL("inner_std_px", inner_std_px_q16, 1, 16 * ONE, "px: standard deviation of the inner centroid"),
-    REAL("inner_std_share", inner_std_share_q16, 0, ONE, "of the disc's semi-axis: what its size adds"),
-    REAL("inner_std_spread", inner_std_spread_q16, 0, 16 * ONE, "factor: what its spread over thresholds adds"),
-    REAL("max_chi2", max_chi2_q16, 0, INT32_MAX, "outline and inner part contradict each other above this"),
-    REAL("min_chi2_gap", min_chi2_gap_q16, 0, INT32_MAX, "the orientation is resolved when the twin is worse by this"),
-};
-enum { SETTING_COUNT = sizeof SETTINGS / sizeof SETTINGS[0], RANGE_TEXT = 2 * DECIMAL_TEXT + 8 };
-
-static int32_t *member(drogue_config *config, const setting *s)
+static int32_t *member(drogue_config *config, const threshold *s)
 {
     return (int32_t *)(void *)((char *)config + s->offset);
 }
 
-static void format(char out[DECIMAL_TEXT], const setting *s, int32_t value)
+static void format(char out[DECIMAL_TEXT], const threshold *s, int32_t value)
 {
-    if (s->kind == KIND_WHOLE) {
+    if (!s->is_q16) {
         snprintf(out, DECIMAL_TEXT, "%ld", (long)value);
     } else {
         decimal_format_q16(out, value, 6);
@@ -91,7 +26,7 @@ static void format(char out[DECIMAL_TEXT], const setting *s, int32_t value)
     }
 }
 
-static void format_range(char out[RANGE_TEXT], const setting *s)
+static void format_range(char out[RANGE_TEXT], const threshold *s)
 {
     char least[DECIMAL_TEXT];
     char most[DECIMAL_TEXT];
@@ -100,10 +35,10 @@ static void format_range(char out[RANGE_TEXT], const setting *s)
     snprintf(out, RANGE_TEXT, s->most == INT32_MAX ? "%s or more" : "%s to %s", least, most);
 }
 
-static int parse(int32_t *out, const setting *s, const char *text)
+static int parse(int32_t *out, const threshold *s, const char *text)
 {
     char range[RANGE_TEXT];
-    if (s->kind == KIND_WHOLE) {
+    if (!s->is_q16) {
         return numbers_whole(out, s->name, text, strlen(text), s->least, s->most);
     }
     if (numbers_check_count(s->name, text, 1) || numbers_q16(out, 1, s->name, text)) {
@@ -120,9 +55,9 @@ int settings_set(drogue_config *config, const char *assignment)
     if (assignment[length] != '=') {
         return complain("--set", "'%s' is not NAME=VALUE", assignment);
     }
-    for (i = 0; i < SETTING_COUNT; i++) {
-        if (strlen(SETTINGS[i].name) == length && strncmp(SETTINGS[i].name, assignment, length) == 0) {
-            return parse(member(config, &SETTINGS[i]), &SETTINGS[i], assignment + length + 1);
+    for (i = 0; i < threshold_count; i++) {
+        if (strlen(thresholds[i].name) == length && strncmp(thresholds[i].name, assignment, length) == 0) {
+            return parse(member(config, &thresholds[i]), &thresholds[i], assignment + length + 1);
         }
     }
     return complain("--set", "no threshold is named '%.*s'; see drogue --help-config", (int)length, assignment);
@@ -136,9 +71,9 @@ void settings_print(void)
     int i;
     drogue_config_default(&defaults);
     printf("%-22s %-10s %-20s %s\n", "--set NAME", "default", "range", "unit, effect");
-    for (i = 0; i < SETTING_COUNT; i++) {
-        format(value, &SETTINGS[i], *member(&defaults, &SETTINGS[i]));
-        format_range(range, &SETTINGS[i]);
-        printf("%-22s %-10s %-20s %s\n", SETTINGS[i].name, value, range, SETTINGS[i].unit);
+    for (i = 0; i < threshold_count; i++) {
+        format(value, &thresholds[i], *member(&defaults, &thresholds[i]));
+        format_range(range, &thresholds[i]);
+        printf("%-22s %-10s %-20s %s\n", thresholds[i].name, value, range, thresholds[i].unit);
     }
 }
