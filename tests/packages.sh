@@ -2,7 +2,8 @@
 # Debian's packages by what they are for, and need(), which installs those that are missing; sourced by ./run.
 
 demo_packages=(cmake ninja-build gcc libc6-dev pkg-config libpng-dev)
-accuracy_packages=("${demo_packages[@]}" g++ check libopencv-dev libcjson-dev)
+program_packages=(libyaml-dev libexpat1-dev help2man) # what the program can do without
+accuracy_packages=("${demo_packages[@]}" "${program_packages[@]}" g++ check libopencv-dev libcjson-dev)
 check_packages=("${accuracy_packages[@]}" clang-format-14)
 embedded_packages=("${demo_packages[@]}" libcjson-dev)
 arm_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm)

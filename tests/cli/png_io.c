@@ -5,6 +5,7 @@
 #include <png.h>
 
 #include "cli.h"
+#include "images.h"
 #include "png_io.h"
 
 static const char PATH[] = "png_io_test.png";
