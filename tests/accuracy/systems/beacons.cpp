@@ -363,7 +363,9 @@ Estimate wang(const std::vector<cv::Point2d> &outer_px, const std::vector<cv::Po
     const double wi = inner.a_px * inner.a_px;
     for (const Pose &o : outer_poses) {
         for (const Pose &i : inner_poses) {
-            const double apart = cv::norm(o.axis - i.axis);
+            /* One centre: the wrong circles' lie on other lines of sight for each radius, by far more than their axes
+             * differ. */
+            const double apart = cv::norm(cv::normalize(o.position_m) - cv::normalize(i.position_m));
             if (apart < least) {
                 least = apart;
                 best.ok = best.has_axis = true;

@@ -39,7 +39,8 @@ Estimate meng(const std::vector<cv::Point2d> &seen_px, const Camera &camera);
 Estimate opencv_pnp(const std::vector<cv::Point2d> &seen_px, const Camera &camera, int method, bool planar);
 
 /* Wang: a ring of colour about the rim, 5 cm wide; points a pixel apart on both of its edges, normal noise in x and y
- * of each; a direct fit and the circle poses of either edge, the two that agree best, weighted by squared semi-axes. */
+ * of each; a direct fit and the circle poses of either edge, the two whose centres lie nearest to one line of sight, weighted by
+ * squared semi-axes. */
 constexpr double ring_inner_radius_m = 0.3;
 std::vector<cv::Point2d> see_circle(const Camera &camera, const Pose &pose, double radius_m, double noise_px,
                                     Random &random);

@@ -45,7 +45,9 @@ const std::vector<OutlineDetector> &outline_detectors()
         {"HoughCircles",
          "OpenCV, cv::HoughCircles (gradient method), radii 0.28 to 0.55 of the region's side: circles only",
          detect_hough},
-        {"contour, direct fit", "OpenCV, cv::findContours on the edges, cv::fitEllipseDirect to each", detect_contours},
+        {"contour, direct fit",
+         "OpenCV, cv::findContours on the edges and at Otsu's threshold, cv::fitEllipseDirect to each",
+         detect_contours},
         {"Fornaciari",
          "written here: arcs by the gradient's direction and convexity, triplets by position, centre from midpoints of "
          "parallel chords, then ratio, angle and size each from a histogram",
@@ -105,18 +107,28 @@ std::vector<Ellipse> detect_hough(const cv::Mat &grey)
 
 std::vector<Ellipse> detect_contours(const cv::Mat &grey)
 {
-    const EdgeImage edges(grey);
-    std::vector<std::vector<cv::Point>> contours;
     std::vector<Ellipse> found;
-    cv::findContours(edges.edges, contours, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
-    for (const auto &contour : contours) {
-        if (contour.size() >= 20) {
-            const Ellipse e = ellipse_of(cv::fitEllipseDirect(contour));
-            if (e.b_px > 1) { /* false for NaN, too */
-                found.push_back(e);
+    /* A filled part's contour runs over the centres of its outermost pixels, half a pixel inside it. */
+    const auto add = [&](const cv::Mat &binary, double half_px) {
+        std::vector<std::vector<cv::Point>> contours;
+        cv::findContours(binary, contours, cv::RETR_LIST, cv::CHAIN_APPROX_NONE);
+        for (const auto &contour : contours) {
+            if (contour.size() >= 20) {
+                Ellipse e = ellipse_of(cv::fitEllipseDirect(contour));
+                e.a_px += half_px;
+                e.b_px += half_px;
+                if (e.b_px > 1) { /* false for NaN, too */
+                    found.push_back(e);
+                }
             }
         }
-    }
+    };
+    cv::Mat binary;
+    add(EdgeImage(grey).edges, 0);
+    cv::threshold(grey, binary, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
+    add(binary, 0.5);
+    cv::bitwise_not(binary, binary);
+    add(binary, 0.5);
     return found;
 }
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include <opencv2/imgproc.hpp>
+
 #include "edges.hpp"
 #include "quadrants.hpp"
 
@@ -15,7 +17,8 @@ namespace {
 
 constexpr size_t most_arcs = 8;       /* of a quadrant */
 constexpr size_t most_chords = 16;    /* parallel ones, of a pair */
-constexpr double centre_share = 0.05; /* two pairs' centres agree within this share of the picture's side */
+constexpr double centre_share = 0.05; /* two pairs' centres agree within this share of the picture's side, */
+constexpr double centre_px = 5;       /* or this near */
 constexpr double near_share = 0.6;    /* of the points must lie on the ellipse, */
 constexpr double near_px = 1.5;       /* this near */
 constexpr int ratio_bins = 100;
@@ -26,8 +29,8 @@ double cross(const cv::Point2d &a, const cv::Point2d &b) { return a.x * b.y - a.
 /* Parallel chords and the line through their middles: conjugate directions. */
 struct Midline {
     bool ok = false;
-    cv::Point2d chord, through;
-    std::vector<cv::Point2d> along; /* several estimates of its direction */
+    cv::Point2d chord, through, direction;
+    std::vector<cv::Point2d> along; /* several estimates of the line's direction */
 };
 
 struct PairCentre {
@@ -73,11 +76,6 @@ Midline midline(const Chain &a, const Chain &b, const cv::Point2d &chord)
         return line;
     }
     const size_t half = middles.size() / 2;
-    std::vector<double> xs, ys;
-    for (const cv::Point2d &m : middles) {
-        xs.push_back(m.x);
-        ys.push_back(m.y);
-    }
     for (size_t i = 0; i < half; i++) {
         const cv::Point2d d = middles[half + i] - middles[i];
         if (cv::norm(d) > 1) {
@@ -86,20 +84,39 @@ Midline midline(const Chain &a, const Chain &b, const cv::Point2d &chord)
     }
     line.ok = !line.along.empty();
     line.chord = chord;
-    line.through = {median_of(xs), median_of(ys)};
+    cv::Vec4d fitted;
+    cv::fitLine(std::vector<cv::Point2f>(middles.begin(), middles.end()), fitted, cv::DIST_HUBER, 0, 0.01, 0.01);
+    line.direction = {fitted[0], fitted[1]};
+    line.through = {fitted[2], fitted[3]};
     return line;
 }
 
-/* The middle one of the directions by angle to the first. */
-cv::Point2d direction_of(const Midline &line)
+/* Where two midlines meet; false when they hardly do. */
+bool intersect(cv::Point2d &out, const Midline &a, const Midline &b)
 {
-    std::vector<double> angles;
-    const double first = std::atan2(line.along[0].y, line.along[0].x);
-    for (const cv::Point2d &d : line.along) {
-        angles.push_back(std::remainder(std::atan2(d.y, d.x) - first, CV_PI));
+    const double sine = cross(a.direction, b.direction);
+    if (std::fabs(sine) < 0.1) {
+        return false;
     }
-    const double angle = first + median_of(angles);
-    return {std::cos(angle), std::sin(angle)};
+    out = a.through + a.direction * (cross(b.through - a.through, b.direction) / sine);
+    return true;
+}
+
+/* The middle in x and in y of all places where two of both pairs' midlines meet. */
+cv::Point2d common_centre(const PairCentre &first, const PairCentre &second)
+{
+    const std::array<const Midline *, 4> lines = {&first.lines[0], &first.lines[1], &second.lines[0], &second.lines[1]};
+    std::vector<double> xs, ys;
+    for (size_t i = 0; i < lines.size(); i++) {
+        for (size_t j = i + 1; j < lines.size(); j++) {
+            cv::Point2d p;
+            if (intersect(p, *lines[i], *lines[j])) {
+                xs.push_back(p.x);
+                ys.push_back(p.y);
+            }
+        }
+    }
+    return {median_of(xs), median_of(ys)};
 }
 
 PairCentre centre_of(const Chain &a, const Chain &b)
@@ -113,17 +130,7 @@ PairCentre centre_of(const Chain &a, const Chain &b)
     const cv::Point middle_b = b[b.size() / 2].at;
     pair.lines[0] = midline(a, b, middle_b - far_end(a, middle_b));
     pair.lines[1] = midline(b, a, middle_a - far_end(b, middle_a));
-    if (!pair.lines[0].ok || !pair.lines[1].ok) {
-        return pair;
-    }
-    const cv::Point2d u = direction_of(pair.lines[0]);
-    const cv::Point2d v = direction_of(pair.lines[1]);
-    const double sine = cross(u, v);
-    if (std::fabs(sine) > 0.02) {
-        const cv::Point2d between = pair.lines[1].through - pair.lines[0].through;
-        pair.centre = pair.lines[0].through + u * (cross(between, v) / sine);
-        pair.ok = true;
-    }
+    pair.ok = pair.lines[0].ok && pair.lines[1].ok && intersect(pair.centre, pair.lines[0], pair.lines[1]);
     return pair;
 }
 
@@ -173,8 +180,9 @@ bool vote(Ellipse &e, const PairCentre &first, const PairCentre &second, const s
     if (ratios[ratio_at] == 0 || ratio_at < 20) {
         return false;
     }
-    e.xc_px = (first.centre.x + second.centre.x) / 2;
-    e.yc_px = (first.centre.y + second.centre.y) / 2;
+    const cv::Point2d centre = common_centre(first, second);
+    e.xc_px = centre.x;
+    e.yc_px = centre.y;
     const double ratio = static_cast<double>(ratio_at) / ratio_bins;
     e.angle_rad = std::remainder(static_cast<double>(peak_of(angles)) * CV_PI / angle_bins, CV_PI);
     std::vector<int> sizes(2000);
@@ -211,7 +219,7 @@ std::vector<Ellipse> detect_fornaciari(const cv::Mat &grey)
 {
     const EdgeImage image(grey);
     const QuadrantArcs arcs = quadrant_arcs(image, most_arcs);
-    const double limit = centre_share * std::max(grey.cols, grey.rows);
+    const double limit = std::max(centre_px, centre_share * std::max(grey.cols, grey.rows));
     std::vector<Ellipse> found;
     /* Centres of pairs of neighbouring quadrants, q and q + 1. */
     std::array<std::vector<std::vector<PairCentre>>, 4> pairs;

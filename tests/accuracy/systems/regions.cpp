@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A dark disc, nested ellipses, matched features. */
+/* A dark disc, nested ellipses, matched views. */
 #include "regions.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include <opencv2/calib3d.hpp>
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "edges.hpp"
@@ -20,6 +18,21 @@ constexpr double least_disc_px = 3; /* semi-axis */
 constexpr double least_outline_px = 10;
 constexpr double least_fill = 0.9, most_fill = 1.1; /* area of a contour over that of its ellipse */
 constexpr double least_contrast = 8;                /* grey levels */
+
+constexpr double view_semi_axis_px = 14;
+constexpr double view_step_rad = 0.26; /* 15 degrees */
+constexpr int view_sizes = 17;
+constexpr double least_correlation = 0.4;
+
+/* Magnitude of Sobel's gradient, CV_32F. */
+cv::Mat gradients_of(const cv::Mat &grey)
+{
+    cv::Mat gx, gy, magnitude;
+    cv::Sobel(grey, gx, CV_32F, 1, 0);
+    cv::Sobel(grey, gy, CV_32F, 0, 1);
+    cv::magnitude(gx, gy, magnitude);
+    return magnitude;
+}
 
 std::vector<Ellipse> ellipses_of(const std::vector<std::vector<cv::Point>> &contours, double least_px)
 {
@@ -97,7 +110,14 @@ Sight find_nested(const cv::Mat &grey, const Body &body)
         double share;
     };
     std::vector<Candidate> all;
-    for (const Ellipse &e : ellipses_of(contours, least_disc_px)) {
+    std::vector<Ellipse> ellipses = ellipses_of(contours, least_disc_px);
+    for (const Chain &arc : convex_arcs_of(edges)) {
+        Ellipse e;
+        if (fit_arcs(e, {&arc}) && e.b_px >= least_disc_px && e.b_px >= 0.5 * e.a_px) {
+            ellipses.push_back(e);
+        }
+    }
+    for (const Ellipse &e : ellipses) {
         const double share = support_of(edges, e).share();
         if (share >= 0.4) {
             all.push_back({e, share});
@@ -121,42 +141,58 @@ Sight find_nested(const cv::Mat &grey, const Body &body)
     return best;
 }
 
-FeatureMatcher::FeatureMatcher(const cv::Mat &reference, const Ellipse &outline) : outline_(outline)
+ViewMatcher::ViewMatcher(const cv::Mat &reference, const Ellipse &outline)
 {
-    std::vector<cv::KeyPoint> key_points;
-    cv::ORB::create(1000)->detectAndCompute(reference, cv::noArray(), key_points, descriptors_);
-    cv::KeyPoint::convert(key_points, points_);
-}
-
-Sight FeatureMatcher::find(const cv::Mat &grey) const
-{
-    std::vector<cv::KeyPoint> key_points;
-    cv::Mat descriptors;
-    std::vector<std::vector<cv::DMatch>> matches;
-    std::vector<cv::Point2f> from, to;
-    cv::ORB::create(2000)->detectAndCompute(grey, cv::noArray(), key_points, descriptors);
-    if (descriptors.rows < 2 || descriptors_.rows < 2) {
-        return {};
-    }
-    cv::BFMatcher(cv::NORM_HAMMING).knnMatch(descriptors_, descriptors, matches, 2);
-    for (const auto &m : matches) {
-        if (m.size() == 2 && m[0].distance < 0.8F * m[1].distance) {
-            from.push_back(points_[static_cast<size_t>(m[0].queryIdx)]);
-            to.push_back(key_points[static_cast<size_t>(m[0].trainIdx)].pt);
+    const double scale = view_semi_axis_px / outline.a_px;
+    const int side = 2 * static_cast<int>(std::lround(1.25 * view_semi_axis_px)) + 1;
+    const double focal = 1e4; /* px of the view: tilts of a drogue far away */
+    cv::Mat smooth;
+    cv::GaussianBlur(reference, smooth, {0, 0}, 0.4 / scale); /* what the smaller view can hold */
+    for (int yaw = -2; yaw <= 2; yaw++) {
+        for (int pitch = -2; pitch <= 2; pitch++) {
+            if (std::abs(yaw) + std::abs(pitch) > 2) {
+                continue;
+            }
+            const Pose p = {{0, 0, focal}, axis_of(yaw * view_step_rad, pitch * view_step_rad)};
+            const cv::Vec3d x = p.first(), y = p.second();
+            /* Plane of the end, px about the outline's centre, to the view. */
+            const cv::Matx33d tilt(x[0], y[0], 0, x[1], y[1], 0, x[2] / focal, y[2] / focal, 1);
+            const cv::Matx33d from(scale, 0, -scale * outline.xc_px, 0, scale, -scale * outline.yc_px, 0, 0, 1);
+            const cv::Matx33d to(1, 0, (side - 1) / 2.0, 0, 1, (side - 1) / 2.0, 0, 0, 1);
+            cv::Mat view;
+            cv::warpPerspective(smooth, view, to * tilt * from, {side, side}, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+            views_.push_back(gradients_of(view));
         }
     }
-    cv::Mat follow;
-    const cv::Mat homography = from.size() < 8 ? cv::Mat() : cv::findHomography(from, to, cv::RANSAC, 5, follow);
-    if (homography.empty() || cv::countNonZero(follow) < 8) {
-        return {};
+}
+
+Sight ViewMatcher::find(const cv::Mat &grey) const
+{
+    Sight best;
+    double best_score = least_correlation;
+    for (int step = 0; step < view_sizes; step++) {
+        const double semi_axis = 20 * std::pow(1.17, step); /* to 246 px */
+        const double scale = view_semi_axis_px / semi_axis;
+        cv::Mat small;
+        cv::resize(grey, small, {}, scale, scale, scale < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
+        if (std::min(small.cols, small.rows) < views_[0].cols) {
+            continue;
+        }
+        const cv::Mat gradients = gradients_of(small);
+        for (const cv::Mat &view : views_) {
+            cv::Mat score;
+            double high;
+            cv::Point at;
+            cv::matchTemplate(gradients, view, score, cv::TM_CCOEFF_NORMED);
+            cv::minMaxLoc(score, nullptr, &high, nullptr, &at);
+            if (high > best_score) {
+                best_score = high;
+                const cv::Point2d middle = cv::Point2d(at) + 0.5 * cv::Point2d(view.cols, view.rows);
+                best = {true, middle * (1 / scale) - cv::Point2d(0.5, 0.5), semi_axis};
+            }
+        }
     }
-    std::vector<cv::Point2f> rim, seen;
-    for (int i = 0; i < 64; i++) {
-        rim.emplace_back(outline_.at(i * CV_PI / 32));
-    }
-    cv::perspectiveTransform(rim, seen, homography);
-    const Ellipse e = ellipse_of(cv::fitEllipseDirect(seen));
-    return {e.b_px > 1, {e.xc_px, e.yc_px}, e.a_px};
+    return best;
 }
 
 } // namespace accuracy

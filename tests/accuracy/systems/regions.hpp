@@ -2,6 +2,8 @@
 /* Finding the drogue in a whole frame as the paper's text says that others do, as far as it says so. */
 #pragma once
 
+#include <vector>
+
 #include <opencv2/core.hpp>
 
 #include "baselines.hpp"
@@ -24,18 +26,17 @@ Sight find_port(const cv::Mat &grey, const Body &body);
  * edges; the pair whose sizes and centres suit the drogue's, that with most of both circumferences on edges. */
 Sight find_nested(const cv::Mat &grey, const Body &body);
 
-/* Xin: feature matching under a perspective transform: ORB features of a reference view of the drogue, matched by Hamming
- * distance with the ratio test, a homography by RANSAC that at least 8 of them follow. */
-class FeatureMatcher {
+/* Xin: matching under a perspective transform. The gradients of a reference view, frontal, put into 13 tilts and 17 sizes
+ * by such a transform, are correlated with the frame's; the best place counts when its coefficient is at least 0.4.
+ * (Matching single features, cv::SIFT with a homography by RANSAC, finds nothing on this drogue: its ribs are all alike.) */
+class ViewMatcher {
 public:
-    /* reference: a picture whose outline is the given ellipse */
-    FeatureMatcher(const cv::Mat &reference, const Ellipse &outline);
+    /* reference: a frontal picture whose outline is the given circle */
+    ViewMatcher(const cv::Mat &reference, const Ellipse &outline);
     Sight find(const cv::Mat &grey) const;
 
 private:
-    std::vector<cv::Point2f> points_;
-    cv::Mat descriptors_;
-    Ellipse outline_;
+    std::vector<cv::Mat> views_; /* gradients, the outline's semi-axis being view_semi_axis_px */
 };
 
 } // namespace accuracy

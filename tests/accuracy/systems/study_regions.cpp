@@ -15,7 +15,7 @@ namespace {
 enum : size_t { ours_search, ours_measured, huang, ma, xin, finders };
 constexpr std::array<const char *, finders> names = {"ours, first sighting", "ours, sighted and measured",
                                                      "Huang: the port's dark disc", "Ma: nested outlines",
-                                                     "Xin: matched features"};
+                                                     "Xin: matched views"};
 
 struct Found {
     std::array<Sight, finders> with, without; /* the drogue in the frame */
@@ -46,7 +46,7 @@ Sight measured(const cv::Mat &image, const Camera &camera, const drogue_model &m
 }
 
 /* The reference view for Xin: the same drogue in the same light 8 m off, frontal, before an even background. */
-FeatureMatcher reference_of(const Trial &t)
+ViewMatcher reference_of(const Trial &t)
 {
     Scene s = t.scene;
     s.pose = {{0, 0, 8}, {0, 0, 1}};
@@ -59,7 +59,7 @@ FeatureMatcher reference_of(const Trial &t)
     return {render(s, part), {rim.xc_px - part.x, rim.yc_px - part.y, rim.a_px, rim.b_px, rim.angle_rad}};
 }
 
-std::array<Sight, finders> look(const cv::Mat &image, const Trial &t, const FeatureMatcher &matcher,
+std::array<Sight, finders> look(const cv::Mat &image, const Trial &t, const ViewMatcher &matcher,
                                 const cv::Point &origin, std::array<double, finders> &ms)
 {
     const Body body = body_of(t.model);
@@ -82,7 +82,7 @@ std::array<Sight, finders> look(const cv::Mat &image, const Trial &t, const Feat
 Found find_in(const Trial &t)
 {
     const cv::Rect frame = frame_of(t);
-    const FeatureMatcher matcher = reference_of(t);
+    const ViewMatcher matcher = reference_of(t);
     Found f;
     f.without = look(empty_frame(t, frame), t, matcher, frame.tl(), f.ms);
     f.with = look(whole_frame(t, frame), t, matcher, frame.tl(), f.ms);

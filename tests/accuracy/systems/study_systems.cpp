@@ -162,8 +162,9 @@ void plot(Report &report, const Everything &all)
               {},
               true,
               true,
-              {"set terminal pngcairo size 1100,700 font 'sans,11' linewidth 1.5 noenhanced", "set key outside right",
-               "set xrange [2.8:27]", "set xtics (3, 5, 8, 11, 15, 20, 25)", "set yrange [0.001:30]"}};
+              {"set terminal pngcairo size 1100,700 font 'sans,11' linewidth 1.5 noenhanced",
+               "set key outside right top vertical maxrows 40", "set xrange [2.8:27]",
+               "set xtics (3, 5, 8, 11, 15, 20, 25)", "set yrange [0.0005:30]"}};
     int colour = 0;
     for (size_t k = 0; k < all_systems().size(); k++) {
         const System &s = all_systems()[k];
@@ -173,7 +174,7 @@ void plot(Report &report, const Everything &all)
         /* Ours thick and black; one camera solid, marks dashed, two cameras and range dotted. */
         const std::string dash = s.sensors == Sensors::one_camera ? "1" : s.sensors == Sensors::marks ? "2" : "3";
         const std::string style = k == 0 ? "linespoints lw 3 lc rgb 'black' pt 7"
-                                         : "linespoints lc " + std::to_string(1 + colour % 8) + " dt " + dash + " pt " +
+                                         : "linespoints lc " + std::to_string(1 + colour % 7) + " dt " + dash + " pt " +
                                                std::to_string(1 + colour % 13);
         colour += k > 0;
         Series series = {s.name, {}, {}, style};
