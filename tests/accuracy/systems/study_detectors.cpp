@@ -74,7 +74,11 @@ void add_all(std::vector<Tally> &tallies, const std::vector<Outline> &outlines, 
 
 std::vector<Tally> over_scenes(Report &report, const StudyOptions &options)
 {
-    const std::vector<Trial> trials = study_trials(options);
+    const std::vector<Trial> all = study_trials(options); /* condition by condition */
+    std::vector<Trial> trials;
+    for (size_t i = 0; i < all.size(); i += static_cast<size_t>(options.pick(5, 1))) {
+        trials.push_back(all[i]);
+    }
     std::vector<std::vector<Outline>> found(trials.size());
     std::vector<Tally> tallies;
     parallel_for(

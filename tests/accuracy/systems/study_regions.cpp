@@ -97,7 +97,7 @@ Found find_in(const Trial &t)
 void section_regions(Report &report, const StudyOptions &options)
 {
     std::vector<Trial> trials;
-    for (int i = 0; i < options.pick(100, 6); i++) {
+    for (int i = 0; i < options.pick(40, 6); i++) {
         trials.push_back(trial(hash_at(options.seed, 43, 7), Condition::clutter, i));
     }
     std::vector<Found> found(trials.size());

@@ -30,7 +30,7 @@ struct Everything {
 Everything run(Report &report, const StudyOptions &options)
 {
     const std::vector<double> distances_m = options.quick ? shown_m : std::vector<double>{3, 5, 8, 11, 15, 20, 25};
-    const size_t scenes = static_cast<size_t>(options.pick(48, 4));
+    const size_t scenes = static_cast<size_t>(options.pick(24, 4));
     const size_t systems = all_systems().size();
     std::vector<SceneEstimates> results(distances_m.size() * scenes);
     std::vector<Trial> trials;
@@ -232,7 +232,7 @@ void section_systems(Report &report, const StudyOptions &options)
     report.section("All systems");
     const Everything all = run(report, options);
     report.text(
-        "Every system of the paper's sections I and II on the same " + std::to_string(options.pick(48, 4)) +
+        "Every system of the paper's sections I and II on the same " + std::to_string(options.pick(24, 4)) +
         " plain scenes a distance (yaw and pitch to 20 degrees, 14 degrees about the optical axis): medians of the "
         "absolute errors in x, y, z, % of the distance, and of the axis, degrees. 'None, gross': scenes over all "
         "distances without an estimate, and with one that is off by more than 3 % of the distance. Time: processor's "
