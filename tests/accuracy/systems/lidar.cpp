@@ -22,8 +22,6 @@ struct Circle {
     double radius = 0;
 };
 
-cv::Vec3d toward_drogue(const cv::Vec3d &axis) { return axis[2] < 0 ? -axis : axis; }
-
 /* Through three points; false when they are on a line. */
 bool through(Circle &out, const cv::Vec3d &a, const cv::Vec3d &b, const cv::Vec3d &c)
 {
@@ -35,31 +33,18 @@ bool through(Circle &out, const cv::Vec3d &a, const cv::Vec3d &b, const cv::Vec3
         return false;
     }
     const cv::Vec3d to = (u.dot(u) * v.cross(n) + v.dot(v) * n.cross(u)) * (0.5 / n2);
-    out = {a + to, toward_drogue(cv::normalize(n)), cv::norm(to)};
+    out = {a + to, cv::normalize(n[2] < 0 ? -n : n), cv::norm(to)};
     return true;
 }
 
 /* Plane and, in it, circle by least squares (Kasa's algebraic form). */
 bool fit(Circle &out, const std::vector<cv::Vec3d> &points)
 {
-    cv::Vec3d mean;
-    const double n = static_cast<double>(points.size());
-    for (const cv::Vec3d &p : points) {
-        mean += p * (1 / n);
-    }
-    cv::Matx33d spread = cv::Matx33d::zeros();
-    for (const cv::Vec3d &p : points) {
-        spread += (p - mean) * (p - mean).t();
-    }
-    cv::Vec3d value;
-    cv::Matx33d vector;
-    cv::eigen(spread, value, vector);
-    const cv::Vec3d e1(vector(0, 0), vector(0, 1), vector(0, 2));
-    const cv::Vec3d e2(vector(1, 0), vector(1, 1), vector(1, 2));
+    const PlaneFit plane = fit_plane(points);
     cv::Matx33d left = cv::Matx33d::zeros();
     cv::Vec3d right;
     for (const cv::Vec3d &p : points) {
-        const cv::Vec3d row((p - mean).dot(e1), (p - mean).dot(e2), 1);
+        const cv::Vec3d row((p - plane.mean).dot(plane.first), (p - plane.mean).dot(plane.second), 1);
         left += row * row.t();
         right += row * (row[0] * row[0] + row[1] * row[1]);
     }
@@ -67,8 +52,8 @@ bool fit(Circle &out, const std::vector<cv::Vec3d> &points)
     if (!cv::solve(left, right, x, cv::DECOMP_CHOLESKY)) {
         return false;
     }
-    out.centre = mean + e1 * (x[0] / 2) + e2 * (x[1] / 2);
-    out.axis = toward_drogue(e1.cross(e2));
+    out.centre = plane.mean + plane.first * (x[0] / 2) + plane.second * (x[1] / 2);
+    out.axis = plane.normal;
     out.radius = std::sqrt(x[2] + (x[0] * x[0] + x[1] * x[1]) / 4);
     return std::isfinite(out.radius);
 }

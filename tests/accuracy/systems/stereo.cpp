@@ -55,6 +55,26 @@ bool cut(double &low, double &high, const Ellipse &e, double row)
 
 } // namespace
 
+PlaneFit fit_plane(const std::vector<cv::Vec3d> &points)
+{
+    PlaneFit plane;
+    for (const cv::Vec3d &p : points) {
+        plane.mean += p * (1.0 / static_cast<double>(points.size()));
+    }
+    cv::Matx33d spread = cv::Matx33d::zeros();
+    for (const cv::Vec3d &p : points) {
+        spread += (p - plane.mean) * (p - plane.mean).t();
+    }
+    cv::Vec3d value;
+    cv::Matx33d vector;
+    cv::eigen(spread, value, vector);
+    plane.first = {vector(0, 0), vector(0, 1), vector(0, 2)};
+    plane.second = {vector(1, 0), vector(1, 1), vector(1, 2)};
+    plane.normal = plane.first.cross(plane.second);
+    plane.normal = plane.normal[2] < 0 ? -plane.normal : plane.normal;
+    return plane;
+}
+
 Scene seen_from_right(const Scene &scene)
 {
     Scene right = scene;
@@ -99,23 +119,10 @@ Estimate xu(const Features &left, const Features &right, const Camera &camera, c
     }
     points.push_back(centre.position_m);
 
-    cv::Vec3d mean;
-    for (const cv::Vec3d &p : points) {
-        mean += p * (1.0 / static_cast<double>(points.size()));
-    }
-    cv::Matx33d spread = cv::Matx33d::zeros();
-    for (const cv::Vec3d &p : points) {
-        spread += (p - mean) * (p - mean).t();
-    }
-    cv::Vec3d value;
-    cv::Matx33d vector;
-    cv::eigen(spread, value, vector);
-    cv::Vec3d axis(vector(2, 0), vector(2, 1), vector(2, 2));
-    axis = axis[2] < 0 ? -axis : axis;
-
+    const PlaneFit plane = fit_plane(points);
     /* In the plane: every point of the rim says where the centre is; the centre itself is one more such word. */
-    const auto in_plane = [&](const cv::Vec3d &p) { return p - axis * (p - mean).dot(axis); };
-    cv::Vec3d c = mean;
+    const auto in_plane = [&](const cv::Vec3d &p) { return p - plane.normal * (p - plane.mean).dot(plane.normal); };
+    cv::Vec3d c = plane.mean;
     for (int step = 0; step < 200; step++) {
         cv::Vec3d next = in_plane(points.back());
         for (size_t i = 0; i + 1 < points.size(); i++) {
@@ -127,7 +134,7 @@ Estimate xu(const Features &left, const Features &right, const Camera &camera, c
     Estimate e;
     e.ok = e.has_axis = true;
     e.position_m = c;
-    e.axis = axis;
+    e.axis = plane.normal;
     return e;
 }
 

@@ -3,6 +3,8 @@
  * image of a flash lidar. */
 #pragma once
 
+#include <vector>
+
 #include <opencv2/core.hpp>
 
 #include "baselines.hpp"
@@ -11,6 +13,12 @@
 namespace accuracy {
 
 constexpr double baseline_m = 0.5;
+
+/* Plane through points by least squares: their mean, two unit vectors along it, its normal away from the camera. */
+struct PlaneFit {
+    cv::Vec3d mean, first, second, normal;
+};
+PlaneFit fit_plane(const std::vector<cv::Vec3d> &points);
 
 /* The scene as the right camera sees it: the drogue so much farther left, noise of its own. */
 Scene seen_from_right(const Scene &scene);

@@ -133,7 +133,7 @@ void section_detectors(Report &report, const StudyOptions &options)
         "The outline in the same regions, under all conditions of the study and on photographs of boards (truth by "
         "hand there). Right: the outline is off by at most 1 px or 3 % of the semi-major axis on average. Of a "
         "detector's ellipses that which lies as the drogue must and has most of its circumference on edges counts, by "
-        "one rule for all; ours does the rest of the measurement in its time, too. Error: median of the right ones.");
+        "one rule for all, whose edges are in its time; ours does the rest of the measurement in its time, too. Error: median of the right ones.");
     if (boards.empty()) {
         report.text("The photographs are not there: not measured.");
         report.not_judged("ellipse detectors on boards", "the photographs are not there");
