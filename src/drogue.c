@@ -98,6 +98,7 @@ typedef struct frame {
     drogue_image view; /* the region's pixels */
     drogue_mask mask;
     drogue_outline outline;
+    drogue_second_look second_look;
 } frame;
 
 static drogue_status find_outline(frame *f, const drogue_region *region)
@@ -130,27 +131,47 @@ static int about_the_same(const drogue_ellipse *e, const drogue_region *at, cons
     return da <= most && da >= -most && drogue_square_sum(dx, dy) <= drogue_square_sum(most, 0);
 }
 
-/* An outline that the ring mask cuts is looked for once more in a region that suits it; when that finds nothing, another
- * one or less of it, what was found first stands. */
+/* Look for an outline once more, in a region that suits it. */
+static drogue_second_look look_again(frame *f)
+{
+    const drogue_ellipse was = f->outline.ellipse;
+    const drogue_region was_at = f->out->region;
+    const drogue_q16 cover_q16 = f->outline.cover_q16;
+    const drogue_region better = region_about(&was, &was_at);
+    if ((uint32_t)better.width_px > f->workspace->capacity.width_px) {
+        return DROGUE_SECOND_TOO_WIDE;
+    }
+    switch (find_outline(f, &better)) {
+    case DROGUE_OK: break;
+    case DROGUE_E_LABELS_FULL:
+    case DROGUE_E_EDGES_FULL:
+    case DROGUE_E_ARCS_FULL: return DROGUE_SECOND_FULL;
+    case DROGUE_E_REGION: return DROGUE_SECOND_REGION;
+    default: return DROGUE_SECOND_NO_MORE;
+    }
+    return f->outline.cover_q16 >= cover_q16 && about_the_same(&f->outline.ellipse, &f->out->region, &was, &was_at)
+               ? DROGUE_SECOND_BETTER
+               : DROGUE_SECOND_NO_MORE;
+}
+
+/* An outline that the ring mask cuts is looked for once more; unless that is better, what was found first stands. */
 static drogue_status find_outline_twice(frame *f, const drogue_region *region)
 {
     const drogue_config *config = f->setup->config;
     const drogue_status first = find_outline(f, region);
-    const drogue_ellipse was = f->outline.ellipse;
-    const drogue_region was_at = f->out->region;
     const drogue_q16 cover_q16 = f->outline.cover_q16;
-    drogue_region better;
+    f->second_look = DROGUE_SECOND_NONE;
     if ((first != DROGUE_OK && first != DROGUE_E_NO_ELLIPSE) ||
         cover_q16 < drogue_shr_round_s64(config->min_cover_q16, 1) || cover_q16 >= config->recentre_cover_q16 ||
-        ring_holds(&was, &f->mask)) {
+        ring_holds(&f->outline.ellipse, &f->mask)) {
         return first;
     }
-    better = region_about(&was, &was_at);
-    if ((uint32_t)better.width_px <= f->workspace->capacity.width_px && find_outline(f, &better) == DROGUE_OK &&
-        f->outline.cover_q16 >= cover_q16 && about_the_same(&f->outline.ellipse, &f->out->region, &was, &was_at)) {
-        return DROGUE_OK;
+    f->second_look = look_again(f);
+    switch (f->second_look) {
+    case DROGUE_SECOND_BETTER: return DROGUE_OK;
+    case DROGUE_SECOND_TOO_WIDE: return first; /* it was not begun */
+    default: return find_outline(f, region);
     }
-    return find_outline(f, region);
 }
 
 static drogue_q16 shifted(drogue_q16 v_px_q16, int32_t by_px)
@@ -264,5 +285,6 @@ drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, co
     f.setup = setup;
     f.image = image;
     out->status = valid(image, setup) ? measure(&f, region) : DROGUE_E_ARGUMENT;
+    out->second_look = f.second_look;
     return out->status;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Names of statuses. */
+/* Names of statuses and of what became of the second look. */
 #include "drogue/status.h"
 
 const char *drogue_status_name(drogue_status status)
@@ -21,6 +21,20 @@ const char *drogue_status_name(drogue_status status)
     case DROGUE_E_DOMAIN: return "domain";
     case DROGUE_E_BEHIND_CAMERA: return "behind_camera";
     case DROGUE_STATUS_COUNT: break;
+    }
+    return "unknown";
+}
+
+const char *drogue_second_look_name(drogue_second_look look)
+{
+    switch (look) {
+    case DROGUE_SECOND_NONE: return "none";
+    case DROGUE_SECOND_BETTER: return "better";
+    case DROGUE_SECOND_NO_MORE: return "no_more";
+    case DROGUE_SECOND_REGION: return "region";
+    case DROGUE_SECOND_TOO_WIDE: return "too_wide";
+    case DROGUE_SECOND_FULL: return "full";
+    case DROGUE_SECOND_COUNT: break;
     }
     return "unknown";
 }

@@ -2,21 +2,22 @@
 # Debian's packages by what they are for, and need(), which installs those that are missing; sourced by ./run.
 
 demo_packages=(cmake ninja-build gcc libc6-dev pkg-config libpng-dev)
-accuracy_packages=("${demo_packages[@]}" g++ check libopencv-dev libcjson-dev)
+program_packages=(libyaml-dev libexpat1-dev help2man) # what the program can do without
+accuracy_packages=("${demo_packages[@]}" "${program_packages[@]}" g++ check libopencv-dev libcjson-dev)
 check_packages=("${accuracy_packages[@]}" clang-format-14)
 embedded_packages=("${demo_packages[@]}" libcjson-dev)
 arm_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm)
 riscv_packages=(gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-misc)
 hls_packages=("${accuracy_packages[@]}" clang llvm python3 tcl)
 packaging_packages=(python3 python3-venv python3-kconfiglib python3-lxml)
-study_packages=("${accuracy_packages[@]}" gnuplot-nox)
+study_packages=("${accuracy_packages[@]}" libopencv-contrib-dev gnuplot-nox)
 # gcc-multilib proper conflicts with every cross compiler; the one of the compiler's version does not
 multilib() { echo "gcc-$(gcc -dumpversion 2>/dev/null || echo 12)-multilib"; }
 matrix_ci_packages=("${accuracy_packages[@]}" binutils clang "$(multilib)" gcc-s390x-linux-gnu libc6-dev-s390x-cross
     qemu-user "${arm_packages[@]}" "${riscv_packages[@]}")
 matrix_packages=("${matrix_ci_packages[@]}" gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-arm-linux-gnueabihf
     libc6-dev-armhf-cross gcc-riscv64-linux-gnu libc6-dev-riscv64-cross)
-test_packages=("${matrix_ci_packages[@]}" "${packaging_packages[@]}" gnuplot-nox clang-format-14 valgrind
+test_packages=("${matrix_ci_packages[@]}" "${packaging_packages[@]}" libopencv-contrib-dev gnuplot-nox clang-format-14 valgrind
     gcc-arm-linux-gnueabihf libc6-dev-armhf-cross python3-jsonschema llvm tcl)
 
 most_s=900 # to wait for another apt-get

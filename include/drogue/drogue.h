@@ -47,21 +47,22 @@ const char *drogue_version(void);
 
 /* What a frame gives. Coordinates are px of the whole image. */
 typedef struct drogue_result {
-    drogue_status status;     /* what drogue_measure() returned */
-    drogue_region region;     /* the region used: the one asked for, clipped to the image */
-    drogue_edge_list list;    /* edges and arcs in the workspace, in coordinates of the region */
-    uint32_t arcs[4];         /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
-    drogue_ellipse ellipse;   /* outline of the end plane, as seen (distorted) */
-    drogue_ellipse ideal;     /* the same without distortion: what the pose is computed from */
-    drogue_quality quality;   /* of the fit of the arcs */
-    drogue_polarity polarity; /* DARK or BRIGHT: the outline's inside against its outside; BOTH: it changes */
-    uint32_t cluster_members; /* candidates that agree with the winner, itself included */
-    uint32_t refit_points;    /* points in the final fit */
-    drogue_q16 cover_q16;     /* edge points that belong to the outline over its circumference, at most 1 */
-    int32_t has_inner;        /* 1: an inner part was found and believed: of its size, in its place, with contrast */
-    drogue_inner_part inner;  /* its centroid, as seen; meaningful when has_inner */
-    drogue_pose pose;         /* the pose chosen; unresolved: the one nearer to what is dark inside, unproved */
-    drogue_pose alternative;  /* the other one that the outline allows */
+    drogue_status status;           /* what drogue_measure() returned */
+    drogue_second_look second_look; /* from TOO_WIDE on, a larger workspace may give another result */
+    drogue_region region;           /* the region used: the one asked for, clipped to the image */
+    drogue_edge_list list;          /* edges and arcs in the workspace, in coordinates of the region */
+    uint32_t arcs[4];               /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
+    drogue_ellipse ellipse;         /* outline of the end plane, as seen (distorted) */
+    drogue_ellipse ideal;           /* the same without distortion: what the pose is computed from */
+    drogue_quality quality;         /* of the fit of the arcs */
+    drogue_polarity polarity;       /* DARK or BRIGHT: the outline's inside against its outside; BOTH: it changes */
+    uint32_t cluster_members;       /* candidates that agree with the winner, itself included */
+    uint32_t refit_points;          /* points in the final fit */
+    drogue_q16 cover_q16;           /* edge points that belong to the outline over its circumference, at most 1 */
+    int32_t has_inner;       /* 1: an inner part was found and believed: of its size, in its place, with contrast */
+    drogue_inner_part inner; /* its centroid, as seen; meaningful when has_inner */
+    drogue_pose pose;        /* the pose chosen; unresolved: the one nearer to what is dark inside, unproved */
+    drogue_pose alternative; /* the other one that the outline allows */
     int32_t orientation_resolved; /* 1: the inner part decided between the two */
     drogue_q16 ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 without one */
     int64_t covariance_q48[5][5];  /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric */
@@ -72,7 +73,10 @@ typedef struct drogue_result {
 /* Measure one frame.
  *
  *  out        result; every member is defined for every return value, zero where there is nothing to say
- *  workspace  holds the edge points and arcs after the call
+ *  workspace  holds the edge points and arcs after the call. An outline that the ring mask cuts is looked for once more
+ *             in a square region of its own, at most 5/2 of its semi-major axis a side: of an outline that fits into
+ *             the region asked for, 5/4 of its longest side, of one as large as the default max_size takes, 15/8. A
+ *             workspace for that width holds every second look; a smaller one keeps the first, and second_look says so
  *  setup      camera, model, thresholds; the model's inner_radius 0: inner part unknown, both poses are given and the
  *             orientation stays unresolved
  *  image      the caller's; not written

@@ -32,6 +32,20 @@ typedef enum drogue_status {
  */
 const char *drogue_status_name(drogue_status status);
 
+/* What became of the second look at an outline that the region's ring mask cuts (drogue.h). */
+typedef enum drogue_second_look {
+    DROGUE_SECOND_NONE = 0, /* none was called for: the outline suits its region, or there is too little of it */
+    DROGUE_SECOND_BETTER,   /* it found the same outline and no less of it: the result is its */
+    DROGUE_SECOND_NO_MORE,  /* it found nothing, another outline or less of it: what was found first stands */
+    DROGUE_SECOND_REGION,   /* its region cannot be measured, see DROGUE_E_REGION: what was found first stands */
+    DROGUE_SECOND_TOO_WIDE, /* the workspace is too narrow for its region: what was found first stands, maybe half an outline */
+    DROGUE_SECOND_FULL, /* a table was full: what was found first stands, maybe half an outline */
+    DROGUE_SECOND_COUNT
+} drogue_second_look;
+
+/* Name of it in lower case, such as "too_wide"; never NULL; any other value gives "unknown". */
+const char *drogue_second_look_name(drogue_second_look look);
+
 #ifdef __cplusplus
 }
 #endif

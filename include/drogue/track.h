@@ -113,7 +113,9 @@ drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *
  */
 void drogue_track_begin(drogue_region *region, drogue_track *track, uint32_t dt_us);
 
-/* End the frame with its measurement: correct, refuse, coast or give up. Returns the new state. */
+/* End the frame with its measurement: correct, refuse, coast or give up. Returns the new state.
+ * A result whose second_look kept a cut outline counts for less than its covariance says: by a third of the circumference's
+ * share that is not covered, in semi-axes sideways, in distances along the axis and in rad. */
 drogue_track_state drogue_track_end(drogue_track *track, const drogue_result *result);
 
 /* The estimate; all zero while lost. */

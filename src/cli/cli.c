@@ -10,8 +10,12 @@
 int complain(const char *subject, const char *format, ...)
 {
     va_list arguments;
+    fputs("drogue: ", stderr);
+    for (; *subject != '\0'; subject++) { /* a complaint is one line, whatever a file is called */
+        fputc((unsigned char)*subject < 0x20 ? '?' : *subject, stderr);
+    }
+    fputs(": ", stderr);
     va_start(arguments, format);
-    fprintf(stderr, "drogue: %s: ", subject);
     vfprintf(stderr, format, arguments);
     fputc('\n', stderr);
     va_end(arguments);

@@ -5,6 +5,7 @@
 #include "cli.h"
 #include "commands.h"
 #include "frame.h"
+#include "images.h"
 
 #define NO_ARCS UINT32_MAX /* no arc is that long: the arc table stays empty, the points are listed all the same */
 

@@ -6,6 +6,11 @@
 
 #include "cli.h"
 
+enum {
+    MOST_OUTSIDE = 4, /* longest sides that a principal point may lie outside: of a part cut from an image */
+    LEAST_FAR = 1024  /* px: the least longest side that counts for it */
+};
+
 /* Pixels of [start, start + size) inside [0, limit). */
 static int32_t overlap(int32_t start, int32_t size, int32_t limit)
 {
@@ -49,30 +54,37 @@ void frame_workspace_free(frame_workspace *w)
     w->search_memory = NULL;
 }
 
+/* Room to search pictures of a width. */
+static int fit_search(frame_workspace *w, const char *path, int32_t width_px)
+{
+    const size_t bytes = DROGUE_SEARCH_BYTES(width_px);
+    if (width_px > w->search_width_px) {
+        free(w->search_memory);
+        w->search_width_px = 0;
+        w->search_memory = malloc(bytes);
+        if (w->search_memory == NULL) {
+            return complain(path, "out of memory");
+        }
+        w->search_width_px = width_px;
+        (void)drogue_search_init(&w->search, w->search_memory, bytes, width_px);
+    }
+    return EXIT_MEASURED;
+}
+
 /* Room to search a picture and to measure any part of it that the library takes. */
 static int fit_whole(frame_workspace *w, const options *o, const char *path, const picture *grey)
 {
     const int32_t width = grey->width_px < DROGUE_MAX_SIDE ? grey->width_px : DROGUE_MAX_SIDE;
     const int32_t height = grey->height_px < DROGUE_MAX_SIDE ? grey->height_px : DROGUE_MAX_SIDE;
     const int32_t widest = grey->width_px < INT16_MAX ? grey->width_px : INT16_MAX; /* wider ones are not searched */
-    const size_t bytes = DROGUE_SEARCH_BYTES(widest);
-    drogue_config config;
     if (!o->region_given && (grey->width_px > INT16_MAX || grey->height_px > INT16_MAX)) {
         return complain(path, "%dx%d pixels are not searched, %d a side are the most: give a --roi", grey->width_px,
                         grey->height_px, INT16_MAX);
     }
-    drogue_config_default(&config);
-    if (frame_workspace_fit(w, path, width, height, config.min_arc_px)) {
+    if (frame_workspace_fit(w, path, width, height, o->config.min_arc_px)) {
         return EXIT_BAD;
     }
-    if (w->search_memory == NULL) {
-        w->search_memory = malloc(bytes);
-        if (w->search_memory == NULL) {
-            return complain(path, "out of memory");
-        }
-        (void)drogue_search_init(&w->search, w->search_memory, bytes, widest);
-    }
-    return EXIT_MEASURED;
+    return fit_search(w, path, widest);
 }
 
 drogue_image frame_image(const picture *grey)
@@ -83,6 +95,30 @@ drogue_image frame_image(const picture *grey)
     image.height_px = grey->height_px;
     image.stride = grey->width_px;
     return image;
+}
+
+/* Pixels by which a coordinate lies outside [0, size). */
+static int64_t outside(drogue_q16 v_q16, int32_t size)
+{
+    const int64_t v = v_q16 / DROGUE_Q16_ONE;
+    return v < 0 ? -v : v >= size ? v - size : 0;
+}
+
+int frame_check_camera(const options *o, const char *path, const picture *grey)
+{
+    const drogue_camera *c = &o->camera;
+    const int32_t longest = grey->width_px > grey->height_px ? grey->width_px : grey->height_px;
+    const int64_t far = longest < LEAST_FAR ? MOST_OUTSIDE * LEAST_FAR : (int64_t)MOST_OUTSIDE * longest;
+    if (o->camera_width_px > 0 && o->camera_height_px > 0 &&
+        (o->camera_width_px != grey->width_px || o->camera_height_px != grey->height_px)) {
+        return complain(path, "%dx%d pixels, but the camera of %s has %dx%d", grey->width_px, grey->height_px,
+                        o->camera_file, o->camera_width_px, o->camera_height_px);
+    }
+    if (outside(c->cx_px_q16, grey->width_px) > far || outside(c->cy_px_q16, grey->height_px) > far) {
+        return complain("--camera", "the principal point lies far outside the %dx%d pixels of %s", grey->width_px,
+                        grey->height_px, path);
+    }
+    return EXIT_MEASURED;
 }
 
 int frame_region(drogue_region *out, const options *o, const char *path, const picture *grey)
@@ -97,19 +133,48 @@ int frame_region(drogue_region *out, const options *o, const char *path, const p
     return EXIT_MEASURED;
 }
 
-int frame_measure(drogue_result *out, frame_workspace *w, const options *o, const char *path, const picture *grey,
-                  const drogue_region *region)
+static drogue_setup setup_of(const options *o)
 {
+    drogue_setup setup;
+    setup.camera = &o->camera;
+    setup.model = &o->model;
+    setup.config = &o->config;
+    return setup;
+}
+
+/* Nothing of the size that the region stands for? */
+static int is_worth_searching(drogue_status status)
+{
+    return status == DROGUE_E_NO_EDGES || status == DROGUE_E_NO_ARCS || status == DROGUE_E_NO_ELLIPSE;
+}
+
+int frame_measure(drogue_result *out, int *searched, frame_workspace *w, const options *o, const char *path,
+                  const picture *grey, const drogue_region *region)
+{
+    const drogue_setup setup = setup_of(o);
     drogue_image image = frame_image(grey);
     int32_t width = overlap(region->x_px, region->width_px, grey->width_px);
     int32_t height = overlap(region->y_px, region->height_px, grey->height_px);
-    drogue_config config;
-    drogue_config_default(&config);
+    drogue_result own;
+    *searched = 0;
     /* A region without pixels still goes to the library, whose status says so. */
-    if (frame_workspace_fit(w, path, width > 0 ? width : 1, height > 0 ? height : 1, config.min_arc_px)) {
+    if (frame_workspace_fit(w, path, width > 0 ? width : 1, height > 0 ? height : 1, o->config.min_arc_px)) {
         return EXIT_BAD;
     }
-    (void)drogue_measure(out, &w->workspace, &(drogue_setup){&o->camera, &o->model, &config}, &image, region);
+    (void)drogue_measure(out, &w->workspace, &setup, &image, region);
+    if (!is_worth_searching(out->status)) {
+        return EXIT_MEASURED;
+    }
+    own = *out;
+    if (fit_search(w, path, width)) {
+        return EXIT_BAD;
+    }
+    (void)drogue_acquire(out, &w->search, &w->workspace, &setup, &image, region);
+    *searched = out->status == DROGUE_OK;
+    if (!*searched) { /* again, so that the workspace holds its points */
+        *out = own;
+        (void)drogue_measure(out, &w->workspace, &setup, &image, region);
+    }
     return EXIT_MEASURED;
 }
 
@@ -124,13 +189,12 @@ static drogue_region whole_image(const picture *grey)
 int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w, const options *o, const char *path,
                   const picture *grey)
 {
+    const drogue_setup setup = setup_of(o);
     drogue_image image = frame_image(grey);
-    drogue_config config;
-    drogue_config_default(&config);
     if (fit_whole(w, o, path, grey)) {
         return EXIT_BAD;
     }
-    (void)drogue_acquire(out, &w->search, &w->workspace, &(drogue_setup){&o->camera, &o->model, &config}, &image, NULL);
+    (void)drogue_acquire(out, &w->search, &w->workspace, &setup, &image, NULL);
     *region = out->status == DROGUE_OK ? out->region : whole_image(grey);
     return EXIT_MEASURED;
 }
@@ -139,12 +203,10 @@ int frame_track(drogue_result *out, drogue_region *region, drogue_track *track, 
                 const char *path, const picture *grey)
 {
     drogue_image image = frame_image(grey);
-    drogue_config config;
-    drogue_config_default(&config);
     if (fit_whole(w, o, path, grey)) {
         return EXIT_BAD;
     }
-    (void)drogue_track_frame(out, region, track, &w->workspace, &w->search, &config, &image, o->frame_us);
+    (void)drogue_track_frame(out, region, track, &w->workspace, &w->search, &o->config, &image, o->frame_us);
     if (region->width_px == 0) {
         *region = out->status == DROGUE_OK ? out->region : whole_image(grey);
     }

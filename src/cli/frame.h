@@ -15,6 +15,7 @@ typedef struct frame_workspace {
     size_t bytes;
     drogue_workspace workspace;
     void *search_memory;
+    int32_t search_width_px;
     drogue_search search;
 } frame_workspace;
 
@@ -29,6 +30,12 @@ void frame_workspace_free(frame_workspace *w);
 
 /* The picture as the library takes it. */
 drogue_image frame_image(const picture *grey);
+
+/* Can the camera be that of this picture: its size, where a camera file says one; a principal point not far outside?
+ *
+ *  return  EXIT_MEASURED, or EXIT_BAD after a complaint
+ */
+int frame_check_camera(const options *o, const char *path, const picture *grey);
 
 /* The region asked for.
  *
@@ -52,11 +59,13 @@ int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w,
 int frame_track(drogue_result *out, drogue_region *region, drogue_track *track, frame_workspace *w, const options *o,
                 const char *path, const picture *grey);
 
-/* Measure one frame; what the library found, or why it found nothing, is in the result.
+/* Measure one frame; what the library found, or why it found nothing, is in the result. Where the region asked for has
+ * edges but no outline of its own size, it is searched for a smaller one.
  *
- *  return  EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory
+ *  searched  out, 1 when that search found what is in the result
+ *  return    EXIT_MEASURED, or EXIT_BAD after a complaint when there is no memory
  */
-int frame_measure(drogue_result *out, frame_workspace *w, const options *o, const char *path, const picture *grey,
-                  const drogue_region *region);
+int frame_measure(drogue_result *out, int *searched, frame_workspace *w, const options *o, const char *path,
+                  const picture *grey, const drogue_region *region);
 
 #endif

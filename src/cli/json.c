@@ -1,11 +1,18 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* JSON by hand, without floating point: the numbers keep every bit of their Q16 with six decimals, (co)variances six
- * significant digits. */
+/* JSON by hand: the sink of the members. */
 #include "json.h"
 
-#include "decimal.h"
+#include <string.h>
 
-enum { JSON_DECIMALS = 6, JSON_DIGITS = 6 };
+enum { JSON_DEPTH = 4 };
+
+typedef struct json {
+    FILE *out;
+    int depth;
+    int count[JSON_DEPTH]; /* of what a group holds so far */
+    int is_array[JSON_DEPTH];
+    int unknown; /* groups within one that is null, itself included */
+} json;
 
 /* Length of the UTF-8 character at the start of a text; 0 when there is none (RFC 3629). */
 static int utf8_length(const unsigned char *s)
@@ -24,7 +31,8 @@ static int utf8_length(const unsigned char *s)
     return length;
 }
 
-void json_string(FILE *out, const char *text)
+/* Text as a JSON string; bytes that are not UTF-8 become U+FFFD. */
+static void put_string(FILE *out, const char *text)
 {
     const unsigned char *s = (const unsigned char *)text;
     fputc('"', out);
@@ -45,205 +53,89 @@ void json_string(FILE *out, const char *text)
     fputc('"', out);
 }
 
-static void put_number(FILE *out, char text[DECIMAL_TEXT])
+/* What stands before a value: comma, key. */
+static void put_name(json *j, const char *name)
 {
-    decimal_trim(text);
-    fputs(text, out);
-}
-
-static void put_q16(FILE *out, const char *key, drogue_q16 value)
-{
-    char text[DECIMAL_TEXT];
-    decimal_format_q16(text, value, JSON_DECIMALS);
-    fprintf(out, "\"%s\":", key);
-    put_number(out, text);
-}
-
-static void put_degrees(FILE *out, const char *key, drogue_q16 angle_rad_q16)
-{
-    char text[DECIMAL_TEXT];
-    decimal_format_degrees(text, angle_rad_q16, JSON_DECIMALS);
-    fprintf(out, "\"%s\":", key);
-    put_number(out, text);
-}
-
-static void put_vector(FILE *out, const char *key, const drogue_q16 v[3])
-{
-    int i;
-    fprintf(out, "\"%s\":[", key);
-    for (i = 0; i < 3; i++) {
-        char text[DECIMAL_TEXT];
-        decimal_format_q16(text, v[i], JSON_DECIMALS);
-        fputs(i > 0 ? "," : "", out);
-        put_number(out, text);
+    fputs(j->count[j->depth]++ > 0 ? "," : "", j->out);
+    if (name != NULL && !j->is_array[j->depth]) {
+        fprintf(j->out, "\"%s\":", name);
     }
-    fputc(']', out);
 }
 
-static const char *polarity_name(drogue_polarity polarity)
+static void begin(void *state, const char *name, int is_array, int known)
 {
-    return polarity == DROGUE_POLARITY_DARK ? "dark" : polarity == DROGUE_POLARITY_BRIGHT ? "bright" : "mixed";
-}
-
-static void put_outline(FILE *out, const drogue_result *r)
-{
-    /* The outline can be known when its pose is not. */
-    if (r->ellipse.a_px_q16 <= 0) {
-        fputs("\"ellipse\":null,\"reliability\":null,\"polarity\":null,", out);
+    json *j = state;
+    if (j->unknown > 0) {
+        j->unknown++;
         return;
     }
-    fputs("\"ellipse\":{", out);
-    put_q16(out, "xc", r->ellipse.xc_px_q16);
-    fputc(',', out);
-    put_q16(out, "yc", r->ellipse.yc_px_q16);
-    fputc(',', out);
-    put_q16(out, "a", r->ellipse.a_px_q16);
-    fputc(',', out);
-    put_q16(out, "b", r->ellipse.b_px_q16);
-    fputc(',', out);
-    put_degrees(out, "angle_deg", r->ellipse.angle_rad_q16);
-    fputs("},", out);
-    put_q16(out, "reliability", r->quality.reliability_q16);
-    fprintf(out, ",\"polarity\":\"%s\",", polarity_name(r->polarity));
-}
-
-static void put_inner_centre(FILE *out, const drogue_result *r)
-{
-    if (!r->has_inner) {
-        fputs("\"inner_centre\":null,", out);
+    put_name(j, name);
+    if (!known) {
+        fputs("null", j->out);
+        j->unknown = 1;
         return;
     }
-    fputs("\"inner_centre\":{", out);
-    put_q16(out, "x", r->inner.x_px_q16);
-    fputc(',', out);
-    put_q16(out, "y", r->inner.y_px_q16);
-    fputs("},", out);
+    j->depth++;
+    j->count[j->depth] = 0;
+    j->is_array[j->depth] = is_array;
+    fputc(is_array ? '[' : '{', j->out);
 }
 
-static void put_binary(FILE *out, const char *before, int64_t value, int frac_bits)
+static void end(void *state)
 {
-    char text[DECIMAL_TEXT];
-    decimal_format_binary(text, value, frac_bits, JSON_DIGITS);
-    fprintf(out, "%s%s", before, text);
-}
-
-static void put_uncertainty(FILE *out, const drogue_result *r)
-{
-    char text[DECIMAL_TEXT];
-    int i;
-    int j;
-    fputs("\"covariance\":[", out);
-    for (i = 0; i < 5; i++) {
-        for (j = 0; j < 5; j++) {
-            put_binary(out, j > 0 ? "," : i > 0 ? ",[" : "[", r->covariance_q48[i][j], 48);
-        }
-        fputc(']', out);
-    }
-    fputs("],\"position_std_m\":[", out);
-    for (i = 0; i < 3; i++) {
-        put_binary(out, i > 0 ? "," : "", r->position_std_m_q32[i], 32);
-    }
-    decimal_format_degrees_q32(text, r->axis_std_rad_q32, JSON_DIGITS);
-    fprintf(out, "],\"axis_std_deg\":%s", text);
-}
-
-static void put_pose(FILE *out, const drogue_result *r)
-{
-    if (r->status != DROGUE_OK) {
-        fputs("\"position_m\":null,\"axis\":null,\"yaw_deg\":null,\"pitch_deg\":null,\"alternative\":null,"
-              "\"orientation_resolved\":null,\"ambiguity\":null,\"covariance\":null,\"position_std_m\":null,"
-              "\"axis_std_deg\":null",
-              out);
+    json *j = state;
+    if (j->unknown > 0) {
+        j->unknown--;
         return;
     }
-    put_vector(out, "position_m", r->pose.position_m_q16);
-    fputc(',', out);
-    put_vector(out, "axis", r->pose.axis_q16);
-    fputc(',', out);
-    put_degrees(out, "yaw_deg", r->pose.yaw_rad_q16);
-    fputc(',', out);
-    put_degrees(out, "pitch_deg", r->pose.pitch_rad_q16);
-    fputs(",\"alternative\":{", out);
-    put_vector(out, "position_m", r->alternative.position_m_q16);
-    fputc(',', out);
-    put_vector(out, "axis", r->alternative.axis_q16);
-    fprintf(out, "},\"orientation_resolved\":%s,", r->orientation_resolved ? "true" : "false");
-    put_q16(out, "ambiguity", r->ambiguity_q16);
-    fputc(',', out);
-    put_uncertainty(out, r);
+    fputc(j->is_array[j->depth] ? ']' : '}', j->out);
+    j->depth--;
 }
 
-void json_measurement(FILE *out, const char *path, const drogue_result *result)
+static void value(void *state, const char *name, const char *text)
 {
-    fputs("{\"image\":", out);
-    json_string(out, path);
-    fprintf(out, ",\"status\":\"%s\",", drogue_status_name(result->status));
-    put_outline(out, result);
-    put_inner_centre(out, result);
-    put_pose(out, result);
-    fputc('}', out);
-}
-
-/* round(v * unit / 2^32) for a v >= 0 that may be as large as there is */
-static int64_t scaled_q32(int64_t v_q32, int64_t unit)
-{
-    return (v_q32 >> 32) * unit + (((v_q32 & INT64_C(0xFFFFFFFF)) * unit + (INT64_C(1) << 31)) >> 32);
-}
-
-static void put_metres_q32(FILE *out, int64_t v_q32)
-{
-    char text[DECIMAL_TEXT];
-    decimal_format(text, scaled_q32(v_q32, 1000000), JSON_DECIMALS);
-    put_number(out, text);
-}
-
-static void put_degrees_q32(FILE *out, const char *key, int64_t angle_rad_q32)
-{
-    char text[DECIMAL_TEXT];
-    decimal_format(text, scaled_q32(angle_rad_q32, 57295780), JSON_DECIMALS);
-    fprintf(out, ",\"%s\":", key);
-    put_number(out, text);
-}
-
-static void put_estimate(FILE *out, const drogue_track_estimate *estimate)
-{
-    int i;
-    put_vector(out, "position_m", estimate->position_m_q16);
-    fputc(',', out);
-    put_vector(out, "velocity_mps", estimate->velocity_mps_q16);
-    fputc(',', out);
-    put_vector(out, "axis", estimate->axis_q16);
-    fputc(',', out);
-    put_degrees(out, "yaw_deg", estimate->yaw_rad_q16);
-    fputc(',', out);
-    put_degrees(out, "pitch_deg", estimate->pitch_rad_q16);
-    fprintf(out, ",\"orientation_resolved\":%s,\"position_std_m\":[",
-            estimate->orientation_resolved ? "true" : "false");
-    for (i = 0; i < 3; i++) {
-        fputs(i > 0 ? "," : "", out);
-        put_metres_q32(out, estimate->position_std_m_q32[i]);
+    json *j = state;
+    if (j->unknown == 0) {
+        put_name(j, name);
+        fputs(text != NULL ? text : "null", j->out);
     }
-    fputc(']', out);
-    put_degrees_q32(out, "yaw_std_deg", estimate->yaw_std_rad_q32);
-    put_degrees_q32(out, "pitch_std_deg", estimate->pitch_std_rad_q32);
-    put_degrees_q32(out, "axis_std_deg", estimate->axis_std_rad_q32);
 }
 
-void json_track_line(FILE *out, const char *path, const drogue_result *result, const drogue_track *track,
-                     const drogue_region *region, const drogue_track_estimate *estimate)
+static void text(void *state, const char *name, const char *bytes)
 {
-    fputs("{\"image\":", out);
-    json_string(out, path);
-    fprintf(out, ",\"state\":\"%s\",\"gated\":%s,\"raw\":", drogue_track_state_name(track->state),
-            track->gated ? "true" : "false");
-    json_measurement(out, path, result);
-    if (track->state == DROGUE_LOST) {
-        fputs(",\"filtered\":null", out);
+    json *j = state;
+    if (j->unknown > 0) {
+        return;
+    }
+    put_name(j, name);
+    if (bytes == NULL) {
+        fputs("null", j->out);
     } else {
-        fputs(",\"filtered\":{", out);
-        put_estimate(out, estimate);
-        fputc('}', out);
+        put_string(j->out, bytes);
     }
-    fprintf(out, ",\"roi\":[%ld,%ld,%ld,%ld]}\n", (long)region->x_px, (long)region->y_px, (long)region->width_px,
-            (long)region->height_px);
+}
+
+static member_sink begin_line(json *j, FILE *out)
+{
+    member_sink sink = {j, begin, end, value, text};
+    memset(j, 0, sizeof *j);
+    j->out = out;
+    fputc('{', out);
+    return sink;
+}
+
+void json_measurement(FILE *out, const measurement *m)
+{
+    json j;
+    const member_sink sink = begin_line(&j, out);
+    members_of_measurement(&sink, m);
+    fputs("}\n", out);
+}
+
+void json_track_line(FILE *out, const track_line *line)
+{
+    json j;
+    const member_sink sink = begin_line(&j, out);
+    members_of_track_line(&sink, line);
+    fputs("}\n", out);
 }

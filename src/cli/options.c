@@ -2,12 +2,16 @@
 /* The command line by getopt_long: options may stand before or after the command and its files. */
 #include "options.h"
 
+#include <errno.h>
 #include <getopt.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "camera_file.h"
 #include "cli.h"
-#include "decimal.h"
 #include "drogue/drogue.h"
+#include "numbers.h"
+#include "settings.h"
 
 /* What getopt_long answers; below every printable character. */
 enum {
@@ -16,6 +20,10 @@ enum {
     OPTION_ROI,
     OPTION_DROGUE,
     OPTION_JSON,
+    OPTION_CSV,
+    OPTION_MIN_RELIABILITY,
+    OPTION_SET,
+    OPTION_RAW,
     OPTION_OVERLAY,
     OPTION_FPS,
     OPTION_MAX_MISSED,
@@ -23,24 +31,38 @@ enum {
     OPTION_HIGH,
     OPTION_SMOOTH,
     OPTION_HELP,
+    OPTION_HELP_CONFIG,
     OPTION_VERSION,
     OPTION_END
 };
 
 static const struct option LONG_OPTIONS[] = {
-    {"camera", required_argument, NULL, OPTION_CAMERA}, {"distortion", required_argument, NULL, OPTION_DISTORTION},
-    {"roi", required_argument, NULL, OPTION_ROI},       {"drogue", required_argument, NULL, OPTION_DROGUE},
-    {"json", no_argument, NULL, OPTION_JSON},           {"overlay", required_argument, NULL, OPTION_OVERLAY},
-    {"fps", required_argument, NULL, OPTION_FPS},       {"max-missed", required_argument, NULL, OPTION_MAX_MISSED},
-    {"low", required_argument, NULL, OPTION_LOW},       {"high", required_argument, NULL, OPTION_HIGH},
-    {"smooth", no_argument, NULL, OPTION_SMOOTH},       {"help", no_argument, NULL, OPTION_HELP},
-    {"version", no_argument, NULL, OPTION_VERSION},     {NULL, 0, NULL, 0},
+    {"camera", required_argument, NULL, OPTION_CAMERA},
+    {"distortion", required_argument, NULL, OPTION_DISTORTION},
+    {"roi", required_argument, NULL, OPTION_ROI},
+    {"drogue", required_argument, NULL, OPTION_DROGUE},
+    {"json", no_argument, NULL, OPTION_JSON},
+    {"csv", no_argument, NULL, OPTION_CSV},
+    {"min-reliability", required_argument, NULL, OPTION_MIN_RELIABILITY},
+    {"set", required_argument, NULL, OPTION_SET},
+    {"raw", required_argument, NULL, OPTION_RAW},
+    {"overlay", required_argument, NULL, OPTION_OVERLAY},
+    {"fps", required_argument, NULL, OPTION_FPS},
+    {"max-missed", required_argument, NULL, OPTION_MAX_MISSED},
+    {"low", required_argument, NULL, OPTION_LOW},
+    {"high", required_argument, NULL, OPTION_HIGH},
+    {"smooth", no_argument, NULL, OPTION_SMOOTH},
+    {"help", no_argument, NULL, OPTION_HELP},
+    {"help-config", no_argument, NULL, OPTION_HELP_CONFIG},
+    {"version", no_argument, NULL, OPTION_VERSION},
+    {NULL, 0, NULL, 0},
 };
+static const char SHORT_OPTIONS[] = ":hV";
 
 #define BIT(option) (1u << (option))
 #define POSE_OPTIONS                                                                                         \
     (BIT(OPTION_CAMERA) | BIT(OPTION_DISTORTION) | BIT(OPTION_ROI) | BIT(OPTION_DROGUE) | BIT(OPTION_JSON) | \
-     BIT(OPTION_OVERLAY))
+     BIT(OPTION_CSV) | BIT(OPTION_SET) | BIT(OPTION_OVERLAY))
 
 typedef struct command_use {
     const char *name;
@@ -53,69 +75,32 @@ typedef struct command_use {
 } command_use;
 
 static const command_use COMMANDS[] = {
-    {"measure", COMMAND_MEASURE, 1, 1, POSE_OPTIONS, BIT(OPTION_CAMERA), "one image"},
-    {"track", COMMAND_TRACK, 1, 0, POSE_OPTIONS | BIT(OPTION_FPS) | BIT(OPTION_MAX_MISSED), BIT(OPTION_CAMERA),
-     "at least one image"},
+    {"measure", COMMAND_MEASURE, 1, 1, POSE_OPTIONS | BIT(OPTION_MIN_RELIABILITY), BIT(OPTION_CAMERA), "one image"},
+    {"track", COMMAND_TRACK, 1, 0, POSE_OPTIONS | BIT(OPTION_FPS) | BIT(OPTION_MAX_MISSED) | BIT(OPTION_RAW),
+     BIT(OPTION_CAMERA), "at least one image"},
     {"edges", COMMAND_EDGES, 2, 2, BIT(OPTION_LOW) | BIT(OPTION_HIGH) | BIT(OPTION_SMOOTH),
      BIT(OPTION_LOW) | BIT(OPTION_HIGH), "an image and a file to write"},
 };
 
 enum { MAX_NUMBERS = 5 };
 
+#define MOST_ASPECT 8            /* of a pixel; beyond it one of the two is no focal length */
 #define MAX_COORDINATE (1 << 20) /* px, of a region: far beyond any image, far from any overflow */
-
-static int bad_number(const char *name, const char *text, size_t length, decimal_status status, const char *range)
-{
-    if (status == DECIMAL_OUT_OF_RANGE) {
-        return complain(name, "'%.*s' is outside %s", (int)length, text, range);
-    }
-    return complain(name, "'%.*s' is not a decimal number", (int)length, text);
-}
-
-/* Length of the number at the start of a list: up to the comma or the end. */
-static size_t item_length(const char *list) { return strcspn(list, ","); }
-
-static int count_items(const char *list)
-{
-    int n = 1;
-    for (; *list != '\0'; list++) {
-        n += *list == ',';
-    }
-    return n;
-}
-
-/* Read a list of exactly 'count' Q16 numbers. */
-static int parse_q16_list(drogue_q16 *out, int count, const char *name, const char *list)
-{
-    int i;
-    for (i = 0; i < count; i++) {
-        size_t length = item_length(list);
-        decimal_status status = decimal_to_q16(&out[i], list, length);
-        if (status != DECIMAL_OK) {
-            return bad_number(name, list, length, status, "[-32768, 32768)");
-        }
-        list += length + 1;
-    }
-    return EXIT_MEASURED;
-}
-
-static int check_count(const char *name, const char *list, int count)
-{
-    int given = count_items(list);
-    if (given != count) {
-        return complain(name, "%d numbers separated by commas are wanted, not %d", count, given);
-    }
-    return EXIT_MEASURED;
-}
 
 static int parse_camera(drogue_camera *camera, const char *list)
 {
     drogue_q16 v[MAX_NUMBERS];
-    if (check_count("--camera", list, 4) || parse_q16_list(v, 4, "--camera", list)) {
+    if (numbers_count(list) == 8) {
+        return complain("--camera", "4 numbers are wanted, not 8: decimals stand behind a point, not a comma");
+    }
+    if (numbers_check_count("--camera", list, 4) || numbers_q16(v, 4, "--camera", list)) {
         return EXIT_BAD;
     }
     if (v[0] <= 0 || v[1] <= 0) {
         return complain("--camera", "FX and FY must be greater than 0 (at least 1/65536)");
+    }
+    if (v[0] / MOST_ASPECT > v[1] || v[1] / MOST_ASPECT > v[0]) {
+        return complain("--camera", "FX and FY are too unlike; decimals stand behind a point, not a comma");
     }
     camera->fx_px_q16 = v[0];
     camera->fy_px_q16 = v[1];
@@ -124,10 +109,29 @@ static int parse_camera(drogue_camera *camera, const char *list)
     return EXIT_MEASURED;
 }
 
+/* A file when there is one of that name, or when it is no list. */
+static int take_camera(options *out, int distortion_given)
+{
+    const char *text = out->camera_text;
+    if (text == NULL) {
+        return EXIT_MEASURED;
+    }
+    if (access(text, F_OK) != 0) {
+        return strchr(text, ',') != NULL
+                   ? parse_camera(&out->camera, text)
+                   : complain("--camera", "'%s' is neither FX,FY,CX,CY nor a file: %s", text, strerror(errno));
+    }
+    if (distortion_given) {
+        return complain("--distortion", "is in the camera file already");
+    }
+    out->camera_file = text;
+    return camera_file_read(&out->camera, &out->camera_width_px, &out->camera_height_px, text);
+}
+
 static int parse_distortion(drogue_camera *camera, const char *list)
 {
     drogue_q16 v[MAX_NUMBERS];
-    if (check_count("--distortion", list, 5) || parse_q16_list(v, 5, "--distortion", list)) {
+    if (numbers_check_count("--distortion", list, 5) || numbers_q16(v, 5, "--distortion", list)) {
         return EXIT_BAD;
     }
     camera->k1_q16 = v[0];
@@ -141,11 +145,11 @@ static int parse_distortion(drogue_camera *camera, const char *list)
 static int parse_model(drogue_model *model, const char *list)
 {
     drogue_q16 v[MAX_NUMBERS] = {0};
-    int count = count_items(list);
+    const int count = numbers_count(list);
     if (count != 1 && count != 3) {
         return complain("--drogue", "1 or 3 numbers separated by commas are wanted, not %d", count);
     }
-    if (parse_q16_list(v, count, "--drogue", list)) {
+    if (numbers_q16(v, count, "--drogue", list)) {
         return EXIT_BAD;
     }
     if (v[0] <= 0 || (count == 3 && v[1] <= 0)) {
@@ -153,6 +157,9 @@ static int parse_model(drogue_model *model, const char *list)
     }
     if (v[2] < 0) {
         return complain("--drogue", "INNER_DEPTH must not be negative");
+    }
+    if (v[1] > v[0]) {
+        return complain("--drogue", "INNER must not exceed RADIUS");
     }
     model->rim_radius_m_q16 = v[0];
     model->inner_radius_m_q16 = v[1];
@@ -164,27 +171,14 @@ static int parse_region(drogue_region *region, const char *list)
 {
     int32_t v[4];
     int i;
-    if (check_count("--roi", list, 4)) {
+    if (numbers_check_count("--roi", list, 4)) {
         return EXIT_BAD;
     }
     for (i = 0; i < 4; i++) {
-        size_t length = item_length(list);
-        decimal number;
-        decimal_window whole;
-        decimal_status status = decimal_parse(&number, list, length);
-        if (status == DECIMAL_OK) {
-            whole = decimal_digits(&number, 6, 0);
-            if (whole.below) {
-                return complain("--roi", "'%.*s' is not a whole number", (int)length, list);
-            }
-            if (whole.above || whole.value > MAX_COORDINATE) {
-                status = DECIMAL_OUT_OF_RANGE;
-            }
+        size_t length = numbers_item(list);
+        if (numbers_whole(&v[i], "--roi", list, length, -MAX_COORDINATE, MAX_COORDINATE)) {
+            return EXIT_BAD;
         }
-        if (status != DECIMAL_OK) {
-            return bad_number("--roi", list, length, status, "[-1048576, 1048576]");
-        }
-        v[i] = number.negative ? -(int32_t)whole.value : (int32_t)whole.value;
         list += length + 1;
     }
     if (v[2] <= 0 || v[3] <= 0) {
@@ -200,28 +194,11 @@ static int parse_region(drogue_region *region, const char *list)
     return EXIT_MEASURED;
 }
 
-/* A number in [0, 10^9) as whole billionths, the rest cut off. */
-static int parse_billionths(uint64_t *out, const char *name, const char *text)
-{
-    decimal number;
-    decimal_window window;
-    size_t length = strlen(text);
-    decimal_status status = decimal_parse(&number, text, length);
-    if (status == DECIMAL_OK) {
-        window = decimal_digits(&number, 8, -9);
-        *out = window.value;
-        if (window.above || (number.negative && (window.value != 0 || window.below))) {
-            status = DECIMAL_OUT_OF_RANGE;
-        }
-    }
-    return status == DECIMAL_OK ? EXIT_MEASURED : bad_number(name, text, length, status, "[0, 1000000000)");
-}
-
 static int parse_rate(uint32_t *frame_us, const char *text)
 {
     const uint64_t million_in_billionths = UINT64_C(1000000000000000);
     uint64_t rate, us;
-    if (parse_billionths(&rate, "--fps", text)) {
+    if (numbers_billionths(&rate, "--fps", text)) {
         return EXIT_BAD;
     }
     us = rate == 0 ? 0 : (2 * million_in_billionths + rate) / (2 * rate);
@@ -236,39 +213,49 @@ static int parse_rate(uint32_t *frame_us, const char *text)
 
 static int parse_max_missed(uint32_t *frames, const char *text)
 {
-    size_t length = strlen(text);
-    decimal number;
-    decimal_window whole;
-    decimal_status status = decimal_parse(&number, text, length);
-    if (status == DECIMAL_OK) {
-        whole = decimal_digits(&number, 6, 0);
-        if (whole.below) {
-            return complain("--max-missed", "'%s' is not a whole number", text);
-        }
-        if (whole.above || whole.value > MOST_MISSED || (number.negative && whole.value != 0)) {
-            status = DECIMAL_OUT_OF_RANGE;
-        }
+    int32_t value;
+    if (numbers_whole(&value, "--max-missed", text, strlen(text), 0, MOST_MISSED)) {
+        return EXIT_BAD;
     }
-    if (status != DECIMAL_OK) {
-        return bad_number("--max-missed", text, length, status, "[0, 1000000]");
+    *frames = (uint32_t)value;
+    return EXIT_MEASURED;
+}
+
+/* A share, in [0, 1]. */
+static int parse_share(drogue_q16 *out, const char *name, const char *text)
+{
+    if (numbers_check_count(name, text, 1) || numbers_q16(out, 1, name, text)) {
+        return EXIT_BAD;
     }
-    *frames = (uint32_t)whole.value;
+    return *out >= 0 && *out <= DROGUE_Q16_ONE ? EXIT_MEASURED : complain(name, "'%s' is outside [0, 1]", text);
+}
+
+static int choose_format(options *out, output_format format)
+{
+    if (out->format != FORMAT_TABLE && out->format != format) {
+        return complain("--csv", "excludes --json");
+    }
+    out->format = format;
     return EXIT_MEASURED;
 }
 
 static int parse_option(options *out, uint64_t thresholds[2], int option, const char *value)
 {
     switch (option) {
-    case OPTION_CAMERA: return parse_camera(&out->camera, value);
+    case OPTION_CAMERA: out->camera_text = value; return EXIT_MEASURED;
     case OPTION_DISTORTION: return parse_distortion(&out->camera, value);
     case OPTION_ROI: out->region_given = 1; return parse_region(&out->region, value);
     case OPTION_DROGUE: out->model_given = 1; return parse_model(&out->model, value);
-    case OPTION_JSON: out->json = 1; return EXIT_MEASURED;
+    case OPTION_JSON: return choose_format(out, FORMAT_JSON);
+    case OPTION_CSV: return choose_format(out, FORMAT_CSV);
+    case OPTION_MIN_RELIABILITY: return parse_share(&out->min_reliability_q16, "--min-reliability", value);
+    case OPTION_SET: return settings_set(&out->config, value);
+    case OPTION_RAW: return raw_parse(&out->raw, value);
     case OPTION_OVERLAY: out->overlay = value; return EXIT_MEASURED;
     case OPTION_FPS: return parse_rate(&out->frame_us, value);
     case OPTION_MAX_MISSED: out->max_missed_given = 1; return parse_max_missed(&out->max_missed, value);
-    case OPTION_LOW: return parse_billionths(&thresholds[0], "--low", value);
-    case OPTION_HIGH: return parse_billionths(&thresholds[1], "--high", value);
+    case OPTION_LOW: return numbers_billionths(&thresholds[0], "--low", value);
+    case OPTION_HIGH: return numbers_billionths(&thresholds[1], "--high", value);
     case OPTION_SMOOTH: out->smooth = 1; return EXIT_MEASURED;
     default: return EXIT_MEASURED;
     }
@@ -320,10 +307,15 @@ int options_parse(options *out, int argc, char **argv)
     out->model.rim_radius_m_q16 = DROGUE_Q16_ONE;
     out->frame_us = 33333;
     opterr = 0;
-    while ((option = getopt_long(argc, argv, ":", LONG_OPTIONS, NULL)) != -1) {
-        if (option == OPTION_HELP || option == OPTION_VERSION) {
-            out->command = option == OPTION_HELP ? COMMAND_HELP : COMMAND_VERSION;
-            return EXIT_MEASURED;
+    drogue_config_default(&out->config);
+    while ((option = getopt_long(argc, argv, SHORT_OPTIONS, LONG_OPTIONS, NULL)) != -1) {
+        switch (option) {
+        case 'h':
+        case OPTION_HELP: out->command = COMMAND_HELP; return EXIT_MEASURED;
+        case 'V':
+        case OPTION_VERSION: out->command = COMMAND_VERSION; return EXIT_MEASURED;
+        case OPTION_HELP_CONFIG: out->command = COMMAND_HELP_CONFIG; return EXIT_MEASURED;
+        default: break;
         }
         if (option == ':') {
             return complain(argv[optind - 1], "needs a value");
@@ -343,8 +335,15 @@ int options_parse(options *out, int argc, char **argv)
         }
         given |= BIT(option);
     }
-    if (check_use(out, given, argv + optind, argc - optind)) {
+    if (check_use(out, given, argv + optind, argc - optind) ||
+        take_camera(out, (given & BIT(OPTION_DISTORTION)) != 0)) {
         return EXIT_BAD;
+    }
+    if (out->command == COMMAND_TRACK && out->overlay != NULL && strcmp(out->overlay, "-") == 0) {
+        return complain("--overlay", "track writes numbered files, not to standard output");
+    }
+    if (!drogue_config_valid(&out->config)) {
+        return complain("--set", "thresholds contradict each other: low above high, or least above most");
     }
     if (thresholds[0] > thresholds[1]) {
         return complain("--low", "must not exceed --high");

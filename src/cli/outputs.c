@@ -95,12 +95,15 @@ int outputs_check(const options *o)
     inputs in = {NULL, 0};
     int code;
     int i;
-    in.files = malloc(((size_t)count + 1) * sizeof *in.files);
+    in.files = malloc(((size_t)count + 2) * sizeof *in.files);
     if (in.files == NULL) {
         return complain("input", "out of memory");
     }
     for (i = 0; i < count; i++) {
         in.count += (size_t)identify(&in.files[in.count], o->files[i]);
+    }
+    if (o->camera_file != NULL) {
+        in.count += (size_t)identify(&in.files[in.count], o->camera_file);
     }
     qsort(in.files, in.count, sizeof *in.files, compare);
     code = check_all(o, &in);

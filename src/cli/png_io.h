@@ -10,6 +10,7 @@
 #define CLI_PNG_IO_H
 
 #include <stdint.h>
+#include <stdio.h>
 
 #define PICTURE_MAX_PIXELS (1u << 26) /* larger files are refused */
 
@@ -29,14 +30,16 @@ int picture_create(picture *out, const char *path, int32_t width_px, int32_t hei
 
 void picture_free(picture *image);
 
-/* Read a file as grey. A file with anything missing or damaged, as far as its check sums tell, is refused.
+/* Read a PNG behind its 8 bytes of signature, to the end of its last chunk. One that ends early is refused, and one that a
+ * check sum belies: that of any chunk, critical or not, or of the compressed pixels. What was false when its sum was made is
+ * taken, where it does not bear on the stored pixels.
  *
- *  out     free with picture_free(); empty on failure
+ *  out     8-bit grey or RGB; free with picture_free(); empty on failure
  *  return  EXIT_MEASURED, or EXIT_BAD after a complaint
  */
-int picture_read_grey(picture *out, const char *path);
+int png_read(picture *out, FILE *in, const char *path);
 
-/* Write a file.
+/* Write a file; "-": standard output.
  *
  *  return  EXIT_MEASURED, or EXIT_BAD after a complaint
  */

@@ -1,94 +1,80 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The table of drogue measure: a line a quantity, '-' where it is unknown. */
+/* The table of drogue measure: the sink of the members with a line for each, arrays on one line, groups indented. */
 #include "table.h"
 
 #include <stdio.h>
+#include <string.h>
 
-#include "decimal.h"
+enum { TABLE_LABEL = 22, TABLE_DEPTH = 4 };
 
-enum { TABLE_DECIMALS = 4 };
+typedef struct table {
+    int depth;
+    int is_array[TABLE_DEPTH];
+    int items; /* on the line of an array */
+} table;
 
-static void put_label(const char *label) { printf("%-13s ", label); }
-
-static void put_q16(const char *before, drogue_q16 value)
+static void put_label(const table *t, const char *name)
 {
-    char text[DECIMAL_TEXT];
-    decimal_format_q16(text, value, TABLE_DECIMALS);
-    printf("%s%s", before, text);
+    printf("%*s%-*s ", 2 * t->depth, "", TABLE_LABEL - 2 * t->depth, name != NULL ? name : "");
 }
 
-static void put_degrees(const char *before, drogue_q16 angle_rad_q16)
+static void begin(void *state, const char *name, int is_array, int known)
 {
-    char text[DECIMAL_TEXT];
-    decimal_format_degrees(text, angle_rad_q16, TABLE_DECIMALS);
-    printf("%s%s", before, text);
-}
-
-static void put_vector(const drogue_q16 v[3])
-{
-    put_q16("", v[0]);
-    put_q16(", ", v[1]);
-    put_q16(", ", v[2]);
-}
-
-static void put_outline(const drogue_result *r)
-{
-    put_q16("centre ", r->ellipse.xc_px_q16);
-    put_q16(", ", r->ellipse.yc_px_q16);
-    put_q16(" px, semi-axes ", r->ellipse.a_px_q16);
-    put_q16(", ", r->ellipse.b_px_q16);
-    put_degrees(" px, angle ", r->ellipse.angle_rad_q16);
-    puts(" degrees");
-    put_label("reliability");
-    put_q16("", r->quality.reliability_q16);
-    printf(", %s inside\n", r->polarity == DROGUE_POLARITY_DARK     ? "dark"
-                            : r->polarity == DROGUE_POLARITY_BRIGHT ? "bright"
-                                                                    : "dark and bright");
-}
-
-static void put_pose(const drogue_pose *pose, const char *unit)
-{
-    put_vector(pose->position_m_q16);
-    printf(" %s\n", unit);
-    put_label("  axis");
-    put_vector(pose->axis_q16);
-    putchar('\n');
-    put_label("  yaw, pitch");
-    put_degrees("", pose->yaw_rad_q16);
-    put_degrees(", ", pose->pitch_rad_q16);
-    puts(" degrees");
-}
-
-void table_print(const char *path, const drogue_result *r, const char *unit)
-{
-    put_label("image");
-    puts(path);
-    put_label("status");
-    puts(drogue_status_name(r->status));
-    put_label("ellipse");
-    if (r->ellipse.a_px_q16 > 0) {
-        put_outline(r);
+    table *t = state;
+    (void)known;
+    if (t->is_array[t->depth]) { /* a matrix: a line a row */
+        if (t->items > 0) {
+            printf("\n%*s ", TABLE_LABEL, "");
+        }
     } else {
-        puts("-");
+        if (is_array) {
+            put_label(t, name);
+        } else {
+            printf("%*s%s\n", 2 * t->depth, "", name);
+        }
     }
-    put_label("inner centre");
-    if (r->has_inner) {
-        put_q16("", r->inner.x_px_q16);
-        put_q16(", ", r->inner.y_px_q16);
-        puts(" px");
-    } else {
-        puts("-");
+    t->depth++;
+    t->is_array[t->depth] = is_array;
+    t->items = 0;
+}
+
+static void end(void *state)
+{
+    table *t = state;
+    const int was_array = t->is_array[t->depth];
+    t->depth--;
+    t->items = 1;
+    if (was_array && !t->is_array[t->depth]) {
+        putchar('\n');
     }
-    put_label("position");
-    if (r->status != DROGUE_OK) {
-        puts("-");
+}
+
+static void value(void *state, const char *name, const char *text)
+{
+    table *t = state;
+    text = text != NULL ? text : "-";
+    if (t->is_array[t->depth]) {
+        printf("%s%s", t->items++ > 0 ? ", " : "", text);
         return;
     }
-    put_pose(&r->pose, unit);
-    put_label("alternative");
-    put_pose(&r->alternative, unit);
-    put_label("orientation");
-    put_q16(r->orientation_resolved ? "resolved, ambiguity " : "unresolved: either of the two, ambiguity ",
-            r->ambiguity_q16);
-    putchar('\n');
+    put_label(t, name);
+    puts(text);
+}
+
+static void text(void *state, const char *name, const char *bytes)
+{
+    if (strcmp(name, "image") != 0 && strcmp(name, "status") != 0) { /* these are the first line */
+        value(state, name, bytes);
+    }
+}
+
+void table_print(const measurement *m)
+{
+    table t;
+    const member_sink sink = {&t, begin, end, value, text};
+    const int unresolved = m->result->status == DROGUE_OK && !m->unreliable && !m->result->orientation_resolved;
+    memset(&t, 0, sizeof t);
+    printf("%s: %s%s\n", m->path, measurement_status(m),
+           unresolved ? ", orientation unresolved: either pose, this or the alternative" : "");
+    members_of_measurement(&sink, m);
 }

@@ -1,14 +1,11 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What was measured as a table that a person reads. */
+/* Members as a table that a person reads: status and image first, then a line a member, '-' where it is unknown. */
 #ifndef CLI_TABLE_H
 #define CLI_TABLE_H
 
-#include "drogue/drogue.h"
+#include "members.h"
 
-/* Print the table on standard output.
- *
- *  unit  of positions: "m", or what the rim radius stands for
- */
-void table_print(const char *path, const drogue_result *result, const char *unit);
+/* Print the table on standard output. */
+void table_print(const measurement *m);
 
 #endif

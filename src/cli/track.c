@@ -3,30 +3,35 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli.h"
 #include "commands.h"
+#include "csv.h"
 #include "drogue/track.h"
+#include "explain.h"
 #include "frame.h"
 #include "json.h"
 #include "outputs.h"
 #include "overlay.h"
+#include "sequence.h"
 
-typedef struct sequence {
+typedef struct tracker {
     const options *o;
     frame_workspace w;
     drogue_track track;
     int32_t width_px; /* of the first frame */
     int32_t height_px;
-    int measured; /* frames */
-} sequence;
+    long frames;
+    long of_status[DROGUE_STATUS_COUNT]; /* frames of each */
+} tracker;
 
 /* One camera takes frames of one size, and the first region is a part of them. */
-static int begin_sequence(sequence *s, const char *path, const picture *grey)
+static int begin_track(tracker *s, const char *path, const picture *grey)
 {
     drogue_track_config config;
     drogue_region first;
-    if (s->o->region_given && frame_region(&first, s->o, path, grey)) {
+    if (frame_check_camera(s->o, path, grey) || (s->o->region_given && frame_region(&first, s->o, path, grey))) {
         return EXIT_BAD;
     }
     drogue_track_config_default(&config);
@@ -40,7 +45,7 @@ static int begin_sequence(sequence *s, const char *path, const picture *grey)
 }
 
 /* Draw frame 'number', counted from 1, into OUT-0001.png for OUT.png. */
-static int draw_frame(const sequence *s, int number, const picture *grey, const drogue_region *region,
+static int draw_frame(const tracker *s, int number, const picture *grey, const drogue_region *region,
                       const drogue_result *result, drogue_track_state state)
 {
     char *path = output_numbered(s->o->overlay, number);
@@ -53,14 +58,34 @@ static int draw_frame(const sequence *s, int number, const picture *grey, const 
     return code;
 }
 
-static int track_frame(sequence *s, int index, const picture *grey)
+static void print_line(const tracker *s, const char *path, const drogue_result *result, const drogue_region *region)
 {
-    const char *path = s->o->files[index];
+    drogue_track_estimate estimate;
+    track_line line;
+    drogue_track_get(&estimate, &s->track);
+    line.raw.path = path;
+    line.raw.result = result;
+    line.raw.length_unit = options_length_unit(s->o);
+    line.raw.searched = -1; /* the tracker does not say */
+    line.raw.unreliable = 0;
+    line.frame = s->frames;
+    line.time_us = (uint64_t)(s->frames - 1) * s->o->frame_us;
+    line.track = &s->track;
+    line.region = region;
+    line.estimate = &estimate;
+    if (s->o->format == FORMAT_CSV) {
+        csv_track_line(stdout, &line);
+    } else {
+        json_track_line(stdout, &line);
+    }
+}
+
+static int track_frame(tracker *s, const char *path, const picture *grey)
+{
     drogue_region region;
     drogue_result result;
     drogue_track_state state;
-    drogue_track_estimate estimate;
-    if (index == 0 && begin_sequence(s, path, grey)) {
+    if (s->frames == 0 && begin_track(s, path, grey)) {
         return EXIT_BAD;
     }
     if (grey->width_px != s->width_px || grey->height_px != s->height_px) {
@@ -71,27 +96,65 @@ static int track_frame(sequence *s, int index, const picture *grey)
         return EXIT_BAD;
     }
     state = s->track.state;
-    drogue_track_get(&estimate, &s->track);
-    json_track_line(stdout, path, &result, &s->track, &region, &estimate);
+    s->frames++;
+    s->of_status[result.status]++;
+    print_line(s, path, &result, &region);
     if (flush_output()) {
         return EXIT_BAD;
     }
-    s->measured += result.status == DROGUE_OK;
-    return s->o->overlay == NULL ? EXIT_MEASURED : draw_frame(s, index + 1, grey, &region, &result, state);
+    return s->o->overlay == NULL ? EXIT_MEASURED : draw_frame(s, (int)s->frames, grey, &region, &result, state);
+}
+
+/* How many frames gave nothing, a line a status. */
+static void remark(const tracker *s)
+{
+    int i;
+    for (i = DROGUE_OK + 1; i < DROGUE_STATUS_COUNT; i++) {
+        if (s->of_status[i] > 0) {
+            fprintf(stderr, "drogue: %ld of %ld frames: %s: %s\n", s->of_status[i], s->frames,
+                    drogue_status_name((drogue_status)i), explain_status((drogue_status)i));
+        }
+    }
+}
+
+/* Frames done, on a terminal, in place; nothing where standard error is a file or a pipe. */
+static void show_progress(const tracker *s, int done)
+{
+    if (!isatty(STDERR_FILENO)) {
+        return;
+    }
+    if (done) {
+        fputs("\r\033[K", stderr);
+    } else if (s->o->file_count > 1) {
+        fprintf(stderr, "\rframe %ld of %d\r", s->frames, s->o->file_count);
+    } else {
+        fprintf(stderr, "\rframe %ld\r", s->frames);
+    }
 }
 
 int command_track(const options *o)
 {
-    sequence s;
-    int i;
+    sequence frames = {NULL, 0};
+    tracker s;
+    int end = 0;
     int bad = 0;
     memset(&s, 0, sizeof s);
     s.o = o;
-    for (i = 0; i < o->file_count && !bad; i++) {
+    while (!bad && !end) {
+        const char *path;
         picture grey;
-        bad = picture_read_grey(&grey, o->files[i]) || track_frame(&s, i, &grey);
+        bad = sequence_next(&grey, &path, &end, &frames, o) || (!end && track_frame(&s, path, &grey));
         picture_free(&grey);
+        show_progress(&s, bad || end);
     }
+    sequence_close(&frames);
     frame_workspace_free(&s.w);
-    return bad ? EXIT_BAD : s.measured > 0 ? EXIT_MEASURED : EXIT_NOTHING;
+    if (bad) {
+        return EXIT_BAD;
+    }
+    if (s.frames == 0) {
+        return complain(o->files[0], "holds no frame");
+    }
+    remark(&s);
+    return s.of_status[DROGUE_OK] > 0 ? EXIT_MEASURED : EXIT_NOTHING;
 }

@@ -68,6 +68,31 @@ static void read_pose(measurement *m, const drogue_result *result, int twin, con
     }
 }
 
+/* An outline that its region cut and no second look made whole may be another than it seems: what it lacks of its
+ * circumference, by third parts, is off beside its own noise, in semi-axes sideways, in distances along the axis and in rad. */
+static void doubt_if_cut(measurement *m, const drogue_result *result, drogue_q16 rim_radius_m_q16)
+{
+    const drogue_q16 lacking_q16 = (DROGUE_Q16_ONE - result->cover_q16) / 3;
+    int p;
+    if (result->second_look <= DROGUE_SECOND_BETTER) {
+        return;
+    }
+    for (p = 0; p < DROGUE_PARAMETERS; p++) {
+        drogue_wide *variance = &m->noise[DROGUE_PACKED(p, p)];
+        drogue_wide more;
+        drogue_wide_set_q16(&more, lacking_q16);
+        if (p <= DROGUE_Z) {
+            drogue_wide of;
+            drogue_wide_set_q16(&of, p == DROGUE_Z ? m->value_q16[p] : rim_radius_m_q16);
+            drogue_wide_product(&more, &more, &of);
+        }
+        drogue_wide_product(&more, &more, &more);
+        drogue_wide_sum(variance, variance, &more);
+        drogue_wide_root(&more, variance);
+        m->std_q16[p] = at_least_one(drogue_wide_to_q16(more));
+    }
+}
+
 /* Squared distance from a filter's prediction against a gate. */
 static int passes(const drogue_kalman *filter, const measurement *m, int n, drogue_q16 gate_q16)
 {
@@ -255,6 +280,8 @@ drogue_track_state drogue_track_end(drogue_track *track, const drogue_result *re
     }
     read_pose(&pose, result, 0, &track->config);
     read_pose(&twin, result, 1, &track->config);
+    doubt_if_cut(&pose, result, track->model.rim_radius_m_q16);
+    doubt_if_cut(&twin, result, track->model.rim_radius_m_q16);
     if (track->state == DROGUE_LOST) {
         start(&track->filter, &pose, &track->config);
         take_over(track, result->orientation_resolved);

@@ -168,14 +168,10 @@ bool inner_ellipse(Ellipse &out, const cv::Mat &picture, const cv::Point2d &cent
     const cv::Point2d at = (centre_px - cv::Point2d(part.tl()) + cv::Point2d(0.5, 0.5)) * zoom - cv::Point2d(0.5, 0.5);
     for (const auto &contour : contours) {
         if (contour.size() >= 12 && cv::pointPolygonTest(contour, cv::Point2f(at), false) >= 0) {
-            const cv::RotatedRect r = cv::fitEllipseDirect(contour);
-            const bool wide = r.size.width >= r.size.height;
-            const double major = std::max(r.size.width, r.size.height) / 2.0;
-            const double minor = std::min(r.size.width, r.size.height) / 2.0;
-            const double angle = (r.angle + (wide ? 0 : 90)) * CV_PI / 180;
-            const cv::Point2d centre =
-                (cv::Point2d(r.center) + cv::Point2d(0.5, 0.5)) / zoom + cv::Point2d(part.tl()) - cv::Point2d(0.5, 0.5);
-            out = {centre.x, centre.y, (major + 0.5) / zoom, (minor + 0.5) / zoom, std::remainder(angle, CV_PI)};
+            const Ellipse e = ellipse_of(cv::fitEllipseDirect(contour));
+            const cv::Point2d centre = (cv::Point2d(e.xc_px, e.yc_px) + cv::Point2d(0.5, 0.5)) / zoom +
+                                       cv::Point2d(part.tl()) - cv::Point2d(0.5, 0.5);
+            out = {centre.x, centre.y, (e.a_px + 0.5) / zoom, (e.b_px + 0.5) / zoom, e.angle_rad};
             return out.b_px > 0; /* false for NaN, too */
         }
     }

@@ -2,6 +2,7 @@
 /* Reads the boards' truth and measures their circles. */
 #include "boards.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -16,30 +17,19 @@ namespace accuracy {
 
 namespace {
 
-const Camera camera = {842.16254, 841.36851, 510.28250,  365.61146, -0.4352204,
-                       0.2898102, 0.0008622, -0.0001471, -0.1643185};
-
-struct Circle {
-    std::string image;
-    int col, row;
-    Ellipse hand;       /* as seen */
-    cv::Vec3d position; /* circle radii */
-    cv::Vec3d axis;     /* away from the camera */
-};
-
-std::vector<Circle> read_truth(const std::string &path)
+std::vector<BoardCircle> read_truth(const std::string &path)
 {
     const std::string header = "image,col,row,ell_x,ell_y,ell_a,ell_b,ell_theta,X_R,Y_R,Z_R,nx,ny,nz,";
     std::ifstream in(path);
     std::string line;
-    std::vector<Circle> circles;
+    std::vector<BoardCircle> circles;
     if (!std::getline(in, line) || line.compare(0, header.size(), header) != 0) {
         throw std::runtime_error(path + ": not the table expected");
     }
     while (std::getline(in, line)) {
         std::istringstream fields(line);
         std::string field;
-        Circle c;
+        BoardCircle c;
         std::vector<double> v;
         std::getline(fields, c.image, ',');
         while (std::getline(fields, field, ',')) {
@@ -68,11 +58,11 @@ cv::Rect region_of(const Ellipse &e, double half)
     return {left, top, right - left + 1, bottom - top + 1};
 }
 
-void measure_circle(BoardErrors &errors, std::map<std::string, int> &statuses, const cv::Mat &grey, const Circle &c,
-                    double half, bool verbose)
+void measure_circle(BoardErrors &errors, std::map<std::string, int> &statuses, const cv::Mat &grey,
+                    const BoardCircle &c, const cv::Rect &region, bool verbose)
 {
     const drogue_model model = {DROGUE_Q16_ONE, 0, 0};
-    const Measurement m = measure(grey, camera, model, region_of(c.hand, half));
+    const Measurement m = measure(grey, boards_camera, model, region);
     errors.circles++;
     if (verbose) {
         std::printf("  %-12s %d,%-2d a %.2f b %.2f  %-12s", c.image.c_str(), c.col, c.row, c.hand.a_px, c.hand.b_px,
@@ -104,6 +94,9 @@ void measure_circle(BoardErrors &errors, std::map<std::string, int> &statuses, c
 
 } // namespace
 
+const Camera boards_camera = {842.16254, 841.36851, 510.28250,  365.61146, -0.4352204,
+                              0.2898102, 0.0008622, -0.0001471, -0.1643185};
+
 const char *const boards_folder = CIRCLE_BOARDS_DIR;
 
 void BoardErrors::add(const BoardErrors &other)
@@ -120,27 +113,37 @@ void BoardErrors::add(const BoardErrors &other)
 
 bool boards_there(const std::string &folder) { return std::ifstream(folder + "/truth.csv").good(); }
 
+void visit_circles(const std::string &folder, double half, const BoardVisitor &visit)
+{
+    std::string shown;
+    cv::Mat grey;
+    for (const BoardCircle &c : read_truth(folder + "/truth.csv")) {
+        if (c.image != shown) {
+            const cv::Mat colour = cv::imread(folder + "/" + c.image + ".png", cv::IMREAD_COLOR);
+            if (colour.empty()) {
+                throw std::runtime_error("cannot read " + c.image + ".png");
+            }
+            grey = grey_of(colour);
+            shown = c.image;
+        }
+        visit(c, grey, region_of(c.hand, half));
+    }
+}
+
 Boards measure_boards(const std::string &folder, double half, bool verbose)
 {
     Boards boards;
-    std::map<std::string, std::vector<Circle>> circles;
-    for (const Circle &c : read_truth(folder + "/truth.csv")) {
-        if (circles[c.image].empty()) {
+    visit_circles(folder, half, [&](const BoardCircle &c, const cv::Mat &grey, const cv::Rect &region) {
+        auto at = std::find(boards.names.begin(), boards.names.end(), c.image);
+        if (at == boards.names.end()) {
             boards.names.push_back(c.image);
+            boards.errors.emplace_back();
+            at = boards.names.end() - 1;
         }
-        circles[c.image].push_back(c);
-    }
-    for (const std::string &name : boards.names) {
-        const cv::Mat colour = cv::imread(folder + "/" + name + ".png", cv::IMREAD_COLOR);
-        if (colour.empty()) {
-            throw std::runtime_error("cannot read " + name + ".png");
-        }
-        const cv::Mat grey = grey_of(colour);
-        BoardErrors errors;
-        for (const Circle &c : circles[name]) {
-            measure_circle(errors, boards.statuses, grey, c, half, verbose);
-        }
-        boards.errors.push_back(errors);
+        measure_circle(boards.errors[static_cast<size_t>(at - boards.names.begin())], boards.statuses, grey, c, region,
+                       verbose);
+    });
+    for (const BoardErrors &errors : boards.errors) {
         boards.total.add(errors);
     }
     return boards;

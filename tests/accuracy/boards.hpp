@@ -3,9 +3,12 @@
  * boards jointly. A flat circle allows two poses: the one with the better axis counts. */
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "geometry.hpp"
 
 namespace accuracy {
 
@@ -27,10 +30,25 @@ struct Boards {
     std::map<std::string, int> statuses; /* of the circles not measured */
 };
 
+/* The camera of all photographs. */
+extern const Camera boards_camera;
+
 /* Where the photographs are expected, beside the project. */
 extern const char *const boards_folder;
 
 bool boards_there(const std::string &folder);
+
+struct BoardCircle {
+    std::string image;
+    int col, row;
+    Ellipse hand;       /* as seen, hand-labelled */
+    cv::Vec3d position; /* circle radii */
+    cv::Vec3d axis;     /* away from the camera */
+};
+
+/* Every circle with its photograph in grey, photograph by photograph; the region is a square of +-half semi-axes. */
+using BoardVisitor = std::function<void(const BoardCircle &circle, const cv::Mat &grey, const cv::Rect &region)>;
+void visit_circles(const std::string &folder, double half, const BoardVisitor &visit);
 
 /* Measure all circles in regions of +-half semi-axes; verbose prints a line for each. Throws on files it cannot read. */
 Boards measure_boards(const std::string &folder, double half, bool verbose);

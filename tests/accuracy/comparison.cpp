@@ -48,20 +48,6 @@ Estimate estimate_of(const drogue_result &r)
     return e;
 }
 
-/* The library's features, and an inner ellipse at its threshold. */
-Features features_of(const Measurement &m, const cv::Mat &image)
-{
-    Features f;
-    f.outer = m.ideal;
-    f.has_inner = m.raw.has_inner != 0;
-    if (f.has_inner) {
-        f.inner_area_px = m.raw.inner.area_px;
-        f.inner_px = m.inner_px; /* no distortion */
-        f.has_inner_ellipse = inner_ellipse(f.inner, image, f.inner_px, f.inner_area_px, m.raw.inner.threshold);
-    }
-    return f;
-}
-
 /* The tracker over one extraction's results. */
 class Filter {
 public:
@@ -109,10 +95,27 @@ void filter_rows(std::vector<FrameResult> &frames, const Approach &approach)
 
 } // namespace
 
+Body body_of(const drogue_model &model)
+{
+    return {from_q16(model.rim_radius_m_q16), from_q16(model.inner_radius_m_q16), from_q16(model.inner_depth_m_q16)};
+}
+
+Features features_of(const Measurement &m, const cv::Mat &image)
+{
+    Features f;
+    f.outer = m.ideal;
+    f.has_inner = m.raw.has_inner != 0;
+    if (f.has_inner) {
+        f.inner_area_px = m.raw.inner.area_px;
+        f.inner_px = m.inner_px; /* no distortion */
+        f.has_inner_ellipse = inner_ellipse(f.inner, image, f.inner_px, f.inner_area_px, m.raw.inner.threshold);
+    }
+    return f;
+}
+
 FrameResult compare_frame(const cv::Mat &image, const Camera &camera, const drogue_model &model, const cv::Rect &region)
 {
-    const Body body = {from_q16(model.rim_radius_m_q16), from_q16(model.inner_radius_m_q16),
-                       from_q16(model.inner_depth_m_q16)};
+    const Body body = body_of(model);
     const Measurement m = measure(image, camera, model, region);
     FrameResult f;
     f.result = ablate(image, camera, model, region, m.raw);

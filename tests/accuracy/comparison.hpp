@@ -12,6 +12,7 @@
 #include "approach.hpp"
 #include "baselines.hpp"
 #include "conditions.hpp"
+#include "measure.hpp"
 
 namespace accuracy {
 
@@ -27,6 +28,11 @@ constexpr size_t methods = 12;
 extern const std::array<Method, methods> method_table;
 constexpr size_t ours_whole = methods - 1; /* (1) + (2) + (3) */
 constexpr size_t ours_single = 8;          /* (1) + (2), no filter */
+
+Body body_of(const drogue_model &model);
+
+/* The library's features of a picture, and an inner ellipse at its threshold; without distortion. */
+Features features_of(const Measurement &m, const cv::Mat &image);
 
 /* What each method says of one picture; rows with the filter are empty here. */
 struct FrameResult {

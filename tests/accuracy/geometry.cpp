@@ -133,6 +133,15 @@ Ellipse project_circle(const Camera &camera, const Pose &pose, double radius_m, 
     return e;
 }
 
+Ellipse ellipse_of(const cv::RotatedRect &rect)
+{
+    const bool wide = rect.size.width >= rect.size.height;
+    const double major = std::max(rect.size.width, rect.size.height) / 2.0;
+    const double minor = std::min(rect.size.width, rect.size.height) / 2.0;
+    const double angle = (rect.angle + (wide ? 0 : 90)) * CV_PI / 180;
+    return {rect.center.x, rect.center.y, major, minor, std::remainder(angle, CV_PI)};
+}
+
 double ellipse_error_px(const Ellipse &measured, const Ellipse &truth)
 {
     const cv::Point2d centre(truth.xc_px, truth.yc_px);

@@ -52,6 +52,9 @@ struct Ellipse {
 /* Ideal image of the circle of the given radius about the axis, at the given depth behind the end plane. */
 Ellipse project_circle(const Camera &camera, const Pose &pose, double radius_m, double depth_m);
 
+/* OpenCV's rectangle about an ellipse. */
+Ellipse ellipse_of(const cv::RotatedRect &rect);
+
 /* Mean over 360 directions from the true centre of the absolute difference of the two outlines' distances;
  * infinite when the measured ellipse does not hold the true centre. */
 double ellipse_error_px(const Ellipse &measured, const Ellipse &truth);

@@ -16,30 +16,29 @@ namespace {
 
 struct Arguments {
     std::string out;
+    bool systems = false; /* nothing but that section */
     StudyOptions options;
 };
 
 void usage(FILE *to)
 {
     std::fputs(
-        "usage: study --out DIR [--quick] [--seed S] [--threads N] [--cache DIR]\n"
+        "usage: study --out DIR [--quick] [--seed S] [--threads N] [--cache DIR] [--systems]\n"
         "  --out DIR    report.md, its plots and their data\n"
         "  --quick      few scenes: less than two minutes\n"
         "  --seed S     seed of the scenes (1)\n"
         "  --threads N  as many as the machine has\n"
-        "  --cache DIR  keep rendered regions there and use those that are (empty it when the renderer changes)\n",
+        "  --cache DIR  keep rendered regions there and use those that are (empty it when the renderer changes)\n"
+        "  --systems    the related systems alone\n",
         to);
 }
 
 Arguments parse(int argc, char **argv)
 {
-    const option known[] = {{"out", required_argument, nullptr, 'o'},
-                            {"quick", no_argument, nullptr, 'q'},
-                            {"seed", required_argument, nullptr, 's'},
-                            {"cache", required_argument, nullptr, 'c'},
-                            {"threads", required_argument, nullptr, 't'},
-                            {"help", no_argument, nullptr, 'h'},
-                            {nullptr, 0, nullptr, 0}};
+    const option known[] = {{"out", required_argument, nullptr, 'o'},     {"quick", no_argument, nullptr, 'q'},
+                            {"seed", required_argument, nullptr, 's'},    {"cache", required_argument, nullptr, 'c'},
+                            {"threads", required_argument, nullptr, 't'}, {"systems", no_argument, nullptr, 'y'},
+                            {"help", no_argument, nullptr, 'h'},          {nullptr, 0, nullptr, 0}};
     Arguments a;
     int c;
     while ((c = getopt_long(argc, argv, "", known, nullptr)) != -1) {
@@ -48,6 +47,7 @@ Arguments parse(int argc, char **argv)
         case 'q': a.options.quick = true; break;
         case 's': a.options.seed = std::strtoull(optarg, nullptr, 10); break;
         case 'c': a.options.cache = optarg; break;
+        case 'y': a.systems = true; break;
         case 't': a.options.threads = std::atoi(optarg); break;
         case 'h': usage(stdout); std::exit(0);
         default: usage(stderr); std::exit(2);
@@ -77,17 +77,21 @@ bool study(const Arguments &a)
         options.cache = a.out + "/scenes";
         std::filesystem::remove_all(options.cache);
     }
+    std::filesystem::create_directories(options.cache);
     declare_known(report);
-    section_distances(report, options);
-    section_conditions(report, options);
-    section_loss(report, options);
-    section_extraction(report, options);
-    section_pose_noise(report, options);
-    section_approach(report, options);
-    section_table5(report, options);
-    section_search(report, options);
-    section_sequences(report, options);
-    section_boards(report, options);
+    if (!a.systems) {
+        section_distances(report, options);
+        section_conditions(report, options);
+        section_loss(report, options);
+        section_extraction(report, options);
+        section_pose_noise(report, options);
+        section_approach(report, options);
+        section_table5(report, options);
+        section_search(report, options);
+        section_sequences(report, options);
+        section_boards(report, options);
+    }
+    section_systems(report, options);
     if (a.options.cache.empty()) {
         std::filesystem::remove_all(options.cache);
     }

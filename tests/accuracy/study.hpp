@@ -41,6 +41,12 @@ void section_pose_noise(Report &report, const StudyOptions &options);
 void section_approach(Report &report, const StudyOptions &options);
 /* The paper's table 5: baselines, and parts of the method left out. */
 void section_table5(Report &report, const StudyOptions &options);
+/* The related systems side by side: one table, one plot; then detectors and regions. */
+void section_systems(Report &report, const StudyOptions &options);
+/* Ellipse detectors beside ours on scenes and boards. */
+void section_detectors(Report &report, const StudyOptions &options);
+/* Ways to find the drogue in a whole frame beside ours. */
+void section_regions(Report &report, const StudyOptions &options);
 /* Whole frames: how often the search sights the drogue. */
 void section_search(Report &report, const StudyOptions &options);
 /* Sequences at three levels of turbulence, raw against filtered, and a long one with blanked frames. */

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The same pictures give the same JSON, byte for byte, from gcc -O0, gcc -O3, clang -O2, a 32-bit processor (Arm)
-# and a big-endian one (s390x), the last two under qemu. The host program is built with pgm_io.c in place of libpng,
+# and a big-endian one (s390x), the last two under qemu. The host program is built with no_png.c in place of libpng,
 # which need not be there for foreign processors. One more build leaves its workspace as malloc() gives it and runs
 # under valgrind: no decision may rest on memory that nobody wrote, which the address sanitizer does not see.
 # usage: digest.sh ROOT
@@ -21,7 +21,7 @@ build() {
     local name=$1
     shift
     "$@" -std=c99 "${warnings[@]}" -D_POSIX_C_SOURCE=200809L -I "$root/include" -I "$root/src/cli" "${program[@]}" \
-        "$root/tests/checks/pgm_io.c" -o "$work/$name"
+        "$root/tests/checks/no_png.c" -o "$work/$name"
 }
 build gcc-O0 gcc -O0
 build gcc-O3 gcc -O3
@@ -33,7 +33,7 @@ readelf -h "$work/armhf" | grep -q ELF32
 readelf -h "$work/s390x" | grep -q 'big endian'
 # shellcheck disable=SC2046 # flags are words
 gcc -std=c99 "${warnings[@]}" -I "$root/src/cli" $(pkg-config --cflags libpng) "$root"/tests/checks/png_to_pgm.c \
-    "$root"/src/cli/png_io.c "$root"/src/cli/cli.c -o "$work/png_to_pgm" $(pkg-config --libs libpng)
+    "$root"/src/cli/{png_io,pnm,images,cli}.c -D_POSIX_C_SOURCE=200809L -o "$work/png_to_pgm" $(pkg-config --libs libpng)
 
 # sidecar_numbers FILE KEY: the numbers in the object of that name, with commas
 sidecar_numbers() {

@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "cli.h"
-#include "png_io.h"
+#include "images.h"
 
 int main(int argc, char **argv)
 {

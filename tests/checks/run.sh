@@ -79,6 +79,12 @@ run check
 [ $code -eq 1 ] || wrong "exit status $code after a failed test"
 says 'run check: FAILED, 1 of 4 steps'
 
+# The demo ends with the path of the program.
+mkdir -p "$work/tree/build/release/src/cli"
+stand_in ../tree/build/release/src/cli/drogue
+run demo
+[ "$(tail -n 1 "$work/out")" = "The program: $work/tree/build/release/src/cli/drogue" ] || wrong 'the demo does not end with the path'
+
 # Installing: what it costs comes first, and another apt-get is waited for.
 stand_in dpkg-query 'echo unknown'
 stand_in apt-get "case \"\$*\" in *--assume-no*) echo 'Need to get 495 MB of archives.' ;; *' -yq '*) echo GOING ;; esac"

@@ -2,6 +2,8 @@
 # What the end-to-end tests share; sourced with the script's own arguments: the program and its helpers.
 set -u
 drogue=$1 make_images=$2 json_check=$3 canny_check=$4
+# shellcheck disable=SC2034
+root=$5
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
@@ -18,8 +20,8 @@ fail() {
     failed=$((failed + 1))
 }
 
-# run CODE ARGUMENT...: the program must exit with CODE; its output goes to 'out' and 'err'. A complaint is one
-# line, and there is one exactly when the code is 2.
+# run CODE ARGUMENT...: the program must exit with CODE; its output goes to 'out' and 'err'. A complaint is one line when
+# the code is 2, a sentence or more (track: one a status) when it is 1. With 0 there is none, but track's of some frames.
 run() {
     want=$1
     shift
@@ -32,7 +34,9 @@ run() {
             fail "no complaint of one line: drogue $*"
             cat err
         }
-    elif [ -s err ]; then
+    elif [ "$want" -eq 1 ]; then
+        LC_ALL=C grep -aq '^drogue: .*: [a-z_]*: [a-z]' err && ! LC_ALL=C grep -aqv '^drogue: ' err || fail "no sentence: drogue $*: $(cat err)"
+    elif LC_ALL=C grep -aqvE '^drogue: [0-9]+ of [0-9]+ frames: [a-z_]+: ' err; then
         fail "a complaint without need: drogue $*"
         cat err
     fi

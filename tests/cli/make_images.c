@@ -227,10 +227,32 @@ static void write_huge(const char *name)
     fclose(file);
 }
 
+/* The grey levels of a file as they are, on standard output. */
+static int print_raw(const char *path)
+{
+    png_image image;
+    uint8_t *grey;
+    int good;
+    memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+    if (!png_image_begin_read_from_file(&image, path)) {
+        return EXIT_FAILURE;
+    }
+    image.format = PNG_FORMAT_GRAY;
+    grey = allocate((int)image.width, (int)image.height);
+    good = png_image_finish_read(&image, NULL, grey, 0, NULL) &&
+           fwrite(grey, image.width, image.height, stdout) == image.height;
+    free(grey);
+    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
 int main(int argc, char **argv)
 {
+    if (argc == 3 && strcmp(argv[1], "--raw") == 0) {
+        return print_raw(argv[2]);
+    }
     if (argc != 2) {
-        fprintf(stderr, "usage: make_images FOLDER\n");
+        fprintf(stderr, "usage: make_images FOLDER\n       make_images --raw FILE.png >GREY\n");
         return EXIT_FAILURE;
     }
     folder = argv[1];

@@ -27,8 +27,10 @@ near "$(json alternative.position_m.2)" 3.5 0.005
 near "$(json alternative.axis.2)" 1 0.01
 near "$(json ambiguity)" 0.5 0.5
 near "$(json ellipse.angle_deg)" 0 90.001
-# Each number has a decimal and no more digits than it needs.
-tr ',:[]{}' '\n\n\n\n\n\n' <out | grep -E '^-?[0-9]' >numbers
+# Each real number has a decimal and no more digits than it needs; six are whole: region, arcs, cluster_members.
+tr ',:[]{}' '\n\n\n\n\n\n' <out | grep -E '^-?[0-9]' >all_numbers
+same "$(grep -cE '^[0-9]+$' all_numbers)" 6
+grep -vE '^[0-9]+$' all_numbers >numbers
 same "$(grep -cE '^-?(0|[1-9][0-9]*)\.([0-9]|[0-9]{1,8}[1-9])(e[-+][0-9]{2})?$' numbers)" "$(wc -l <numbers | tr -d ' ')"
 # The covariance is symmetric, and its diagonal the square of what is stated beside it.
 for i in 0 1 2 3 4; do
@@ -65,12 +67,13 @@ for polarity in bright mixed; do
     near "$(json position_m.2)" 3.5 0.005
 done
 run 0 measure scene_mixed.png $camera $roi $model
-prints 'dark and bright inside'
+prints 'mixed'
 
 # The keys are all there when nothing is found.
 run 1 measure black.png $camera --json
 same "$(json status)" '"no_edges"'
-for key in ellipse reliability polarity inner_centre position_m axis yaw_deg pitch_deg alternative orientation_resolved ambiguity \
+same "$(json second_look)" '"none"'
+for key in ellipse reliability cover arcs cluster_members polarity inner_centre position_m axis yaw_deg pitch_deg alternative orientation_resolved ambiguity \
     covariance position_std_m axis_std_deg; do
     same "$(json $key)" null
 done
@@ -90,14 +93,16 @@ near "$(json position_m.2)" 10.05 0.04
 
 # The table.
 run 0 measure scene.png $camera $roi $model
-for line in 'image         scene.png' 'status        ok' 'dark inside' ' m' 'degrees' 'resolved'; do
+same "$(head -n 1 out)" 'scene.png: ok'
+for line in 'polarity               dark' 'length_unit            m' 'orientation_resolved   true' '  position_m '; do
     prints "$line"
 done
 run 0 measure scene.png $camera $roi
 prints 'rim radii'
-prints 'unresolved'
+same "$(head -n 1 out)" 'scene.png: ok, orientation unresolved: either pose, this or the alternative'
 run 1 measure black.png $camera
-prints 'no_edges'
+same "$(head -n 1 out)" 'black.png: no_edges'
+says 'drogue: black.png: no_edges: no edge'
 
 # Regions: past the image is clipped, outside it is nothing measurable.
 run 0 measure scene_cut.png $camera --roi 0,-30,200,200 --json --overlay over.png

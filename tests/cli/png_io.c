@@ -5,6 +5,7 @@
 #include <png.h>
 
 #include "cli.h"
+#include "images.h"
 #include "png_io.h"
 
 static const char PATH[] = "png_io_test.png";
@@ -66,7 +67,14 @@ static void write_specimen(const specimen *s)
     size_t bytes = s->depth == 16 ? 2 : 1;
     png_byte *data = malloc(row_samples * bytes * (size_t)s->height);
     png_bytep *rows = malloc((size_t)s->height * sizeof *rows);
+    char key[] = "Comment", words[] = "of no weight";
+    png_text text;
     size_t i;
+    memset(&text, 0, sizeof text);
+    text.compression = PNG_TEXT_COMPRESSION_NONE;
+    text.key = key;
+    text.text = words;
+    text.text_length = sizeof words - 1;
     ck_assert(file != NULL && data != NULL && rows != NULL);
     for (i = 0; i < row_samples * (size_t)s->height; i++) {
         if (bytes == 2) {
@@ -83,6 +91,7 @@ static void write_specimen(const specimen *s)
     png_set_IHDR(png, info, (png_uint_32)s->width, (png_uint_32)s->height, s->depth, s->kind, s->interlace,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_gAMA(png, info, 1.0); /* must not matter */
+    png_set_text(png, info, &text, 1);
     if (s->kind == PNG_COLOR_TYPE_PALETTE) {
         png_set_PLTE(png, info, s->palette, 1 << s->depth);
     }
@@ -170,6 +179,65 @@ START_TEST(every_kind_reads_as_documented)
 }
 END_TEST
 
+static void write_bytes_of(const uint8_t *bytes, size_t count)
+{
+    FILE *file = fopen(PATH, "wb");
+    ck_assert(file != NULL && fwrite(bytes, 1, count, file) == count);
+    fclose(file);
+}
+
+static int reads(const uint8_t *bytes, size_t count)
+{
+    picture grey;
+    int status;
+    write_bytes_of(bytes, count);
+    status = picture_read_grey(&grey, PATH);
+    MUST((grey.data != NULL) == (status == EXIT_MEASURED), "a picture in spite of a failure, or none");
+    picture_free(&grey);
+    return status == EXIT_MEASURED;
+}
+
+/* Any bit of any chunk's check sum, and any of what it covers, of critical chunks and others; what lies behind the last
+ * chunk does not count. */
+START_TEST(each_check_sum_counts)
+{
+    static uint8_t bytes[4096];
+    specimen s;
+    uint64_t seed = 7;
+    size_t count, at, chunks = 0;
+    FILE *file;
+    memset(&s, 0, sizeof s);
+    s.kind = PNG_COLOR_TYPE_RGB;
+    s.depth = 8;
+    s.transparency = 1;
+    s.width = 13;
+    s.height = 7;
+    fill(&s, &seed);
+    write_specimen(&s);
+    free(s.samples);
+    file = fopen(PATH, "rb");
+    ck_assert_ptr_nonnull(file);
+    count = fread(bytes, 1, sizeof bytes - 1, file);
+    fclose(file);
+    ck_assert(reads(bytes, count));
+    for (at = 8; at < count; chunks++) {
+        const size_t length = (size_t)bytes[at + 2] * 256 + bytes[at + 3];
+        size_t k, bit;
+        for (k = at + 8; k < at + 12 + length; k++) { /* contents and check sum */
+            for (bit = k < at + 8 + length ? 7 : 0; bit < 8; bit++) {
+                bytes[k] ^= (uint8_t)(1u << bit);
+                MUST(!reads(bytes, count), "%.4s: byte %d of %d, bit %d: read in spite of it", (char *)&bytes[at + 4],
+                     (int)(k - at - 8), (int)length, (int)bit);
+                bytes[k] ^= (uint8_t)(1u << bit);
+            }
+        }
+        at += 12 + length;
+    }
+    ck_assert_uint_eq(chunks, 6); /* IHDR gAMA tRNS tEXt IDAT IEND */
+    ck_assert(reads(bytes, count + 1));
+}
+END_TEST
+
 START_TEST(what_is_written_reads_back)
 {
     uint64_t seed = 6;
@@ -193,4 +261,4 @@ START_TEST(what_is_written_reads_back)
 }
 END_TEST
 
-SUITE_MAIN("png_io", every_kind_reads_as_documented, what_is_written_reads_back)
+SUITE_MAIN("png_io", every_kind_reads_as_documented, each_check_sum_counts, what_is_written_reads_back)

@@ -16,6 +16,9 @@ run 0 track frame04.png $seen $gone frame00.png $camera $roi $model
 same "$(json state | words)" '"lost" "tracking" "tracking" "tracking" "tracking" "coasting" "coasting" "coasting" "coasting" "coasting" "coasting" "coasting" "coasting" "coasting" "coasting" "lost" "lost" "tracking"'
 same "$(json image | words)" "$(for f in frame04.png $seen $gone frame00.png; do printf '"%s"\n' "$f"; done | words)"
 same "$(json raw.image)" "$(json image)"
+same "$(json frame | words)" "$(seq 18 | words)"
+same "$(json time_s | sed -n '1p;2p;4p;18p' | words)" '0.0 0.033333 0.099999 0.566661'
+says '13 of 18 frames: no_edges: '
 same "$(json raw.status | sed -n '1p;2p;6p' | words)" '"no_edges" "ok" "no_edges"'
 same "$(json filtered | grep -c null)" 3
 same "$(json raw.position_m | grep -c null)" 13

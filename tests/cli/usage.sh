@@ -7,7 +7,13 @@ prints 'rim radii'
 prints 'Exit code'
 run 0 measure --help
 prints 'drogue track'
+cp out long
+run 0 -h
+cmp -s out long || fail '-h is not --help'
+run 0 -V
+cp out long
 run 0 --version
+cmp -s out long || fail '-V is not --version'
 grep -Eq '^drogue [0-9]+\.[0-9]+\.[0-9]+$' out || fail "version: $(cat out)"
 
 run 2
@@ -51,6 +57,21 @@ says '--camera'
 run 2 edges scene.png out.png --low 1 --high 2 --roi 0,0,5,5
 run 2 track scene.png $camera --smooth
 
+run 2 measure scene.png --camera 800,5,800,5,159,5,119,5
+says 'behind a point, not a comma'
+run 2 measure scene.png $camera --json --csv
+says 'excludes'
+run 2 track scene.png $camera --min-reliability 0.5
+run 2 measure scene.png $camera --raw 1,1,gray8
+run 2 measure scene.png --camera 800,800,5000,119.5
+says 'principal point'
+run 2 track scene.png --camera 800,800,159.5,-4500
+says 'principal point'
+for r in -0.1 1.1 x '' 0.5,0.5; do
+    run 2 measure scene.png $camera --min-reliability "$r"
+    says '--min-reliability'
+done
+
 # Order and spelling do not matter; -- ends the options.
 run 0 measure scene.png --camera=800,800,159.5,119.5 --roi=60,18,200,200 --drogue=0.35,0.175,0.02 --json
 cp out first
@@ -68,7 +89,7 @@ run 0 measure $camera $roi -- --json.png
 
 # Numbers: each list is exact in count, each number exact in form and range.
 for list in 1,2,3 1,2,3,4,5 '' ,,, 1,2,3, ,1,2,3 a,2,3,4 1,2,3,4x '1, 2,3,4' nan,1,1,1 1,inf,1,1 1,1,0x10,1 1,1,1,1e 1e,1,1,1 \
-    32768,1,1,1 1,1,-32769,1 1,1,1,1e99 0,1,1,1 1,0,1,1 -1,1,1,1 1,-800,1,1 1e-9,1,1,1 '1;2;3;4' 1..2,1,1,1; do
+    32768,1,1,1 1,1,-32769,1 1,1,1,1e99 0,1,1,1 1,0,1,1 -1,1,1,1 1,-800,1,1 1e-9,1,1,1 '1;2;3;4' 1..2,1,1,1 1465,5,1465,5 800,5,800,5,159,5,119,5 no-such.yaml; do
     run 2 measure scene.png --camera "$list"
     says '--camera'
 done
@@ -76,7 +97,7 @@ for list in 1,2,3,4 1,2,3,4,5,6 0 '' 0,0,0,0,nan 0,0,0,0, 0,0,0,0,99999; do
     run 2 measure scene.png $camera --distortion "$list"
     says '--distortion'
 done
-for list in 1,2 1,2,3,4 '' 0 -1 0,1,1 1,0,1 1,-1,1 1,1,-0.1 x 1e-7 1,1e-7,1 40000 1,2,nan; do
+for list in 1,2 1,2,3,4 '' 0 -1 0,1,1 0.35,0.36,0.1 0,35 1,0,1 1,-1,1 1,1,-0.1 x 1e-7 1,1e-7,1 40000 1,2,nan; do
     run 2 measure scene.png $camera --drogue "$list"
     says '--drogue'
 done

@@ -5,7 +5,7 @@
 #if defined(__x86_64__)
 /* A size that differs: members were added or removed. Bring the functions below up to date, then the size. */
 #define COVERED(type, bytes) typedef char digest_covers_##type[sizeof(type) == (bytes) ? 1 : -1]
-COVERED(drogue_result, 448);
+COVERED(drogue_result, 456);
 COVERED(drogue_ellipse, 20);
 COVERED(drogue_quality, 20);
 COVERED(drogue_pose, 32);
@@ -55,7 +55,7 @@ static uint64_t add_pose(uint64_t d, const drogue_pose *p)
 uint64_t digest_result(uint64_t d, const drogue_result *r)
 {
     int i, k;
-    d = add(d, (int64_t)r->status);
+    d = add(add(d, (int64_t)r->status), (int64_t)r->second_look);
     d = add(add(add(add(d, r->region.x_px), r->region.y_px), r->region.width_px), r->region.height_px);
     d = add(add(d, r->list.edge_count), r->list.arc_count);
     for (i = 0; i < 4; i++) {

@@ -568,6 +568,58 @@ START_TEST(second_look_that_fails)
 }
 END_TEST
 
+/* A dark disc off the middle of its region, the outline of which the ring mask cuts. */
+static drogue_result off_middle(uint32_t width_px, uint32_t edges, const drogue_region *region)
+{
+    enum { SIDE = 128 };
+    static uint8_t disc[SIDE * SIDE];
+    static const drogue_model bare = {22938, 0, 0};
+    const drogue_image view = {disc, SIDE, SIDE, SIDE};
+    const drogue_camera camera = pinhole(400, 400, 64, 64);
+    test_workspace t = test_workspace_of(width_px, edges, 4096, 512);
+    drogue_config config;
+    drogue_result r;
+    int32_t x, y, k;
+    for (y = 0; y < SIDE; y++) {
+        for (x = 0; x < SIDE; x++) {
+            int32_t inside = 0;
+            for (k = 0; k < FINE * FINE; k++) {
+                inside += hypot(x + (k % FINE + 0.5) / FINE - 76.5, y + (k / FINE + 0.5) / FINE - 60.5) < 40;
+            }
+            disc[y * SIDE + x] = (uint8_t)(200 - 140 * inside / (FINE * FINE));
+        }
+    }
+    drogue_config_default(&config);
+    (void)drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &bare, &config}, &view, region);
+    test_workspace_free(&t);
+    return r;
+}
+
+/* More room in a table gives the same result, or the smaller one's says that a table or the width was in the way. */
+START_TEST(second_look_is_told)
+{
+    static const drogue_region all = {0, 0, 128, 128}, narrow = {25, 15, 84, 84}, about = {26, 10, 101, 101};
+    const drogue_result most = off_middle(512, 4096, &all);
+    int seen[DROGUE_SECOND_COUNT] = {0};
+    uint32_t edges;
+    ck_assert_int_eq(most.status, DROGUE_OK);
+    ck_assert_int_eq(most.second_look, DROGUE_SECOND_BETTER);
+    ck_assert_int_gt(most.cover_q16, DROGUE_Q16(99, 100));
+    for (edges = 20; edges < 1200; edges += 20) {
+        const drogue_result r = off_middle(512, edges, &all);
+        const int same = r.cover_q16 == most.cover_q16 && memcmp(&r.ellipse, &most.ellipse, sizeof r.ellipse) == 0;
+        MUST(same || r.second_look == DROGUE_SECOND_FULL || r.status == DROGUE_E_EDGES_FULL, "%u edge points: %s, %s",
+             (unsigned)edges, drogue_status_name(r.status), drogue_second_look_name(r.second_look));
+        seen[r.second_look] += r.status == DROGUE_OK;
+    }
+    ck_assert_int_gt(seen[DROGUE_SECOND_FULL], 3);
+    ck_assert_int_gt(seen[DROGUE_SECOND_BETTER], 10);
+    ck_assert_int_eq(off_middle(84, 4096, &narrow).second_look, DROGUE_SECOND_TOO_WIDE);
+    ck_assert_int_eq(off_middle(512, 4096, &narrow).second_look, DROGUE_SECOND_BETTER);
+    ck_assert_int_eq(off_middle(512, 4096, &about).second_look, DROGUE_SECOND_NONE);
+}
+END_TEST
+
 /* The background passes through the canopy's own grey: dark against it on one side, bright on the other. */
 START_TEST(background_across_the_canopys_grey)
 {
@@ -642,5 +694,5 @@ END_TEST
 SUITE_MAIN("measure", drawn_drogues, without_inner_part, regions_of_one_image, ring_of_a_clipped_region, arguments,
            regions_that_miss, full_tables, nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide,
            inner_part_that_contradicts, covariance_of_the_result, off_centre_region, second_look_that_fails,
-           background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
+           second_look_is_told, background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
            capacity_by_macro_is_capacity_by_function)

@@ -25,4 +25,16 @@ START_TEST(other_values_are_unknown)
 }
 END_TEST
 
-SUITE_MAIN("status", names_are_the_documented_ones, other_values_are_unknown)
+START_TEST(second_looks)
+{
+    static const char *const names[DROGUE_SECOND_COUNT] = {"none", "better", "no_more", "region", "too_wide", "full"};
+    int i;
+    for (i = 0; i < (int)DROGUE_SECOND_COUNT; i++) {
+        ck_assert_str_eq(drogue_second_look_name((drogue_second_look)i), names[i]);
+    }
+    ck_assert_str_eq(drogue_second_look_name(DROGUE_SECOND_COUNT), "unknown");
+    ck_assert_str_eq(drogue_second_look_name((drogue_second_look)INT32_MAX), "unknown");
+}
+END_TEST
+
+SUITE_MAIN("status", names_are_the_documented_ones, other_values_are_unknown, second_looks)

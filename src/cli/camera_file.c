@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What the four forms call focal lengths, principal point, distortion and size. */
+#include "camera_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli.h"
+#include "decimal.h"
+#include "keys.h"
+
+enum { MOST_COEFFICIENTS = 14, KEPT_COEFFICIENTS = 5 };
+
+/* Key names of a form; the matrix is 3 x 3 by rows, or fx fy cx cy. */
+typedef struct form {
+    const char *matrix; /* its first place is this with ".0" */
+    int is_matrix;
+    const char *distortion;
+    const char *width;
+    const char *height;
+} form;
+
+static const form FORMS[] = {
+    {"camera_matrix.data", 1, "distortion_coefficients.data", "image_width", "image_height"}, /* OpenCV, ROS */
+    {"Camera_Matrix.data", 1, "Distortion_Coefficients.data", "image_Width", "image_Height"}, /* OpenCV before 3 */
+    {"cameraMatrix.data", 1, "distCoeffs.data", "image_width", "image_height"},
+    {"K", 1, "D", "width", "height"}, /* a camera_info message */
+    {"k", 1, "d", "width", "height"},
+    {"cam0.intrinsics", 0, "cam0.distortion_coeffs", "cam0.resolution.0", "cam0.resolution.1"}, /* Kalibr */
+};
+
+static const char *place_value(const keys *k, const char *name, int place)
+{
+    char whole[KEYS_NAME];
+    snprintf(whole, sizeof whole, "%s.%d", name, place);
+    return keys_value(k, whole);
+}
+
+static int read_place(drogue_q16 *out, const keys *k, const char *name, int place, const char *path)
+{
+    const char *text = place_value(k, name, place);
+    if (text == NULL) {
+        return complain(path, "has no %s with a number at place %d", name, place);
+    }
+    if (decimal_to_q16(out, text, strlen(text)) != DECIMAL_OK) {
+        return complain(path, "%s: '%s' is no number within +-32768", name, text);
+    }
+    return EXIT_MEASURED;
+}
+
+static int read_matrix(drogue_camera *out, const keys *k, const form *f, const char *path)
+{
+    drogue_q16 m[9] = {0};
+    int i;
+    for (i = 0; i < (f->is_matrix ? 9 : 4); i++) {
+        if (read_place(&m[i], k, f->matrix, i, path)) {
+            return EXIT_BAD;
+        }
+    }
+    if (f->is_matrix && (m[1] != 0 || m[3] != 0 || m[6] != 0 || m[7] != 0 || m[8] != DROGUE_Q16_ONE)) {
+        return complain(path, "%s is not fx 0 cx 0 fy cy 0 0 1: skew is not modelled", f->matrix);
+    }
+    out->fx_px_q16 = m[0];
+    out->fy_px_q16 = f->is_matrix ? m[4] : m[1];
+    out->cx_px_q16 = m[2];
+    out->cy_px_q16 = f->is_matrix ? m[5] : m[3];
+    return out->fx_px_q16 > 0 && out->fy_px_q16 > 0 ? EXIT_MEASURED
+                                                    : complain(path, "%s: focal lengths must be above 0", f->matrix);
+}
+
+/* Brown-Conrady of OpenCV's order; what follows the fifth is another model unless it is 0. */
+static int read_distortion(drogue_camera *out, const keys *k, const form *f, const char *path)
+{
+    drogue_q16 v[MOST_COEFFICIENTS] = {0};
+    int count = 0;
+    int i;
+    while (count < MOST_COEFFICIENTS && place_value(k, f->distortion, count) != NULL) {
+        if (read_place(&v[count], k, f->distortion, count, path)) {
+            return EXIT_BAD;
+        }
+        count++;
+    }
+    if (count < 4) {
+        return complain(path, "has no %s with four or five numbers", f->distortion);
+    }
+    for (i = KEPT_COEFFICIENTS; i < count; i++) {
+        if (v[i] != 0) {
+            return complain(path, "%s: coefficient %d is of the rational model; Brown-Conrady has five", f->distortion,
+                            i + 1);
+        }
+    }
+    out->k1_q16 = v[0];
+    out->k2_q16 = v[1];
+    out->p1_q16 = v[2];
+    out->p2_q16 = v[3];
+    out->k3_q16 = v[4];
+    return EXIT_MEASURED;
+}
+
+/* A camera or lens model by name, where the file has one, must be this one. */
+static int check_name(const keys *k, const char *key, const char *const *good, const char *path)
+{
+    const char *name = keys_value(k, key);
+    if (name == NULL) {
+        return EXIT_MEASURED;
+    }
+    for (; *good != NULL; good++) {
+        if (strcmp(name, *good) == 0) {
+            return EXIT_MEASURED;
+        }
+    }
+    return complain(path, "%s is '%s', which is not the Brown-Conrady model of a pinhole camera", key, name);
+}
+
+static int check_model(const keys *k, const char *path)
+{
+    static const char *const lenses[] = {"plumb_bob", "rational_polynomial", "radtan", NULL};
+    static const char *const cameras[] = {"pinhole", NULL};
+    static const char *const no[] = {"0", "false", NULL};
+    if (keys_has(k, "cam1.")) {
+        return complain(path, "holds more than one camera: keep one, as cam0");
+    }
+    return check_name(k, "distortion_model", lenses, path) || check_name(k, "cam0.distortion_model", lenses, path) ||
+           check_name(k, "cam0.camera_model", cameras, path) || check_name(k, "fisheye_model", no, path) ||
+           check_name(k, "fisheye", no, path);
+}
+
+static int read_side(int32_t *out, const keys *k, const char *name, const char *path)
+{
+    const char *text = keys_value(k, name);
+    drogue_q16 value;
+    *out = 0;
+    if (text == NULL) {
+        return EXIT_MEASURED;
+    }
+    if (decimal_to_q16(&value, text, strlen(text)) != DECIMAL_OK || value <= 0 || value % DROGUE_Q16_ONE != 0) {
+        return complain(path, "%s: '%s' is no number of pixels", name, text);
+    }
+    *out = value / DROGUE_Q16_ONE;
+    return EXIT_MEASURED;
+}
+
+static int interpret(drogue_camera *out, int32_t *width_px, int32_t *height_px, const keys *k, const char *path)
+{
+    size_t i;
+    for (i = 0; i < sizeof FORMS / sizeof FORMS[0]; i++) {
+        const form *f = &FORMS[i];
+        if (place_value(k, f->matrix, 0) != NULL) {
+            return check_model(k, path) || read_matrix(out, k, f, path) || read_distortion(out, k, f, path) ||
+                   read_side(width_px, k, f->width, path) || read_side(height_px, k, f->height, path);
+        }
+    }
+    return complain(path, "has no camera_matrix (OpenCV, ROS), K (camera_info) or cam0 with intrinsics (Kalibr)");
+}
+
+int camera_file_read(drogue_camera *out, int32_t *width_px, int32_t *height_px, const char *path)
+{
+    keys k;
+    const int bad = keys_read(&k, path) || interpret(out, width_px, height_px, &k, path);
+    keys_free(&k);
+    return bad ? EXIT_BAD : EXIT_MEASURED;
+}

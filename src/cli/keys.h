@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A YAML or XML file as a list of keys with values: nested keys joined by dots, places in a sequence as numbers, such as
+ * "camera_matrix.data.4". The words of an XML element are a sequence. */
+#ifndef CLI_KEYS_H
+#define CLI_KEYS_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+typedef struct keys {
+    char **names; /* name and value in one block, a 0 byte between them */
+    size_t count;
+} keys;
+
+/* Read a file; by its first byte, < is XML.
+ *
+ *  return  EXIT_MEASURED, or EXIT_BAD after a complaint
+ */
+int keys_read(keys *out, const char *path);
+void keys_free(keys *k);
+
+/* The value of a key; NULL when it is not there. */
+const char *keys_value(const keys *k, const char *name);
+
+/* Is there a key that begins so? */
+int keys_has(const keys *k, const char *beginning);
+
+/* For the readers: add a key. Returns 0 when there is no memory. */
+int keys_add(keys *k, const char *name, const char *value, size_t length);
+
+#define KEYS_NAME 256
+
+/* The two forms; each returns NULL, or what is wrong. */
+const char *keys_read_yaml(keys *k, FILE *in);
+const char *keys_read_xml(keys *k, FILE *in);
+
+#endif

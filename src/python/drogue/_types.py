@@ -1,0 +1,192 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What goes in and what comes out, as dataclasses."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Mapping, Optional, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+Vector = npt.NDArray[np.float64]
+Region = Tuple[int, int, int, int]
+POLARITIES = ('dark', 'bright', 'mixed')
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Pinhole camera with Brown-Conrady distortion, in pixels and OpenCV's order and sense."""
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    k1: float = 0.0
+    k2: float = 0.0
+    p1: float = 0.0
+    p2: float = 0.0
+    k3: float = 0.0
+
+    def numbers(self) -> Tuple[float, ...]:
+        if not (self.fx > 0 and self.fy > 0):
+            raise ValueError('focal lengths must be greater than 0')
+        return (self.fx, self.fy, self.cx, self.cy, self.k1, self.k2, self.p1, self.p2, self.k3)
+
+
+@dataclass(frozen=True)
+class Model:
+    """The drogue: radius of the rim, radius of the inner part and its depth behind the rim, metres. An inner radius of 0:
+    unknown, and the orientation stays unresolved."""
+    radius: float
+    inner_radius: float = 0.0
+    inner_depth: float = 0.0
+
+    def numbers(self) -> Tuple[float, float, float]:
+        if not (self.radius > 0 and 0 <= self.inner_radius <= self.radius and self.inner_depth >= 0):
+            raise ValueError('radius > 0, 0 <= inner_radius <= radius, inner_depth >= 0')
+        return (self.radius, self.inner_radius, self.inner_depth)
+
+
+@dataclass(frozen=True)
+class Ellipse:
+    """Centre and semi-axes a >= b in pixels of the whole image; angle of the major axis from +x towards +y, radians."""
+    xc: float
+    yc: float
+    a: float
+    b: float
+    angle_rad: float
+
+
+@dataclass(frozen=True)
+class InnerPart:
+    """Centroid and spread over thresholds in pixels, area in pixels, threshold and contrast in grey levels."""
+    x: float
+    y: float
+    area: int
+    spread: float
+    threshold: int
+    contrast: int
+
+
+@dataclass(frozen=True)
+class Quality:
+    """Scores of the fit, each in [0, 1]."""
+    fit_ratio: float
+    length_ratio: float
+    axis_ratio: float
+    score: float
+    reliability: float
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """Centre of the end plane, shape (3,), metres; unit vector into the drogue, shape (3,); its angles, radians."""
+    position_m: Vector
+    axis: Vector
+    yaw_rad: float
+    pitch_rad: float
+
+    @property
+    def yaw_deg(self) -> float:
+        return math.degrees(self.yaw_rad)
+
+    @property
+    def pitch_deg(self) -> float:
+        return math.degrees(self.pitch_rad)
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """One measurement. What could not be measured is None; docs/program.md explains status and scores."""
+    status: str
+    region: Region  # used, clipped to the image: x, y, width, height
+    edge_count: int
+    arc_count: int
+    arcs: Tuple[Optional[int], ...]  # of the winning combination, by quadrant
+    ellipse: Optional[Ellipse]  # as seen
+    ideal: Optional[Ellipse]  # without distortion
+    quality: Quality
+    polarity: str  # dark, bright or mixed
+    cluster_members: int
+    refit_points: int
+    cover: float
+    has_inner: bool
+    inner: Optional[InnerPart]  # as found; believed when has_inner
+    pose: Optional[Pose]
+    alternative: Optional[Pose]  # the other pose that the ellipse allows
+    orientation_resolved: bool  # the inner part decided between the two
+    ambiguity: float
+    covariance: Optional[Vector]  # shape (5, 5): x, y, z in metres, yaw, pitch in radians
+    position_std_m: Optional[Vector]  # shape (3,)
+    axis_std_rad: Optional[float]
+
+    @property
+    def ok(self) -> bool:
+        return self.status == 'ok'
+
+    @property
+    def reliability(self) -> float:
+        return self.quality.reliability
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """The filter's: metres, metres a second, radians; arrays of shape (3,); standard deviations."""
+    position_m: Vector
+    velocity_mps: Vector
+    axis: Vector
+    yaw_rad: float
+    pitch_rad: float
+    orientation_resolved: bool
+    position_std_m: Vector
+    yaw_std_rad: float
+    pitch_std_rad: float
+    axis_std_rad: float
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """One frame of a track: state is tracking, coasting or lost; gated: measured, but refused."""
+    state: str
+    gated: bool
+    region: Region  # asked for; width 0: the whole image
+    raw: Result
+    filtered: Optional[Estimate]  # None while lost
+
+
+@dataclass(frozen=True)
+class Sighting:
+    """Where search() saw something: region for measure(), about the middle and radius in pixels; score compares."""
+    region: Region
+    x: int
+    y: int
+    radius: int
+    score: int
+
+
+@dataclass(frozen=True)
+class Threshold:
+    default: float
+    least: float
+    most: float
+    unit: str
+
+
+def result_from(raw: Mapping[str, Any]) -> Result:
+    values = dict(raw)
+    ok = values['status'] == 'ok'
+    seen = values['ellipse'][2] > 0
+    values['ellipse'] = Ellipse(*values['ellipse']) if seen else None
+    values['ideal'] = Ellipse(*values['ideal']) if values['ideal'][2] > 0 else None
+    values['quality'] = Quality(*values['quality'])
+    values['polarity'] = POLARITIES[values['polarity']]
+    values['inner'] = InnerPart(*values['inner']) if any(values['inner']) else None
+    for name in ('pose', 'alternative'):
+        values[name] = Pose(*values[name]) if ok else None
+    for name in ('covariance', 'position_std_m', 'axis_std_rad'):
+        values[name] = values[name] if ok else None
+    return Result(**values)
+
+
+def estimate_from(raw: Optional[Tuple[Any, ...]]) -> Optional[Estimate]:
+    return None if raw is None else Estimate(*raw)

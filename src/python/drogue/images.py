@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Images and videos as grey arrays, through Pillow or OpenCV, whichever the user has."""
+from __future__ import annotations
+
+import pathlib
+from typing import Iterable, Iterator, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+Grey = npt.NDArray[np.uint8]
+Path = Union[str, pathlib.Path]
+VIDEOS = {'.avi', '.mkv', '.mov', '.mp4', '.m4v', '.webm'}
+IMAGES = {'.png', '.pgm', '.ppm', '.jpg', '.jpeg', '.bmp', '.tif', '.tiff'}
+
+
+def to_grey(rgb: npt.NDArray[np.uint8]) -> Grey:
+    """(77 R + 150 G + 29 B + 128) >> 8 of shape (rows, columns, 3), as the program does it."""
+    weighted = rgb.astype(np.uint32) @ np.array([77, 150, 29], np.uint32)
+    return ((weighted + 128) >> 8).astype(np.uint8)
+
+
+def read(path: Path) -> Grey:
+    """An image file as uint8 of shape (rows, columns): 16 bits are rounded to 8, alpha is ignored."""
+    try:
+        from PIL import Image
+    except ImportError:
+        return _read_by_opencv(path)
+    with Image.open(path) as image:
+        if image.mode in ('I', 'I;16', 'I;16B', 'I;16L'):
+            wide = np.asarray(image, np.uint32)
+            return ((wide * 255 + 32767) // 65535).astype(np.uint8)
+        if image.mode in ('L', 'LA', '1'):
+            return np.asarray(image.convert('RGBA'), np.uint8)[..., 0].copy()
+        return to_grey(np.asarray(image.convert('RGBA'), np.uint8)[..., :3])
+
+
+def _read_by_opencv(path: Path) -> Grey:
+    try:
+        import cv2
+    except ImportError:
+        raise ImportError('images need Pillow or OpenCV: pip install pillow') from None
+    image = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    if image is None:
+        raise OSError(f'{path}: cannot be read as an image')
+    if image.dtype == np.uint16:
+        image = ((image.astype(np.uint32) * 255 + 32767) // 65535).astype(np.uint8)
+    if image.ndim == 2:
+        return image
+    return image[..., 0].copy() if image.shape[2] < 3 else to_grey(image[..., 2::-1])
+
+
+def _video(path: Path) -> Iterator[Tuple[str, Grey]]:
+    try:
+        import cv2
+    except ImportError:
+        raise ImportError('videos need OpenCV: pip install opencv-python-headless') from None
+    capture = cv2.VideoCapture(str(path))
+    if not capture.isOpened():
+        raise OSError(f'{path}: cannot be read as a video')
+    number = 0
+    while True:
+        good, image = capture.read()
+        if not good:
+            return
+        number += 1
+        yield f'{path}#{number}', to_grey(image[..., ::-1])
+
+
+def frames(paths: Union[Path, Sequence[Path], Iterable[Path]]) -> Iterator[Tuple[str, Grey]]:
+    """Name and picture of each frame of image files, folders of images by name, and videos."""
+    for path in [paths] if isinstance(paths, (str, pathlib.Path)) else paths:
+        path = pathlib.Path(path)
+        if path.is_dir():
+            for item in sorted(p for p in path.iterdir() if p.suffix.lower() in IMAGES):
+                yield str(item), read(item)
+        elif path.suffix.lower() in VIDEOS:
+            yield from _video(path)
+        else:
+            yield str(path), read(path)

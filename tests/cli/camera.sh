@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: Apache-2.0
+# Camera files: the four forms give the camera that the numbers give; what is not that camera is refused by name.
+. "$(dirname "$0")/common.sh"
+
+printf '%%YAML:1.0\n---\na: 1\n' >probe.yaml
+if "$drogue" measure scene.png --camera probe.yaml 2>&1 | grep -q 'without libyaml'; then
+    echo 'skipped: the program is built without libyaml'
+    finish
+fi
+
+cat >opencv.yaml <<'END'
+%YAML:1.0
+---
+calibration_time: "today"
+image_width: 320
+image_height: 240
+flags: 0
+camera_matrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 8.0000000000000000e+02, 0., 1.5950000000000000e+02, 0.,
+       8.0500000000000000e+02, 1.1950000000000000e+02, 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   rows: 5
+   cols: 1
+   dt: d
+   data: [ -1.0000000000000001e-01, 2.0000000000000000e-02, 1.0e-03, -2.0e-03, 3.0e-03 ]
+avg_reprojection_error: 3.0e-01
+END
+cat >opencv.xml <<'END'
+<?xml version="1.0"?>
+<opencv_storage>
+<image_width>320</image_width>
+<image_height>240</image_height>
+<camera_matrix type_id="opencv-matrix">
+  <rows>3</rows><cols>3</cols><dt>d</dt>
+  <data>
+    800. 0. 1.5950000000000000e+02 0. 805. 1.1950000000000000e+02 0. 0. 1.</data></camera_matrix>
+<distortion_coefficients type_id="opencv-matrix">
+  <rows>5</rows><cols>1</cols><dt>d</dt>
+  <data>-1.0e-01 2.0e-02 1.0e-03 -2.0e-03 3.0e-03</data></distortion_coefficients>
+</opencv_storage>
+END
+cat >ros.yaml <<'END'
+image_width: 320
+image_height: 240
+camera_name: probe
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [800.0, 0.0, 159.5, 0.0, 805.0, 119.5, 0.0, 0.0, 1.0]
+distortion_model: plumb_bob
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [-0.1, 0.02, 0.001, -0.002, 0.003]
+rectification_matrix:
+  rows: 3
+  cols: 3
+  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]
+END
+cat >message.yaml <<'END'
+header: {stamp: {sec: 0, nanosec: 0}, frame_id: probe}
+height: 240
+width: 320
+distortion_model: plumb_bob
+d: [-0.1, 0.02, 0.001, -0.002, 0.003]
+k: [800.0, 0.0, 159.5, 0.0, 805.0, 119.5, 0.0, 0.0, 1.0]
+---
+END
+cat >kalibr.yaml <<'END'
+cam0:
+  cam_overlaps: []
+  camera_model: pinhole
+  distortion_coeffs: [-0.1, 0.02, 0.001, -0.002]
+  distortion_model: radtan
+  intrinsics: [800.0, 805.0, 159.5, 119.5]
+  resolution: [320, 240]
+  rostopic: /cam0/image_raw
+  T_cam_imu:
+  - [1.0, 0.0, 0.0, 0.0]
+  - [0.0, 1.0, 0.0, 0.0]
+END
+
+run 0 measure scene.png --camera 800,805,159.5,119.5 --distortion -0.1,0.02,0.001,-0.002,0.003 $roi --json
+cp out first
+for file in opencv.yaml opencv.xml ros.yaml message.yaml; do
+    run 0 measure scene.png --camera $file $roi --json
+    cmp -s out first || fail "$file: another answer"
+    run 2 measure black.png --camera $file
+    says '64x48 pixels, but the camera of'
+    run 2 track black.png --camera $file
+    run 2 measure scene.png --camera $file --distortion 0,0,0,0,0
+    says 'is in the camera file'
+done
+run 0 measure scene.png --camera 800,805,159.5,119.5 --distortion -0.1,0.02,0.001,-0.002,0 $roi --json
+cp out first
+run 0 measure scene.png --camera kalibr.yaml $roi --json
+cmp -s out first || fail 'kalibr.yaml: another answer'
+
+# refused FILE SED REASON: with one thing changed
+refused() {
+    sed "$2" "$1" >bad
+    cmp -s "$1" bad && fail "$2 changes nothing in $1"
+    run 2 measure scene.png --camera bad $roi
+    says 'drogue: bad: '
+    says "$3"
+}
+refused ros.yaml 's/plumb_bob/equidistant/' equidistant
+refused message.yaml 's/plumb_bob/fisheye/' fisheye
+refused kalibr.yaml 's/radtan/equidistant/' equidistant
+refused kalibr.yaml 's/pinhole/omni/' omni
+refused kalibr.yaml 's/^cam0:/cam1:/' 'has no camera_matrix'
+refused kalibr.yaml '$a cam1: {camera_model: pinhole}' 'more than one'
+refused kalibr.yaml '/intrinsics/d' 'has no camera_matrix'
+refused opencv.yaml 's/^flags: 0/fisheye_model: 1/' fisheye_model
+refused opencv.yaml '/distortion_coefficients/,/data/d' 'has no distortion_coefficients'
+refused opencv.yaml 's/805/x&/;s/8.0500000000000000e+02/eight/' 'no number'
+refused opencv.yaml 's/data: \[ 8.0/data: [ -8.0/' 'above 0'
+refused opencv.yaml 's/+02, 0., 1.595/+02, 1., 1.595/' skew
+refused opencv.yaml 's/3.0e-03 \]/3.0e-03, 1. ]/' rational
+refused opencv.yaml 's/image_width: 320/image_width: 3.5/' 'no number of pixels'
+refused opencv.xml 's,</data>,,' 'no sound XML'
+refused ros.yaml 's/data: \[800.0/data: [800.0, [/' 'no YAML'
+: >bad
+run 2 measure scene.png --camera bad
+says 'empty'
+run 2 measure scene.png --camera .
+says 'drogue: .: '
+run 2 measure scene.png --camera ros.yaml --overlay ros.yaml
+says 'is read as input'
+
+# Any byte wrong: refused or read, but no crash.
+size=$(wc -c <opencv.xml)
+for file in ros.yaml opencv.xml; do
+    at=0
+    while [ $at -lt "$size" ]; do
+        cp $file bad
+        printf '[' | dd of=bad bs=1 seek=$at conv=notrunc 2>/dev/null
+        "$drogue" measure scene.png --camera bad $roi >out 2>err
+        [ $? -le 2 ] || fail "$file, byte $at: a crash"
+        at=$((at + 7))
+    done
+    checks=$((checks + 1))
+done
+
+finish
