@@ -78,18 +78,18 @@ static void doubt_if_cut(measurement *m, const drogue_result *result, drogue_q16
         return;
     }
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        drogue_wide *variance = &m->noise[DROGUE_PACKED(p, p)];
-        drogue_wide more;
-        drogue_wide_set_q16(&more, lacking_q16);
+        drogue_real *variance = &m->noise[DROGUE_PACKED(p, p)];
+        drogue_real more;
+        drogue_real_set_q16(&more, lacking_q16);
         if (p <= DROGUE_Z) {
-            drogue_wide of;
-            drogue_wide_set_q16(&of, p == DROGUE_Z ? m->value_q16[p] : rim_radius_m_q16);
-            drogue_wide_product(&more, &more, &of);
+            drogue_real of;
+            drogue_real_set_q16(&of, p == DROGUE_Z ? m->value_q16[p] : rim_radius_m_q16);
+            drogue_real_product(&more, &more, &of);
         }
-        drogue_wide_product(&more, &more, &more);
-        drogue_wide_sum(variance, variance, &more);
-        drogue_wide_root(&more, variance);
-        m->std_q16[p] = at_least_one(drogue_wide_to_q16(more));
+        drogue_real_product(&more, &more, &more);
+        drogue_real_sum(variance, variance, &more);
+        drogue_real_root(&more, variance);
+        m->std_q16[p] = at_least_one(drogue_real_to_q16(more));
     }
 }
 
