@@ -88,6 +88,9 @@ uint8_t drogue_otsu(const uint32_t *histogram)
         total += histogram[level];
         sum += histogram[level] * (uint32_t)level;
     }
+    if (total == 0) { /* no shift by 64 */
+        return 0;
+    }
     p_room = drogue_clz_u32(total) + drogue_clz_u32(sum);
     q_room = 2 * drogue_clz_u32(total);
     set(&best, 0, 1, p_room, q_room);
