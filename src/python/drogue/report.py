@@ -132,8 +132,8 @@ def plots(rows: List[Dict[str, Any]], unit: str) -> str:
                                     line={'color': colour}), last, 1)
     figure.update_yaxes(title_text='0 to 1', range=[0, 1.05], row=last, col=1)
     figure.update_xaxes(title_text='time, s', row=last, col=1)
-    figure.update_layout(height=230 * last, margin={'l': 80, 'r': 20, 't': 40, 'b': 50}, template='plotly_white',
-                         legend={'orientation': 'h', 'y': 1.04})
+    figure.update_layout(height=230 * last, margin={'l': 80, 'r': 20, 't': 80, 'b': 50}, template='plotly_white',
+                         legend={'orientation': 'h', 'y': 1.03})
     return str(figure.to_html(full_html=False, include_plotlyjs=True, div_id='plots', config={'displaylogo': False}))
 
 
