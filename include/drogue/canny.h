@@ -39,6 +39,13 @@ static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
     return drogue_canny_sector_by(gx, gy, ax, ax * (uint32_t)DROGUE_CANNY_TG22);
 }
 
+/* |gx| tan(22.5 degrees), rounded down; |gx| in [0, 1023]. In rows of 16-bit numbers the sector is horizontal where |gy| is
+ * at most that, vertical where it exceeds it by more than 2 |gx|: the same as above but for (0, 0), which is no edge. */
+static inline uint16_t drogue_canny_tangent(uint16_t ax)
+{
+    return (uint16_t)((ax * (2u * (uint32_t)DROGUE_CANNY_TG22)) >> 16);
+}
+
 /* Step from a pixel to the neighbour 'after' it across the edge: x and y component in {-1, 0, 1}. */
 static inline int32_t drogue_canny_step_x(drogue_sector sector)
 {
