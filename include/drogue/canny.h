@@ -127,17 +127,11 @@ static inline int32_t drogue_canny_vertex_offset(const drogue_canny_vertex *v)
  * (0, 0) has no direction and cannot be an edge; it gives 3. */
 static inline uint32_t drogue_direction_class(int16_t gx, int16_t gy_down)
 {
-    int gy = -gy_down;
-    if (gx >= 0 && gy > 0) {
-        return 0;
-    }
-    if (gx < 0 && gy >= 0) {
-        return 1;
-    }
-    if (gx <= 0 && gy < 0) {
-        return 2;
-    }
-    return 3;
+    const int gy = -gy_down;
+    const uint32_t first = (gx >= 0) & (gy > 0); /* no two of them hold */
+    const uint32_t second = (gx < 0) & (gy >= 0);
+    const uint32_t third = (gx <= 0) & (gy < 0);
+    return 3u - 3u * first - 2u * second - third;
 }
 
 /* Suppression and thresholds for one row.

@@ -203,17 +203,20 @@ static uint32_t drop_weak(drogue_frontend *f, uint32_t *count, const uint32_t *a
     return left;
 }
 
-/* Move every point to the place its 'arc' member names: each swap puts one in its place. */
+/* Move every point to the place its 'arc' member names, round by round: each is read and written once. */
 static void permute(drogue_edge *edges, uint32_t count)
 {
     uint32_t i;
     for (i = 0; i < count; i++) {
-        while (edges[i].arc != i) {
-            uint32_t to = edges[i].arc;
-            drogue_edge t = edges[to];
-            edges[to] = edges[i];
-            edges[i] = t;
+        drogue_edge moving = edges[i];
+        while (moving.arc != i) {
+            const uint32_t to = moving.arc;
+            const drogue_edge next = edges[to];
+            edges[to] = moving;
+            edges[to].arc = to;
+            moving = next;
         }
+        edges[i] = moving;
     }
 }
 

@@ -135,72 +135,88 @@ void drogue_rows_gradient(drogue_frontend *f, int32_t y)
     magnitude[f->width_px] = 0;
 }
 
-/* Mark the maxima that exceed 'low'. All is 16 bits wide: a mask is 0 or -1, as vector compares give it. */
+/* -1 where a condition holds, 0 elsewhere: as vector compares give it. */
+static inline int16_t mask_of(int condition) { return (int16_t)(condition ? -1 : 0); }
+
+static inline int16_t choose(int16_t mask, int16_t then, int16_t otherwise)
+{
+    return (int16_t)((then & mask) | (otherwise & ~mask));
+}
+
+/* Mark the maxima that exceed 'low'. All is 16 bits wide, and every neighbour is read whether it counts or not. */
 static void mark_maxima(uint8_t *restrict mark, const int16_t *restrict gx, const int16_t *restrict gy,
-                        const int16_t *above, const int16_t *middle, const int16_t *below, int16_t low, int32_t count)
+                        const int16_t *restrict above, const int16_t *restrict middle, const int16_t *restrict below,
+                        int16_t low, int32_t count)
 {
     int32_t x;
     for (x = 0; x < count; x++) {
         const int16_t ax = magnitude_of(gx[x]);
         const int16_t ay = magnitude_of(gy[x]);
         const int16_t tangent = (int16_t)drogue_canny_tangent((uint16_t)ax);
+        const int16_t flat = mask_of(ay <= tangent);
+        const int16_t steep = mask_of(ay > (int16_t)(tangent + 2 * ax));
+        const int16_t anti = mask_of((int16_t)(gx[x] ^ gy[x]) < 0);
         const int16_t m = middle[x];
-        const int flat = ay <= tangent;
-        const int steep = ay > (int16_t)(tangent + 2 * ax);
-        const int anti = (int16_t)(gx[x] ^ gy[x]) < 0;
-        const int16_t slanted_before = anti ? above[x + 1] : above[x - 1];
-        const int16_t slanted_after = anti ? below[x - 1] : below[x + 1];
-        const int16_t upright_before = steep ? above[x] : slanted_before;
-        const int16_t upright_after = steep ? (int16_t)(below[x] - 1) : slanted_after;
-        const int16_t before = flat ? middle[x - 1] : upright_before;
-        const int16_t after = flat ? (int16_t)(middle[x + 1] - 1) : upright_after; /* m >= after: m > after - 1 */
-        const int16_t most = before > after ? before : after;
-        mark[x] = m > (most > low ? most : low) ? 1 : 0;
+        const int16_t upright_before = choose(steep, above[x], choose(anti, above[x + 1], above[x - 1]));
+        const int16_t upright_after = choose(steep, below[x], choose(anti, below[x - 1], below[x + 1]));
+        const int16_t before = choose(flat, middle[x - 1], upright_before);
+        const int16_t after = choose(flat, middle[x + 1], upright_after);
+        const int16_t least = (int16_t)(after + (flat | steep)); /* m >= after: m > after - 1 */
+        mark[x] = (uint8_t)(mask_of(m > before) & mask_of(m > least) & mask_of(m > low) & 1);
     }
 }
 
-/* List the marked pixel, with its code for its mark. */
-static void list_point(drogue_slope *at, uint8_t *code, const drogue_frontend *f, const drogue_ring_row *ring,
-                       const uint16_t *const magnitude[3], const int16_t *gx, int32_t x)
+/* Where the marks are. Eight at a time are passed over or taken without a branch each: what is written for a pixel
+ * without a mark is written over. */
+static uint32_t list_marked(drogue_slope *points, const uint8_t *mark, int32_t count)
 {
-    const int32_t m = magnitude[1][x];
-    drogue_sector sector;
-    int32_t before;
-    int32_t after;
-    at->x = (uint16_t)x;
-    at->gx = gx[x];
-    at->gy = gx[padded(f) + x];
-    sector = drogue_canny_sector(at->gx, at->gy);
-    drogue_canny_padded_neighbours(&before, &after, sector, magnitude, x);
-    code[x] = drogue_rows_note(at, f, ring, sector, before, m, after);
+    uint32_t listed = 0;
+    int32_t x;
+    int32_t k;
+    for (x = 0; x < count; x += 8) {
+        uint64_t eight;
+        memcpy(&eight, mark + x, sizeof eight);
+        if (eight == 0) {
+            continue;
+        }
+        for (k = x; k < x + 8; k++) {
+            points[listed].x = (uint16_t)k;
+            listed += mark[k];
+        }
+    }
+    return listed;
 }
 
 uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part)
 {
     const drogue_ring_row ring = drogue_mask_ring_row(&f->config.ring, y);
     const int16_t *gx = derivative_row(f, y);
+    const int16_t *gy = gx + padded(f);
     const int32_t low = f->config.canny_low < 2040 ? f->config.canny_low : 2040;
     uint8_t *code = drogue_code_row(f, y);
     drogue_slope *points = drogue_rows_points(f);
     const uint16_t *magnitude[3];
-    uint32_t count = 0;
-    int32_t x;
+    uint32_t count;
+    uint32_t i;
     int32_t k;
     (void)part;
     for (k = 0; k < 3; k++) {
         magnitude[k] = magnitude_row(f, y + k - 1);
     }
-    mark_maxima(code, gx, gx + padded(f), (const int16_t *)magnitude[0], (const int16_t *)magnitude[1],
+    mark_maxima(code, gx, gy, (const int16_t *)magnitude[0], (const int16_t *)magnitude[1],
                 (const int16_t *)magnitude[2], (int16_t)low, padded(f));
     memset(code + f->width_px, 0, (size_t)(padded(f) - f->width_px));
-    for (x = 0; x < padded(f); x += 8) {
-        uint64_t eight;
-        memcpy(&eight, code + x, sizeof eight);
-        for (k = 0; eight != 0 && k < 8; k++) {
-            if (code[x + k] != 0) {
-                list_point(&points[count++], code, f, &ring, magnitude, gx, x + k);
-            }
-        }
+    count = list_marked(points, code, padded(f));
+    for (i = 0; i < count; i++) {
+        drogue_slope *p = &points[i];
+        drogue_sector sector;
+        int32_t before;
+        int32_t after;
+        p->gx = gx[p->x];
+        p->gy = gy[p->x];
+        sector = drogue_canny_sector(p->gx, p->gy);
+        drogue_canny_padded_neighbours(&before, &after, sector, magnitude, p->x);
+        code[p->x] = drogue_rows_note(p, f, &ring, sector, before, magnitude[1][p->x], after);
     }
     return count;
 }
