@@ -166,6 +166,36 @@ static void mark_maxima(uint8_t *restrict mark, const int16_t *restrict gx, cons
     }
 }
 
+/* Does a magnitude exceed 'low'? */
+static int any_exceeds(const int16_t *magnitude, int16_t low, int32_t count)
+{
+    int16_t most = 0;
+    int32_t x;
+    for (x = 0; x < count; x++) {
+        most = most > magnitude[x] ? most : magnitude[x];
+    }
+    return most > low;
+}
+
+/* The same for a row, piece by piece: most pieces of most images hold nothing. */
+static void mark_row(uint8_t *mark, const int16_t *gx, const int16_t *gy, const uint16_t *const magnitude[3],
+                     int16_t low, int32_t count)
+{
+    enum { PIECE = 32 };
+    const int16_t *above = (const int16_t *)magnitude[0];
+    const int16_t *middle = (const int16_t *)magnitude[1];
+    const int16_t *below = (const int16_t *)magnitude[2];
+    int32_t x;
+    for (x = 0; x < count; x += PIECE) {
+        const int32_t length = count - x < PIECE ? count - x : PIECE;
+        if (any_exceeds(middle + x, low, length)) {
+            mark_maxima(mark + x, gx + x, gy + x, above + x, middle + x, below + x, low, length);
+        } else {
+            memset(mark + x, 0, (size_t)length);
+        }
+    }
+}
+
 /* Where the marks are. Eight at a time are passed over or taken without a branch each: what is written for a pixel
  * without a mark is written over. */
 static uint32_t list_marked(drogue_slope *points, const uint8_t *mark, int32_t count)
@@ -203,8 +233,7 @@ uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part)
     for (k = 0; k < 3; k++) {
         magnitude[k] = magnitude_row(f, y + k - 1);
     }
-    mark_maxima(code, gx, gy, (const int16_t *)magnitude[0], (const int16_t *)magnitude[1],
-                (const int16_t *)magnitude[2], (int16_t)low, padded(f));
+    mark_row(code, gx, gy, magnitude, (int16_t)low, padded(f));
     memset(code + f->width_px, 0, (size_t)(padded(f) - f->width_px));
     count = list_marked(points, code, padded(f));
     for (i = 0; i < count; i++) {

@@ -27,7 +27,8 @@ namespace {
 const double rim_m = 0.35, inner_m = 0.12, depth_m = 0.25;
 
 /* Stated in docs/performance.md: geometric means over images and sides from 256 px of the library's time over OpenCV's. */
-const std::map<std::string, double> stated = {{"front end", 0.8}, {"measurement", 0.45}, {"search", 0.45}, {"tracking", 0.45}};
+const std::map<std::string, double> stated = {
+    {"front end", 0.8}, {"measurement", 0.45}, {"search", 0.45}, {"tracking", 0.45}};
 
 double cpu_s()
 {
@@ -109,8 +110,8 @@ std::vector<Image> images(bool quick)
 /* The library with memory for an image. */
 struct Library {
     Library(const cv::Mat &image, const accuracy::Camera &camera)
-        : q_image{image.data, image.cols, image.rows, static_cast<int32_t>(image.step)},
-          region{0, 0, image.cols, image.rows}
+        : q_image{image.data, image.cols, image.rows, static_cast<int32_t>(image.step)}, region{0, 0, image.cols,
+                                                                                                image.rows}
     {
         const auto side = static_cast<uint32_t>(std::max(image.cols, image.rows));
         const uint32_t area = side * side;
@@ -118,8 +119,15 @@ struct Library {
         memory.resize(drogue_workspace_bytes(&capacity) / sizeof(uint32_t) + 1);
         search_memory.resize(DROGUE_SEARCH_BYTES(image.cols));
         drogue_config_default(&config);
-        q_camera = {accuracy::to_q16(camera.fx_px), accuracy::to_q16(camera.fy_px), accuracy::to_q16(camera.cx_px),
-                    accuracy::to_q16(camera.cy_px), 0, 0, 0, 0, 0};
+        q_camera = {accuracy::to_q16(camera.fx_px),
+                    accuracy::to_q16(camera.fy_px),
+                    accuracy::to_q16(camera.cx_px),
+                    accuracy::to_q16(camera.cy_px),
+                    0,
+                    0,
+                    0,
+                    0,
+                    0};
         model = {accuracy::to_q16(rim_m), accuracy::to_q16(inner_m), accuracy::to_q16(depth_m)};
         drogue_track_config track_config;
         drogue_track_config_default(&track_config);
@@ -132,8 +140,8 @@ struct Library {
     {
         drogue_frontend f;
         const drogue_mask mask = drogue_mask_of_size(region.width_px, region.height_px);
-        const drogue_frontend_config c = {config.canny_low, config.canny_high, 1, ring, mask,
-                                          static_cast<uint32_t>(region.width_px) / 8};
+        const drogue_frontend_config c = {
+            config.canny_low, config.canny_high, 1, ring, mask, static_cast<uint32_t>(region.width_px) / 8};
         CV_Assert(drogue_frontend_begin(&f, &workspace, &c, region.width_px, region.height_px) == DROGUE_OK);
         for (int32_t y = 0; y < region.height_px; y++) {
             drogue_frontend_row(&f, drogue_image_row(&q_image, y));
@@ -264,9 +272,11 @@ void write_table(const std::string &folder, const std::vector<Entry> &entries, c
 void write_json(const std::string &folder, const std::vector<Entry> &entries)
 {
     cv::FileStorage file(folder + "/bench.json", cv::FileStorage::WRITE | cv::FileStorage::FORMAT_JSON);
-    file << "opencv" << CV_VERSION << "entries" << "[";
+    file << "opencv" << CV_VERSION << "entries"
+         << "[";
     for (const Entry &e : entries) {
-        file << "{" << "what" << e.what << "image" << e.image << "width" << e.width << "height" << e.height
+        file << "{"
+             << "what" << e.what << "image" << e.image << "width" << e.width << "height" << e.height
              << "ours_ns_per_pixel" << e.ours_ns << "opencv_ns_per_pixel" << e.opencv_ns << "ratio" << e.ratio << "}";
     }
     file << "]";
@@ -317,23 +327,27 @@ int run(const std::string &folder, bool quick)
             const accuracy::Camera camera = {f, f, middle, middle};
             Library library(pixels, camera);
             bench::Tracker tracker;
-            const auto both = [&](const char *what, const std::function<void()> &ours, const std::function<void()> &opencv) {
+            const auto both = [&](const char *what, const std::function<void()> &ours,
+                                  const std::function<void()> &opencv) {
                 entries.push_back(compare(what, image.name, pixels.size(), ours, opencv, budget_s));
                 std::fprintf(stderr, "%-12s %-20s %4d px  %7.2f %7.2f  %.2f\n", what, image.name.c_str(), side,
                              entries.back().ours_ns, entries.back().opencv_ns, entries.back().ratio);
             };
-            both("front end", [&] { library.front_end(false); }, [&] { (void)bench::edges(pixels); });
-            both("measurement", [&] { library.measure(); },
-                 [&] { (void)bench::measure(pixels, camera, rim_m, depth_m); });
-            both("tracking", [&] { library.follow(); }, [&] { (void)tracker.frame(pixels, camera, rim_m, depth_m); });
+            both(
+                "front end", [&] { library.front_end(false); }, [&] { (void)bench::edges(pixels); });
+            both(
+                "measurement", [&] { library.measure(); },
+                [&] { (void)bench::measure(pixels, camera, rim_m, depth_m); });
+            both(
+                "tracking", [&] { library.follow(); }, [&] { (void)tracker.frame(pixels, camera, rim_m, depth_m); });
             shares.push_back(shares_of(image.name, side, library));
         }
         const cv::Size frame_px(quick ? cv::Size(640, 360) : cv::Size(1280, 720));
         cv::Mat frame;
         cv::resize(image.of_side(512), frame, frame_px, 0, 0, cv::INTER_LINEAR);
         Library library(frame, {1500, 1500, 640, 360});
-        entries.push_back(compare("search", image.name, frame_px, [&] { library.seek(); },
-                                  [&] { (void)bench::search(frame); }, budget_s));
+        entries.push_back(compare(
+            "search", image.name, frame_px, [&] { library.seek(); }, [&] { (void)bench::search(frame); }, budget_s));
     }
     write_table(folder, entries, shares);
     write_json(folder, entries);
