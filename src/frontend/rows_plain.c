@@ -143,7 +143,7 @@ static inline int16_t choose(int16_t mask, int16_t then, int16_t otherwise)
     return (int16_t)((then & mask) | (otherwise & ~mask));
 }
 
-/* Mark the maxima that exceed 'low'. All is 16 bits wide, and every neighbour is read whether it counts or not. */
+/* Mark the maxima that exceed 'low' by their sector, doubled, plus 1. All is 16 bits wide, and every neighbour is read whether it counts or not. */
 static void mark_maxima(uint8_t *restrict mark, const int16_t *restrict gx, const int16_t *restrict gy,
                         const int16_t *restrict above, const int16_t *restrict middle, const int16_t *restrict below,
                         int16_t low, int32_t count)
@@ -161,8 +161,10 @@ static void mark_maxima(uint8_t *restrict mark, const int16_t *restrict gx, cons
         const int16_t upright_after = choose(steep, below[x], choose(anti, below[x - 1], below[x + 1]));
         const int16_t before = choose(flat, middle[x - 1], upright_before);
         const int16_t after = choose(flat, middle[x + 1], upright_after);
-        const int16_t least = (int16_t)(after + (flat | steep)); /* m >= after: m > after - 1 */
-        mark[x] = (uint8_t)(mask_of(m > before) & mask_of(m > least) & mask_of(m > low) & 1);
+        const int16_t least = (int16_t)(after + (flat | steep));          /* m >= after: m > after - 1 */
+        const int16_t slanted = (int16_t)(DROGUE_SECTOR_DIAGONAL - anti); /* a mask is -1 */
+        const int16_t sector = choose(flat, DROGUE_SECTOR_HORIZONTAL, choose(steep, DROGUE_SECTOR_VERTICAL, slanted));
+        mark[x] = (uint8_t)(mask_of(m > before) & mask_of(m > least) & mask_of(m > low) & (2 * sector + 1));
     }
 }
 
@@ -211,7 +213,7 @@ static uint32_t list_marked(drogue_slope *points, const uint8_t *mark, int32_t c
         }
         for (k = x; k < x + 8; k++) {
             points[listed].x = (uint16_t)k;
-            listed += mark[k];
+            listed += mark[k] & 1u;
         }
     }
     return listed;
@@ -238,12 +240,11 @@ uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part)
     count = list_marked(points, code, padded(f));
     for (i = 0; i < count; i++) {
         drogue_slope *p = &points[i];
-        drogue_sector sector;
+        const drogue_sector sector = (drogue_sector)(code[p->x] >> 1);
         int32_t before;
         int32_t after;
         p->gx = gx[p->x];
         p->gy = gy[p->x];
-        sector = drogue_canny_sector(p->gx, p->gy);
         drogue_canny_padded_neighbours(&before, &after, sector, magnitude, p->x);
         code[p->x] = drogue_rows_note(p, f, &ring, sector, before, magnitude[1][p->x], after);
     }
