@@ -53,23 +53,25 @@ void drogue_rows_gradient(drogue_frontend *f, int32_t y);
  * part 0 clears the row's. The gradient of rows y - 1 to y + 1 is there. Returns their number. */
 uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part);
 
-/* The pixel 'at' is a maximum; its code. Its offset is found where it is in the ring. */
-static inline uint8_t drogue_rows_note(drogue_slope *at, const drogue_frontend *f, const drogue_ring_row *ring,
-                                       drogue_sector sector, int32_t before, int32_t m, int32_t after)
+/* Code of a maximum; outside the ring it is in no arc and needs no offset. */
+static inline uint32_t drogue_rows_code(const drogue_frontend *f, int32_t m)
 {
-    uint32_t code = DROGUE_CODE_CANDIDATE;
-    if (m > f->config.canny_high) {
-        code |= DROGUE_CODE_STRONG;
-    }
-    at->dx_q5 = 0;
-    at->dy_q5 = 0;
-    if (!f->config.use_ring || drogue_ring_row_holds(ring, at->x)) {
-        const int32_t offset_q5 = drogue_canny_offset_q5(before, m, after);
-        at->dx_q5 = (int8_t)(drogue_canny_step_x(sector) * offset_q5);
-        at->dy_q5 = (int8_t)(drogue_canny_step_y(sector) * offset_q5);
-        code |= (drogue_direction_class(at->gx, at->gy) + 1u) << DROGUE_CODE_CLASS_SHIFT;
-    }
-    return (uint8_t)code;
+    return m > f->config.canny_high ? DROGUE_CODE_CANDIDATE | DROGUE_CODE_STRONG : DROGUE_CODE_CANDIDATE;
+}
+
+static inline int drogue_rows_in_ring(const drogue_frontend *f, const drogue_ring_row *ring, int32_t x)
+{
+    return !f->config.use_ring || drogue_ring_row_holds(ring, x);
+}
+
+/* Class of a maximum in the ring, as part of its code; its offset is put down. */
+static inline uint32_t drogue_rows_place(drogue_slope *at, drogue_sector sector, int32_t before, int32_t m,
+                                         int32_t after)
+{
+    const int32_t offset_q5 = drogue_canny_offset_q5(before, m, after);
+    at->dx_q5 = (int8_t)(drogue_canny_step_x(sector) * offset_q5);
+    at->dy_q5 = (int8_t)(drogue_canny_step_y(sector) * offset_q5);
+    return (drogue_direction_class(at->gx, at->gy) + 1u) << DROGUE_CODE_CLASS_SHIFT;
 }
 
 /* Put the border of a row of pixels in its place, reflected: pixels -2, -1, width_px, width_px + 1. */

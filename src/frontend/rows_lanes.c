@@ -379,10 +379,15 @@ uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part)
     for (p = points; p < last; p++) {
         const uint32_t *at = rows.row + p->x - begin;
         const drogue_sector sector = (drogue_sector)p->dx_q5;
-        int32_t before;
-        int32_t after;
-        neighbours_of(&before, &after, &rows, at, sector, lane);
-        code[p->x] = drogue_rows_note(p, f, &ring, sector, before, lane_of(*at, lane), after);
+        const int32_t m = lane_of(*at, lane);
+        uint32_t c = drogue_rows_code(f, m);
+        if (drogue_rows_in_ring(f, &ring, p->x)) {
+            int32_t before;
+            int32_t after;
+            neighbours_of(&before, &after, &rows, at, sector, lane);
+            c |= drogue_rows_place(p, sector, before, m, after);
+        }
+        code[p->x] = (uint8_t)c;
     }
     return (uint32_t)(last - points);
 }

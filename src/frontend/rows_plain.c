@@ -241,12 +241,17 @@ uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part)
     for (i = 0; i < count; i++) {
         drogue_slope *p = &points[i];
         const drogue_sector sector = (drogue_sector)(code[p->x] >> 1);
-        int32_t before;
-        int32_t after;
+        const int32_t m = magnitude[1][p->x];
+        uint32_t c = drogue_rows_code(f, m);
         p->gx = gx[p->x];
         p->gy = gy[p->x];
-        drogue_canny_padded_neighbours(&before, &after, sector, magnitude, p->x);
-        code[p->x] = drogue_rows_note(p, f, &ring, sector, before, magnitude[1][p->x], after);
+        if (drogue_rows_in_ring(f, &ring, p->x)) {
+            int32_t before;
+            int32_t after;
+            drogue_canny_padded_neighbours(&before, &after, sector, magnitude, p->x);
+            c |= drogue_rows_place(p, sector, before, m, after);
+        }
+        code[p->x] = (uint8_t)c;
     }
     return count;
 }
