@@ -6,8 +6,13 @@
 #define DROGUE_LANES_H
 
 #include <stdint.h>
-#ifdef __ARM_FEATURE_SIMD32
-#include <arm_acle.h>
+
+/* Are there instructions for lanes (Armv7E-M)?  Called by the names that gcc and clang have for ACLE's intrinsics, since the
+ * header of those is not on every machine. */
+#if defined(__ARM_FEATURE_SIMD32) && defined(__GNUC__)
+#define DROGUE_LANES_INSTRUCTIONS 1
+#else
+#define DROGUE_LANES_INSTRUCTIONS 0
 #endif
 
 #ifdef __cplusplus
@@ -37,8 +42,8 @@ static inline uint32_t drogue_lanes_upper(uint32_t a, uint32_t b) { return (a >>
 /* Sum of lanes and the even lanes of four bytes; an instruction of its own where there are instructions for lanes. */
 static inline uint32_t drogue_lanes_add_even(uint32_t sum, uint32_t bytes)
 {
-#ifdef __ARM_FEATURE_SIMD32
-    return (uint32_t)__uxtab16((uint16x2_t)sum, (uint8x4_t)bytes);
+#if DROGUE_LANES_INSTRUCTIONS
+    return (uint32_t)__builtin_arm_uxtab16(sum, bytes);
 #else
     return sum + drogue_lanes_even(bytes);
 #endif

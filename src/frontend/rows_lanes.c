@@ -9,24 +9,24 @@
 
 /* Signed lanes: derivatives and what they are made of, in [-1023, 1023]. Without instructions for them a word is the sum of
  * both, so that plain sums and differences serve. */
-#ifdef __ARM_FEATURE_SIMD32
-static inline uint32_t signed_sum(uint32_t a, uint32_t b) { return (uint32_t)__sadd16((int16x2_t)a, (int16x2_t)b); }
+#if DROGUE_LANES_INSTRUCTIONS
+static inline uint32_t signed_sum(uint32_t a, uint32_t b)
+{
+    return (uint32_t)__builtin_arm_sadd16((int32_t)a, (int32_t)b);
+}
 static inline uint32_t signed_difference(uint32_t a, uint32_t b)
 {
-    return (uint32_t)__ssub16((int16x2_t)a, (int16x2_t)b);
+    return (uint32_t)__builtin_arm_ssub16((int32_t)a, (int32_t)b);
 }
 static inline uint32_t signed_magnitude(uint32_t v)
 {
     const uint32_t negated = signed_difference(0, v); /* says in flags where it is not negative */
-    return (uint32_t)__sel((uint8x4_t)negated, (uint8x4_t)v);
+    return (uint32_t)__builtin_arm_sel(negated, v);
 }
 static inline uint32_t l1_magnitude(uint32_t dx, uint32_t dy) { return signed_magnitude(dx) + signed_magnitude(dy); }
 static inline int16_t signed_lane(uint32_t lanes, uint32_t lane) { return (int16_t)(lanes >> lane); }
 /* What a lane has above another. */
-static inline uint32_t excess_of(uint32_t v, uint32_t low)
-{
-    return (uint32_t)__uqsub16((uint16x2_t)v, (uint16x2_t)low);
-}
+static inline uint32_t excess_of(uint32_t v, uint32_t low) { return (uint32_t)__builtin_arm_uqsub16(v, low); }
 #else
 static inline uint32_t signed_sum(uint32_t a, uint32_t b) { return a + b; }
 static inline uint32_t signed_difference(uint32_t a, uint32_t b) { return a - b; }
