@@ -206,8 +206,8 @@ START_TEST(widest_difference_fails)
     conf_run_case(&run, &c);
     ck_assert_int_eq(conf_end(&run), 1);
     ck_assert_ptr_nonnull(strstr(report, "FAIL eigen/a: reference full word 3: expected 8000000000000000 "
-                                         "(-9223372036854775808), found 1000000000000000 (1152921504606846976), "
-                                         "bound 4294967295, 3 of 12 words off"));
+                                         "(-9223372036854775808), found "));
+    ck_assert_ptr_nonnull(strstr(report, ", bound 4294967295, 3 of 12 words off"));
     ck_assert_ptr_nonnull(strstr(report, "FAIL eigen/a: exact values: not among the expected outputs"));
     ck_assert_ptr_nonnull(strstr(report, "cases=1 exact=0 failed=1"));
 }
@@ -240,10 +240,11 @@ START_TEST(measures_follow_the_layout)
     const conf_array packed = words("covariance", 64, 15, matrix);
     const conf_measure *m = conf_measure_of("frame", "covariance", 14);
     size_t before = 0;
-    ck_assert_uint_eq(conf_measure_period(&before, "eigen", "full"), 1);
-    ck_assert_uint_eq(before, 3);
-    ck_assert_int_eq(conf_measure_of("eigen", "full", 2)->letter, 'V');
-    ck_assert_int_eq(conf_measure_of("eigen", "full", 11)->letter, 'D');
+    ck_assert_uint_eq(conf_measure_period(&before, "quality", "quality"), 1);
+    ck_assert_uint_eq(before, 2);
+    ck_assert_int_eq(conf_measure_of("quality", "quality", 1)->letter, 'c');
+    ck_assert_int_eq(conf_measure_of("quality", "quality", 66)->letter, 'r');
+    ck_assert_int_eq(conf_measure_of("eigen", "full", 11)->kind, CONF_UNREFERENCED);
     ck_assert_int_eq(conf_measure_of("undistort", "distorted", 3 * 70)->kind, CONF_EXACT);
     ck_assert_int_eq(conf_measure_of("undistort", "distorted", 3 * 70 + 2)->letter, 'p');
     ck_assert_ptr_null(conf_measure_of("ellipse", "ellipse", 6)); /* it has six words */
