@@ -195,20 +195,21 @@ END_TEST
 START_TEST(widest_difference_fails)
 {
     static conf_run run;
-    static const int64_t matrix[6] = {0};
-    static const int64_t low[12] = {0, 0, 0, INT64_MIN, 0, 0, 0, INT64_MIN, 0, 0, 0, INT64_MIN};
+    static const int16_t points[] = {4, 4, 9, 5};
+    static const int32_t arc[] = {900, 900, 9, 0, 0};
+    static const int64_t low[] = {INT64_MIN};
     static const uint64_t bound[] = {UINT32_MAX};
-    const conf_array in = words("matrix", 64, 6, matrix);
-    const conf_expected expected = {{"full", 64, 12, low, 0, 0}, bound, 1};
-    const conf_case c = {"eigen/a", "eigen", "ordinary", &in, 1, &expected, 1, &expected, 0};
+    const conf_array in[] = {words("points", 16, 4, points), words("params", 32, 5, arc)};
+    const conf_expected expected = {words("distance2", 64, 1, low), bound, 1};
+    const conf_case c = {"constraints/a", "constraints", "ordinary", in, 2, &expected, 1, &expected, 0};
     report[0] = '\0';
     conf_begin(&run, put);
     conf_run_case(&run, &c);
     ck_assert_int_eq(conf_end(&run), 1);
-    ck_assert_ptr_nonnull(strstr(report, "FAIL eigen/a: reference full word 3: expected 8000000000000000 "
-                                         "(-9223372036854775808), found "));
-    ck_assert_ptr_nonnull(strstr(report, ", bound 4294967295, 3 of 12 words off"));
-    ck_assert_ptr_nonnull(strstr(report, "FAIL eigen/a: exact values: not among the expected outputs"));
+    ck_assert_ptr_nonnull(strstr(report, "FAIL constraints/a: reference distance2 word 0: expected 8000000000000000 "
+                                         "(-9223372036854775808), found 00"));
+    ck_assert_ptr_nonnull(strstr(report, ", bound 4294967295, 1 of 1 words off"));
+    ck_assert_ptr_nonnull(strstr(report, "FAIL constraints/a: exact verdict: not among the expected outputs"));
     ck_assert_ptr_nonnull(strstr(report, "cases=1 exact=0 failed=1"));
 }
 END_TEST
