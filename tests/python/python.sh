@@ -18,8 +18,10 @@ python=$work/venv/bin/python
 wheel=$(echo "$work"/drogue-*.whl)
 "${pip[@]}" install "$wheel[report]" pytest mypy cocotb
 
-cmake --preset release >/dev/null
-cmake --build --preset release >/dev/null
+if ! { cmake --preset release && cmake --build --preset release; } >"$work/log"; then
+    tail -n 20 "$work/log"
+    exit 1
+fi
 cd "$work" # not the tree: what is installed is what counts
 DROGUE_PROGRAM=$root/build/release/src/cli/drogue "$python" -m pytest -q -p no:cacheprovider "$root/tests/python/test_drogue.py"
 
