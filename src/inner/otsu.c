@@ -88,8 +88,8 @@ uint8_t drogue_otsu(const uint32_t *histogram)
         total += histogram[level];
         sum += histogram[level] * (uint32_t)level;
     }
-    p_room = drogue_clz_u32(total) + drogue_clz_u32(sum);
-    q_room = 2 * drogue_clz_u32(total);
+    p_room = drogue_clz_u32(total | 1u) + drogue_clz_u32(sum); /* below 64 without a point, too */
+    q_room = 2 * drogue_clz_u32(total | 1u);
     set(&best, 0, 1, p_room, q_room);
     for (level = 0; level < 255; level++) {
         variance v;

@@ -133,8 +133,8 @@ fresh && edit '/ellipse.ref.hex/s/"bound": \[[^]]*\], //'
 spoiled 'class lsb without bound' 2 "ellipse/tiny: reference ellipse: field 'bound' is missing"
 fresh && edit '/ellipse.ref.hex/s/"bound": \[0/"bound": [-1/'
 spoiled 'negative bound' 2 "ellipse/tiny: reference ellipse: field 'bound'"
-fresh && edit '/ellipse.ref.hex/s/\[0, 4/[0, 5/'
-spoiled 'bound wider than the measure' 2 "ellipse/tiny: reference ellipse: field 'bound': 5 LSB for word 1 (centre, axes), where 4 is the most"
+fresh && edit '/ellipse.ref.hex/s/\[0, 4/[0, 9/'
+spoiled 'bound wider than the measure' 2 "ellipse/tiny: reference ellipse: field 'bound': 9 LSB for word 1 (centre, axes), where 8 is the most"
 fresh && edit '/ellipse.ref.hex/s/\[0, 4/[1, 4/'
 spoiled 'bound of an exact word' 2 "ellipse/tiny: reference ellipse: field 'bound': 1 LSB for word 0 (exact), where 0 is the most"
 fresh && edit '/ellipse.ref.hex/s/4, 64\]/4, 4294967295]/'
