@@ -39,6 +39,13 @@ static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
     return drogue_canny_sector_by(gx, gy, ax, ax * (uint32_t)DROGUE_CANNY_TG22);
 }
 
+/* |gx| tan(22.5 degrees), rounded down; |gx| in [0, 1023]. In rows of 16-bit numbers the sector is horizontal where |gy| is
+ * at most that, vertical where it exceeds it by more than 2 |gx|: the same as above but for (0, 0), which is no edge. */
+static inline uint16_t drogue_canny_tangent(uint16_t ax)
+{
+    return (uint16_t)((ax * (2u * (uint32_t)DROGUE_CANNY_TG22)) >> 16);
+}
+
 /* Step from a pixel to the neighbour 'after' it across the edge: x and y component in {-1, 0, 1}. */
 static inline int32_t drogue_canny_step_x(drogue_sector sector)
 {
@@ -120,17 +127,11 @@ static inline int32_t drogue_canny_vertex_offset(const drogue_canny_vertex *v)
  * (0, 0) has no direction and cannot be an edge; it gives 3. */
 static inline uint32_t drogue_direction_class(int16_t gx, int16_t gy_down)
 {
-    int gy = -gy_down;
-    if (gx >= 0 && gy > 0) {
-        return 0;
-    }
-    if (gx < 0 && gy >= 0) {
-        return 1;
-    }
-    if (gx <= 0 && gy < 0) {
-        return 2;
-    }
-    return 3;
+    const int gy = -gy_down;
+    const uint32_t first = (gx >= 0) & (gy > 0); /* no two of them hold */
+    const uint32_t second = (gx < 0) & (gy >= 0);
+    const uint32_t third = (gx <= 0) & (gy < 0);
+    return 3u - 3u * first - 2u * second - third;
 }
 
 /* Suppression and thresholds for one row.

@@ -34,14 +34,13 @@ typedef struct drogue_capacity {
 #define DROGUE_LABELS_FOR(side_px) (3u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 140u + 2u)
 #define DROGUE_ARCS_FOR(side_px) ((size_t)96u)
 
-#define DROGUE_FOURS(width_px) (((size_t)(width_px) + 3u) / 4u) /* words that hold a row of pixels */
+#define DROGUE_HALF(width_px) (((size_t)(width_px) + 7u) / 8u * 4u) /* half of a row, rounded up to four pixels */
 
 /* Bytes of the row buffers. What the outline needs after them lies in the same place: constraints.h and outline.h check
  * that it fits. */
-#define DROGUE_ROWS_BYTES(width_px)                                                                            \
-    ((size_t)(width_px) * (sizeof(drogue_merge) + 18u) +                                                       \
-     DROGUE_FOURS(width_px) * (5u * 4u + 3u * 8u + 4u * 8u + 8u * sizeof(drogue_slope)) + 5u * 4u + 3u * 16u + \
-     4u * 8u)
+#define DROGUE_ROWS_BYTES(width_px)                      \
+    ((size_t)(width_px) * (sizeof(drogue_merge) + 16u) + \
+     DROGUE_HALF(width_px) * (5u * 2u + 3u * 4u + 4u * 4u + 32u + 4u) + 5u * 4u + 7u * 8u)
 #define DROGUE_SCRATCH_BYTES ((size_t)4608)
 
 /* Bytes of memory for a workspace: usable in a static array's size. */
@@ -72,12 +71,11 @@ typedef struct drogue_workspace {
     drogue_merge *merges;                /* width */
     uint32_t *component_rows;            /* 2 x width */
     uint32_t *arc_rows;                  /* 2 x width */
-    uint8_t *
-        raw_rows; /* 5 x (fours + 1) words, ring of input rows, pixel 0 at byte 2; aligned for uint32_t, like the next */
-    uint8_t *smooth_rows;     /* 3 x 2 (fours + 2) words, ring of rows of lanes, pixel 0 at word 2 */
-    uint16_t *magnitude_rows; /* 4 x 4 (fours + 1), pixel 0 at 2; the fourth stays 0 and stands for rows outside */
-    drogue_slope *slope_rows; /* 2 x 4 fours */
-    uint8_t *code_rows;       /* 2 x width: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1 in the ring */
+    uint8_t *raw_rows;                   /* 5 x (2 half + 4): what these rows hold is for src/frontend to say */
+    uint8_t *smooth_rows;                /* 3 x 4 (half + 2); aligned for uint32_t, like the others */
+    uint16_t *magnitude_rows;            /* 4 x 2 (half + 2) */
+    drogue_slope *slope_rows;            /* 4 half */
+    uint8_t *code_rows; /* 4 half: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1 in the ring */
 } drogue_workspace;
 
 /* Bytes that drogue_workspace_init() needs; equals DROGUE_WORKSPACE_BYTES. */
@@ -113,7 +111,7 @@ typedef struct drogue_frontend {
     drogue_labels arc_labels;
     uint32_t edge_count;
     uint32_t edges_full;
-    uint32_t slope_count[2]; /* slopes in the even and in the odd row */
+    uint32_t slope_count[2]; /* noted in the even and in the odd row */
 } drogue_frontend;
 
 /* The lists a frame leaves in the workspace. */

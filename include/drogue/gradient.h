@@ -79,19 +79,6 @@ static inline uint16_t drogue_magnitude_l1(int16_t gx, int16_t gy)
  */
 void drogue_gradient_row(int16_t *gx, int16_t *gy, uint16_t *magnitude, const uint8_t *const rows[3], int32_t width_px);
 
-/* The same four pixels at a time, for rows of lanes that bring their border with them; of the gradients only those that
- * matter to the edge detector.
- *
- *  slopes     out, room for 4 * fours: the pixels whose magnitude exceeds 'low', ascending
- *  magnitude  out, 4 * fours, L1; those from width_px on mean nothing
- *  rows       the rows y-1, y, y+1 at pixel 0, each readable from pixel -4 to 4 * fours + 3 and right from -1 to width_px;
- *             fours is width_px / 4 rounded up
- *  low        >= 0
- *  return     number of slopes
- */
-uint32_t drogue_gradient_lanes_row(drogue_slope *slopes, uint16_t *magnitude, const uint32_t *const rows[3],
-                                   int32_t width_px, int32_t low);
-
 /* Gradient of a whole image; gx, gy, magnitude hold width_px * height_px each, rows adjacent.
  *
  *  return  DROGUE_OK, DROGUE_E_ARGUMENT

@@ -1,13 +1,19 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Two 16-bit lanes in a word: how the row loops do the same sum for two pixels at once on a 32-bit core. Sums of lanes
  * are plain sums of words as long as no lane leaves [0, 65535].
- *
- * Four pixels x .. x + 3 are two words, the lanes (x, x + 2) and the lanes (x + 1, x + 3), the left pixel lower; a row
- * of pixels is a row of such pairs. The byte order of the machine does not matter. */
+ */
 #ifndef DROGUE_LANES_H
 #define DROGUE_LANES_H
 
 #include <stdint.h>
+
+/* Are there instructions for lanes (Armv7E-M)?  Called by the names that gcc and clang have for ACLE's intrinsics, since the
+ * header of those is not on every machine. */
+#if defined(__ARM_FEATURE_SIMD32) && defined(__GNUC__)
+#define DROGUE_LANES_INSTRUCTIONS 1
+#else
+#define DROGUE_LANES_INSTRUCTIONS 0
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -29,33 +35,19 @@ static inline uint32_t drogue_first_lowest(uint32_t v)
 static inline uint32_t drogue_lanes_even(uint32_t bytes) { return bytes & 0x00FF00FFu; }
 static inline uint32_t drogue_lanes_odd(uint32_t bytes) { return (bytes >> 8) & 0x00FF00FFu; }
 
-/* Row of lanes from 4 * fours bytes. */
-static inline void drogue_lanes_row(uint32_t *row, const uint32_t *bytes, int32_t fours)
-{
-    int32_t i;
-    for (i = 0; i < fours; i++) {
-        uint32_t word = drogue_first_lowest(bytes[i]);
-        row[2 * i] = drogue_lanes_even(word);
-        row[2 * i + 1] = drogue_lanes_odd(word);
-    }
-}
+/* The lower lanes of two words, and their upper lanes: of a the lower, of b the upper one. */
+static inline uint32_t drogue_lanes_lower(uint32_t a, uint32_t b) { return (a & 0xFFFFu) | (b << 16); }
+static inline uint32_t drogue_lanes_upper(uint32_t a, uint32_t b) { return (a >> 16) | (b & 0xFFFF0000u); }
 
-/* Store pixel x of a row of lanes; x >= -4, 'row' points at pixel 0. */
-static inline void drogue_lanes_set(uint32_t *row, int32_t x, uint32_t value)
+/* Sum of lanes and the even lanes of four bytes; an instruction of its own where there are instructions for lanes. */
+static inline uint32_t drogue_lanes_add_even(uint32_t sum, uint32_t bytes)
 {
-    uint32_t *word = row + (x >> 2) * 2 + (x & 1);
-    *word = (x & 2) != 0 ? (*word & 0xFFFFu) | (value << 16) : (*word & 0xFFFF0000u) | value;
+#if DROGUE_LANES_INSTRUCTIONS
+    return (uint32_t)__builtin_arm_uxtab16(sum, bytes);
+#else
+    return sum + drogue_lanes_even(bytes);
+#endif
 }
-
-/* Load pixel x. */
-static inline uint32_t drogue_lanes_get(const uint32_t *row, int32_t x)
-{
-    uint32_t word = row[(x >> 2) * 2 + (x & 1)];
-    return (x & 2) != 0 ? word >> 16 : word & 0xFFFFu;
-}
-
-/* The upper lane of one word before the lower lane of the next. */
-static inline uint32_t drogue_lanes_between(uint32_t before, uint32_t after) { return (before >> 16) | (after << 16); }
 
 #ifdef __cplusplus
 }

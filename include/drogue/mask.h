@@ -48,10 +48,11 @@ static inline int drogue_ring_row_holds_square(const drogue_ring_row *row, int64
     return (9 * d >= row->least_x9) & (d <= row->most);
 }
 
+/* x in [-2^29, 2^29]. */
 static inline int drogue_ring_row_holds(const drogue_ring_row *row, int32_t x)
 {
-    const int64_t dx = 2 * (int64_t)x - row->centre2_x;
-    return drogue_ring_row_holds_square(row, dx * dx);
+    const int32_t dx = 2 * x - row->centre2_x;
+    return drogue_ring_row_holds_square(row, (int64_t)dx * dx);
 }
 
 static inline int drogue_mask_in_ring(const drogue_mask *mask, int32_t x, int32_t y)

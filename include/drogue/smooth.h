@@ -51,15 +51,6 @@ static inline int32_t drogue_reflect_101(int32_t i, int32_t n)
  */
 void drogue_smooth_row(uint8_t *out, uint16_t *column, const uint8_t *const rows[5], int32_t width_px);
 
-/* The same four pixels at a time, for rows that bring their border with them.
- *
- *  out    at pixel 0: grey levels 0 .. 4 * fours - 1 as a row of lanes, of which those beyond the width mean nothing;
- *         pixels -4 .. -1 are overwritten
- *  rows   the rows y-2 .. y+2, border already reflected; bytes in fours + 1 words each: pixels -2 .. 4 * fours + 1
- *  fours  pixels / 4 rounded up
- */
-void drogue_smooth_lanes_row(uint32_t *out, const uint32_t *const rows[5], int32_t fours);
-
 /* Smooth a whole image.
  *
  *  out     width_px * height_px grey levels, rows adjacent

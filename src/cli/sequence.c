@@ -99,11 +99,11 @@ int sequence_next(picture *out, const char **path, int *end, sequence *s, const 
 {
     int code;
     memset(out, 0, sizeof *out);
-    *path = o->files[s->next];
     *end = s->next >= o->file_count;
     if (*end) {
         return EXIT_MEASURED;
     }
+    *path = o->files[s->next];
     if (o->raw.kind == RAW_NONE && strcmp(*path, "-") != 0) {
         s->next++;
         return picture_read_grey(out, *path);

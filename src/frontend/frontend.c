@@ -4,13 +4,12 @@
 
 #include <string.h>
 
-enum { CODE_CANDIDATE = 1, CODE_STRONG = 2, CODE_CLASS_SHIFT = 2, CODE_CLASS_MASK = 0x1C };
+#include "label_pass.h"
+#include "rows.h"
 
 drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace *workspace,
                                     const drogue_frontend_config *config, int32_t width_px, int32_t height_px)
 {
-    size_t width;
-    size_t fours;
     if (config->canny_low < 0 || config->canny_high < config->canny_low ||
         (config->use_ring && !drogue_mask_valid(&config->ring))) {
         return DROGUE_E_ARGUMENT;
@@ -33,13 +32,9 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
     frontend->edges_full = 0;
     drogue_labels_reset(&frontend->components, workspace->component_parent, workspace->capacity.labels);
     drogue_labels_reset(&frontend->arc_labels, workspace->arc_parent, workspace->capacity.labels);
-    width = (size_t)width_px;
-    fours = DROGUE_FOURS(width_px);
     memset(workspace->component_strong, 0, workspace->capacity.labels * sizeof(uint32_t));
-    memset(workspace->raw_rows, 0, 5 * (fours + 1) * sizeof(uint32_t));
-    memset(workspace->smooth_rows, 0, 3 * 2 * (fours + 2) * sizeof(uint32_t));
-    memset(workspace->magnitude_rows + 3 * 4 * (fours + 1), 0, 4 * (fours + 1) * sizeof(uint16_t));
-    memset(workspace->code_rows, 0, 2 * width);
+    memset(workspace->code_rows, 0, 4 * (size_t)drogue_row_half(frontend));
+    drogue_rows_begin(frontend);
     return DROGUE_OK;
 }
 
@@ -62,155 +57,77 @@ static void append_edge(drogue_frontend *f, const drogue_slope *point, int32_t y
     e->arc = label;
 }
 
-/* Keep of the slopes of row y the maxima across their edge, and note their codes; those in the ring get their offset.
- * Returns the number kept. */
-static uint32_t suppress(drogue_frontend *f, uint8_t *code, drogue_slope *slopes, const uint16_t *const magnitude[3],
-                         int32_t y)
+/* Resolve the merges from 'last' back to 'first'. A row's merges of components lie at the list's begin, those of arcs from
+ * its end backward: where a component's merge is, no candidate is above, so that the column before has no arc's; a list as
+ * long as the row holds both. */
+static void resolve_backward(uint32_t *parent, drogue_merge *first, drogue_merge *last)
 {
-    const drogue_ring_row ring = drogue_mask_ring_row(&f->config.ring, y);
-    const drogue_slope *end = slopes + f->slope_count[y & 1];
-    const drogue_slope *s;
-    drogue_slope *kept = slopes;
-    memset(code, 0, (size_t)f->width_px);
-    for (s = slopes; s < end; s++) {
-        drogue_sector sector = drogue_canny_sector(s->gx, s->gy);
-        int32_t m = magnitude[1][s->x];
-        int32_t before;
-        int32_t after;
-        uint32_t c;
-        drogue_canny_padded_neighbours(&before, &after, sector, magnitude, s->x);
-        if (!drogue_canny_is_maximum(sector, before, m, after)) {
-            continue;
-        }
-        *kept = *s;
-        c = m > f->config.canny_high ? CODE_CANDIDATE | CODE_STRONG : CODE_CANDIDATE;
-        if (!f->config.use_ring || drogue_ring_row_holds(&ring, s->x)) {
-            int32_t offset_q5 = drogue_canny_offset_q5(before, m, after);
-            kept->dx_q5 = (int8_t)(drogue_canny_step_x(sector) * offset_q5);
-            kept->dy_q5 = (int8_t)(drogue_canny_step_y(sector) * offset_q5);
-            c |= (drogue_direction_class(s->gx, s->gy) + 1u) << CODE_CLASS_SHIFT;
-        }
-        code[s->x] = (uint8_t)c;
-        kept++;
+    const uint32_t count = (uint32_t)(last + 1 - first);
+    drogue_merge *a;
+    for (a = first; a < last; a++, last--) { /* into the order of the row */
+        const drogue_merge t = *a;
+        *a = *last;
+        *last = t;
     }
-    return (uint32_t)(kept - slopes);
-}
-
-/* Pixel 0 of a row in the ring buffers; row 3 of the magnitude stays 0. */
-static uint8_t *raw_row(const drogue_frontend *f, int32_t y)
-{
-    return f->workspace->raw_rows + (size_t)(y % 5) * (DROGUE_FOURS(f->width_px) + 1) * 4 + 2;
-}
-
-static uint32_t *smooth_row(const drogue_frontend *f, int32_t y)
-{
-    uint32_t *rows = (uint32_t *)(void *)f->workspace->smooth_rows;
-    return rows + (size_t)(y % 3) * (DROGUE_FOURS(f->width_px) + 2) * 2 + 2;
-}
-
-static uint16_t *magnitude_row(const drogue_frontend *f, int32_t y)
-{
-    size_t row = y >= 0 && y < f->height_px ? (size_t)(y % 3) : 3;
-    return f->workspace->magnitude_rows + row * (DROGUE_FOURS(f->width_px) + 1) * 4 + 2;
-}
-
-static drogue_slope *slope_row(const drogue_frontend *f, int32_t y)
-{
-    return f->workspace->slope_rows + (size_t)(y & 1) * DROGUE_FOURS(f->width_px) * 4;
-}
-
-/* A point that was refused a component belongs to no arc, so that the points of an arc share one component. */
-static void forget_refused(uint8_t *code, const drogue_slope *points, uint32_t count, const uint32_t *component)
-{
-    uint32_t i;
-    for (i = 0; i < count; i++) {
-        if (component[points[i].x] == 0) {
-            code[points[i].x] &= (uint8_t)~CODE_CLASS_MASK;
-        }
-    }
+    drogue_labels_resolve(parent, first, count);
 }
 
 /* Suppress, threshold, label and list row y, whose magnitude is complete above and below. */
 static void canny_step(drogue_frontend *f, int32_t y)
 {
     drogue_workspace *w = f->workspace;
-    size_t width = (size_t)f->width_px;
-    const uint16_t *magnitude[3];
-    drogue_slope *points = slope_row(f, y);
-    uint8_t *code = w->code_rows + (size_t)(y & 1) * width;
-    const uint8_t *code_above = w->code_rows + (size_t)(~y & 1) * width;
-    uint32_t *component = w->component_rows + (size_t)(y & 1) * width;
-    uint32_t *arc = w->arc_rows + (size_t)(y & 1) * width;
-    uint32_t count;
-    uint32_t i;
-    magnitude[0] = magnitude_row(f, y - 1);
-    magnitude[1] = magnitude_row(f, y);
-    magnitude[2] = magnitude_row(f, y + 1);
-    count = suppress(f, code, points, magnitude, y);
-    drogue_label_points(component, &f->components, w->merges, w->component_rows + (size_t)(~y & 1) * width, code,
-                        code_above, CODE_CANDIDATE, f->width_px, points, count);
-    if (f->components.full) {
-        forget_refused(code, points, count, component);
-    }
-    drogue_label_points(arc, &f->arc_labels, w->merges, w->arc_rows + (size_t)(~y & 1) * width, code, code_above,
-                        CODE_CLASS_MASK, f->width_px, points, count);
-    for (i = 0; i < count; i++) {
-        int32_t x = points[i].x;
-        w->component_strong[component[x]] |= code[x] & CODE_STRONG;
-        if (arc[x] != 0) {
-            w->arc_component[arc[x]] = component[x];
-            append_edge(f, &points[i], y, arc[x]);
+    const size_t width = (size_t)f->width_px;
+    const size_t row = (size_t)(y & 1) * width;
+    const size_t above = width - row;
+    drogue_merge *last_merge = w->merges + width - 1;
+    drogue_label_pass components =
+        drogue_label_pass_of(&f->components, w->component_rows + row, w->component_rows + above, w->merges, 1,
+                             f->width_px, DROGUE_CODE_CANDIDATE);
+    drogue_label_pass arcs = drogue_label_pass_of(&f->arc_labels, w->arc_rows + row, w->arc_rows + above, last_merge,
+                                                  -1, f->width_px, DROGUE_CODE_CLASS_MASK);
+    uint8_t *code = drogue_code_row(f, y);
+    const uint8_t *code_above = drogue_code_row(f, y + 1);
+    uint32_t *strong = w->component_strong;
+    int32_t part;
+    for (part = 0; part < DROGUE_ROW_PARTS; part++) {
+        const drogue_slope *point = drogue_rows_points(f);
+        const drogue_slope *end = point + drogue_rows_maxima(f, y, part);
+        for (; point < end; point++) {
+            const int32_t x = point->x;
+            const uint32_t component = drogue_label_pixel(&components, &f->components, code, code_above, x);
+            uint32_t arc = 0;
+            strong[component] |= code[x] & DROGUE_CODE_STRONG;
+            if (component == 0) { /* refused: it belongs to no arc, so that an arc's points share one component */
+                code[x] &= (uint8_t)~DROGUE_CODE_CLASS_MASK;
+            }
+            if ((code[x] & DROGUE_CODE_CLASS_MASK) == 0) {
+                continue;
+            }
+            arc = drogue_label_pixel(&arcs, &f->arc_labels, code, code_above, x);
+            if (arc != 0) {
+                w->arc_component[arc] = component;
+                append_edge(f, point, y, arc);
+            }
         }
     }
+    drogue_labels_resolve(f->components.parent, w->merges, (uint32_t)(components.merge - w->merges));
+    resolve_backward(f->arc_labels.parent, arcs.merge + 1, last_merge);
 }
 
 /* Smoothed row y is there: the gradient of row y - 1 is complete above and below. */
 static void gradient_step(drogue_frontend *f, int32_t y)
 {
-    const uint32_t *rows[3];
-    uint16_t *magnitude = magnitude_row(f, y);
-    int32_t below = y + 1 < f->height_px ? y + 1 : y;
-    rows[0] = smooth_row(f, y > 0 ? y - 1 : 0);
-    rows[1] = smooth_row(f, y);
-    rows[2] = smooth_row(f, below);
-    f->slope_count[y & 1] =
-        drogue_gradient_lanes_row(slope_row(f, y), magnitude, rows, f->width_px, f->config.canny_low);
-    magnitude[-1] = 0;
-    magnitude[f->width_px] = 0;
+    drogue_rows_gradient(f, y);
     if (y > 0) {
         canny_step(f, y - 1);
     }
 }
 
-/* Smoothed row y is complete but for its border, which is replicated. */
-static void smoothed(drogue_frontend *f, int32_t y)
-{
-    uint32_t *row = smooth_row(f, y);
-    drogue_lanes_set(row, -1, drogue_lanes_get(row, 0));
-    drogue_lanes_set(row, f->width_px, drogue_lanes_get(row, f->width_px - 1));
-    if (y > 0) {
-        gradient_step(f, y - 1);
-    }
-}
-
 static void smooth_step(drogue_frontend *f, int32_t y)
 {
-    const uint32_t *rows[5];
-    int32_t k;
-    for (k = 0; k < 5; k++) {
-        rows[k] = (const uint32_t *)(const void *)(raw_row(f, drogue_reflect_101(y + k - 2, f->height_px)) - 2);
-    }
-    drogue_smooth_lanes_row(smooth_row(f, y), rows, (f->width_px + 3) / 4);
-    smoothed(f, y);
-}
-
-/* Put the border of a raw row in its place, reflected. */
-static void reflect_border(uint8_t *row, int32_t width_px)
-{
-    int32_t k;
-    for (k = 1; k <= 2; k++) {
-        row[-k] = row[drogue_reflect_101(-k, width_px)];
-        row[width_px - 1 + k] = row[drogue_reflect_101(width_px - 1 + k, width_px)];
+    drogue_rows_smooth(f, y);
+    if (y > 0) {
+        gradient_step(f, y - 1);
     }
 }
 
@@ -222,17 +139,15 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
     }
     frontend->rows_in++;
     if (frontend->config.smooth) {
-        uint8_t *raw = raw_row(frontend, y);
-        memcpy(raw, row, (size_t)frontend->width_px);
-        reflect_border(raw, frontend->width_px);
+        drogue_rows_take(frontend, y, row);
         if (y >= 2) {
             smooth_step(frontend, y - 2);
         }
     } else {
-        uint8_t *raw = raw_row(frontend, 0) - 2;
-        memcpy(raw, row, (size_t)frontend->width_px);
-        drogue_lanes_row(smooth_row(frontend, y), (const uint32_t *)(const void *)raw, (frontend->width_px + 3) / 4);
-        smoothed(frontend, y);
+        drogue_rows_take_smoothed(frontend, y, row);
+        if (y > 0) {
+            gradient_step(frontend, y - 1);
+        }
     }
 }
 
@@ -288,17 +203,20 @@ static uint32_t drop_weak(drogue_frontend *f, uint32_t *count, const uint32_t *a
     return left;
 }
 
-/* Move every point to the place its 'arc' member names: each swap puts one in its place. */
+/* Move every point to the place its 'arc' member names, round by round: each is read and written once. */
 static void permute(drogue_edge *edges, uint32_t count)
 {
     uint32_t i;
     for (i = 0; i < count; i++) {
-        while (edges[i].arc != i) {
-            uint32_t to = edges[i].arc;
-            drogue_edge t = edges[to];
-            edges[to] = edges[i];
-            edges[i] = t;
+        drogue_edge moving = edges[i];
+        while (moving.arc != i) {
+            const uint32_t to = moving.arc;
+            const drogue_edge next = edges[to];
+            edges[to] = moving;
+            edges[to].arc = to;
+            moving = next;
         }
+        edges[i] = moving;
     }
 }
 

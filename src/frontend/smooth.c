@@ -25,35 +25,6 @@ void drogue_smooth_row(uint8_t *out, uint16_t *column, const uint8_t *const rows
     }
 }
 
-void drogue_smooth_lanes_row(uint32_t *out, const uint32_t *const rows[5], int32_t fours)
-{
-    const uint32_t *r0 = rows[0];
-    const uint32_t *r1 = rows[1];
-    const uint32_t *r2 = rows[2];
-    const uint32_t *r3 = rows[3];
-    const uint32_t *r4 = rows[4];
-    const uint32_t *end = out + 2 * fours;
-    uint32_t even = 0;                    /* column sums x - 2 and x */
-    uint32_t odd = 0;                     /* column sums x - 1 and x + 1 */
-    for (out -= 2; out < end; out += 2) { /* the first round fills the window, what it writes means nothing */
-        uint32_t p0 = drogue_first_lowest(*r0++);
-        uint32_t p1 = drogue_first_lowest(*r1++);
-        uint32_t p2 = drogue_first_lowest(*r2++);
-        uint32_t p3 = drogue_first_lowest(*r3++);
-        uint32_t p4 = drogue_first_lowest(*r4++);
-        uint32_t next_even = drogue_binomial5(drogue_lanes_even(p0), drogue_lanes_even(p1), drogue_lanes_even(p2),
-                                              drogue_lanes_even(p3), drogue_lanes_even(p4));
-        /* The upper three bytes as one number; what the byte between the two lanes adds to it is known. */
-        uint32_t next_odd = drogue_binomial5(p0 >> 8, p1 >> 8, p2 >> 8, p3 >> 8, p4 >> 8) - ((next_even >> 16) << 8);
-        uint32_t mid_even = drogue_lanes_between(even, next_even);
-        uint32_t mid_odd = drogue_lanes_between(odd, next_odd);
-        out[0] = drogue_smooth_normalise_lanes(drogue_binomial5(even, odd, mid_even, mid_odd, next_even));
-        out[1] = drogue_smooth_normalise_lanes(drogue_binomial5(odd, mid_even, mid_odd, next_even, next_odd));
-        even = next_even;
-        odd = next_odd;
-    }
-}
-
 drogue_status drogue_smooth_image(uint8_t *out, uint16_t *column, const drogue_image *image)
 {
     int32_t y;

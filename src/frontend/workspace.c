@@ -19,7 +19,7 @@ drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, s
 {
     uint8_t *at = memory;
     size_t width;
-    size_t fours;
+    size_t half;
     size_t labels;
     if (!capacity_valid(capacity) || memory == NULL || ((uintptr_t)memory & (sizeof(uint32_t) - 1)) != 0) {
         return DROGUE_E_ARGUMENT;
@@ -28,7 +28,7 @@ drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, s
         return DROGUE_E_WORKSPACE;
     }
     width = capacity->width_px;
-    fours = DROGUE_FOURS(width);
+    half = DROGUE_HALF(width);
     labels = capacity->labels;
     workspace->capacity = *capacity;
     /* Widest elements first: every array is aligned for its type. */
@@ -55,13 +55,13 @@ drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, s
     workspace->arc_rows = (uint32_t *)(void *)at;
     at += 2 * width * sizeof(uint32_t);
     workspace->raw_rows = at;
-    at += 5 * (fours + 1) * sizeof(uint32_t);
+    at += 5 * (2 * half + 4);
     workspace->smooth_rows = at;
-    at += 3 * 2 * (fours + 2) * sizeof(uint32_t);
+    at += 3 * 4 * (half + 2);
     workspace->magnitude_rows = (uint16_t *)(void *)at;
-    at += 4 * 4 * (fours + 1) * sizeof(uint16_t);
+    at += 4 * 4 * (half + 2);
     workspace->slope_rows = (drogue_slope *)(void *)at;
-    at += 2 * 4 * fours * sizeof(drogue_slope);
+    at += 4 * half * sizeof(drogue_slope);
     workspace->code_rows = at;
     return DROGUE_OK;
 }

@@ -88,8 +88,11 @@ uint8_t drogue_otsu(const uint32_t *histogram)
         total += histogram[level];
         sum += histogram[level] * (uint32_t)level;
     }
-    p_room = drogue_clz_u32(total | 1u) + drogue_clz_u32(sum); /* below 64 without a point, too */
-    q_room = 2 * drogue_clz_u32(total | 1u);
+    if (total == 0) { /* no shift by 64 */
+        return 0;
+    }
+    p_room = drogue_clz_u32(total) + drogue_clz_u32(sum);
+    q_room = 2 * drogue_clz_u32(total);
     set(&best, 0, 1, p_room, q_room);
     for (level = 0; level < 255; level++) {
         variance v;

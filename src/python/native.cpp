@@ -164,6 +164,7 @@ py::dict from_result(const drogue_result &r)
         position_std.mutable_at(i) = std::ldexp(static_cast<double>(r.position_std_m_q32[i]), -32);
     }
     d["status"] = drogue_status_name(r.status);
+    d["second_look"] = drogue_second_look_name(r.second_look);
     d["region"] = from_region(r.region);
     d["edge_count"] = r.list.edge_count;
     d["arc_count"] = r.list.arc_count;

@@ -41,7 +41,7 @@ int stage_constraints(stage_run *r)
     if (out == NULL || distance2 == NULL || edges == NULL || hull == NULL) {
         return CONF_E_MEMORY;
     }
-    if (count == 0 || !stage_mask(&mask, p) || p[3] < 0 || p[3] > 3 ||
+    if (count == 0 || !(stage_mask(&mask, p) && drogue_mask_valid(&mask)) || p[3] < 0 || p[3] > 3 ||
         !edges_of_points(edges, (const int16_t *)r->in[0].data, count)) {
         return CONF_E_MALFORMED;
     }
@@ -93,7 +93,7 @@ int stage_select(stage_run *r)
     if (out == NULL || edges == NULL || arcs == NULL || hull == NULL) {
         return CONF_E_MEMORY;
     }
-    if (!stage_mask(&mask, p) || p[4] < 0 || p[4] > 2 ||
+    if (!(stage_mask(&mask, p) && drogue_mask_valid(&mask)) || p[4] < 0 || p[4] > 2 ||
         !arcs_of_words(arcs, edges, (const int16_t *)r->in[0].data, points, stage_input32(r, 1), count)) {
         return CONF_E_MALFORMED;
     }

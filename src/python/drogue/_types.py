@@ -99,6 +99,7 @@ class Pose:
 class Result:
     """One measurement. What could not be measured is None; docs/program.md explains status and scores."""
     status: str
+    second_look: str  # what became of a second look at an outline that the region cuts
     region: Region  # used, clipped to the image: x, y, width, height
     edge_count: int
     arc_count: int

@@ -45,9 +45,10 @@ def _read_by_opencv(path: Path) -> Grey:
         raise OSError(f'{path}: cannot be read as an image')
     if image.dtype == np.uint16:
         image = ((image.astype(np.uint32) * 255 + 32767) // 65535).astype(np.uint8)
-    if image.ndim == 2:
-        return image
-    return image[..., 0].copy() if image.shape[2] < 3 else to_grey(image[..., 2::-1])
+    samples: Grey = np.asarray(image, np.uint8)
+    if samples.ndim == 2:
+        return samples
+    return samples[..., 0].copy() if samples.shape[2] < 3 else to_grey(samples[..., 2::-1])
 
 
 def _video(path: Path) -> Iterator[Tuple[str, Grey]]:

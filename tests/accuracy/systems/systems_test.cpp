@@ -180,15 +180,16 @@ void test_regions()
           !find_port(even, body).ok && !find_nested(even, body).ok && !matcher.find(even).ok);
 }
 
-/* Median z error on rendered scenes at 3 and 15 m, %, of each system: about twice what it has over 48 scenes. */
+/* Median z error on rendered scenes at 3 and 15 m, %, of each system: two to three times what docs/systems.md
+ * has, more where a few scenes scatter. */
 const std::map<std::string, std::array<double, 2>> z_bounds = {
-    {"ours", {0.01, 0.08}},   {"Martinez", {5, 7}},      {"Yin", {5, 12}},
-    {"Ma, Zhao", {3, 4}},     {"Sun", {0.2, 1}},         {"Shiu, Ahmad", {0.01, 0.1}},
-    {"EdgeDrawing", {3, 6}},  {"HoughCircles", {8, 10}}, {"contour, direct fit", {3, 6}},
-    {"Fornaciari", {3, 6}},   {"Mai", {0.1, 1}},         {"Bai", {0.1, 1}},
-    {"Liu, Qiao", {0.1, 1}},  {"Dong", {0.05, 0.3}},     {"VisNav", {0.06, 0.3}},
-    {"Pollini", {0.06, 0.3}}, {"Meng", {0.06, 0.3}},     {"Wang", {0.01, 0.1}},
-    {"Duan", {0.02, 0.2}},    {"Xu", {0.02, 0.2}},       {"Chen", {0.2, 0.3}},
+    {"ours", {0.01, 0.08}},     {"Martinez", {3, 6}},     {"Yin", {3, 11}},
+    {"Ma, Zhao", {1.5, 1.5}},   {"Sun", {0.15, 0.9}},     {"Shiu, Ahmad", {0.01, 0.09}},
+    {"EdgeDrawing", {0.1, 4}},  {"HoughCircles", {7, 8}}, {"contour, direct fit", {0.5, 2}},
+    {"Fornaciari", {1.5, 4}},   {"Mai", {0.06, 0.5}},     {"Bai", {0.06, 0.5}},
+    {"Liu, Qiao", {0.06, 0.5}}, {"Dong", {0.03, 0.2}},    {"VisNav", {0.06, 0.25}},
+    {"Pollini", {0.06, 0.25}},  {"Meng", {0.06, 0.25}},   {"Wang", {0.005, 0.05}},
+    {"Duan", {0.004, 0.06}},    {"Xu", {0.004, 0.06}},    {"Chen", {0.1, 0.1}},
 };
 
 void test_rendered()
@@ -216,7 +217,7 @@ void test_rendered()
             truth((s.name + " has a bound").c_str(), bound != z_bounds.end());
             truth((s.name + " gives estimates").c_str(), z[k].size() >= 3);
             if (bound != z_bounds.end()) {
-                std::printf("%2.0f m, %-20s median z error %.4f %%, at most %.2f; %zu of 7\n", distances[d],
+                std::printf("%2.0f m, %-20s median z error %.4f %%, at most %.3f; %zu of 7\n", distances[d],
                             s.name.c_str(), median(z[k]), bound->second[d], z[k].size());
                 near((s.name + ": median z error, %").c_str(), median(z[k]), 0, bound->second[d]);
             }

@@ -31,12 +31,27 @@ static uint32_t model_class(int32_t gx, int32_t gy_up)
     return gy_up > 0 ? 0 : gy_up < 0 ? 2 : 3;
 }
 
+/* The sector as row loops find it; the two slanted ones by the signs. */
+static int sector_in_16_bits(int32_t gx, int32_t gy)
+{
+    const int16_t ax = (int16_t)abs(gx), ay = (int16_t)abs(gy);
+    const int16_t tangent = (int16_t)drogue_canny_tangent((uint16_t)ax);
+    if (ay <= tangent) {
+        return DROGUE_SECTOR_HORIZONTAL;
+    }
+    if (ay > (int16_t)(tangent + 2 * ax)) {
+        return DROGUE_SECTOR_VERTICAL;
+    }
+    return (gx ^ gy) < 0 ? DROGUE_SECTOR_ANTIDIAGONAL : DROGUE_SECTOR_DIAGONAL;
+}
+
 START_TEST(sector_and_class_of_every_gradient)
 {
     int32_t gx, gy;
     for (gy = -1020; gy <= 1020; gy++) {
         for (gx = -1020; gx <= 1020; gx++) {
             MUST((int)drogue_canny_sector((int16_t)gx, (int16_t)gy) == model_sector(gx, gy), "sector of %d %d", gx, gy);
+            MUST((gx == 0 && gy == 0) || sector_in_16_bits(gx, gy) == model_sector(gx, gy), "16 bits, %d %d", gx, gy);
             MUST(drogue_direction_class((int16_t)gx, (int16_t)gy) == model_class(gx, -gy), "class of %d %d", gx, gy);
         }
     }
@@ -51,6 +66,17 @@ static int32_t model_offset(int32_t before, int32_t m, int32_t after)
     }
     offset = (int32_t)floor(16.0 * (after - before) / curvature + 0.5);
     return offset > 15 ? 15 : offset < -15 ? -15 : offset;
+}
+
+/* The offset bit by bit, as hardware finds it. */
+static int32_t offset_by_steps(int32_t before, int32_t m, int32_t after)
+{
+    drogue_canny_vertex v = drogue_canny_vertex_begin(before, m, after);
+    int32_t bit;
+    for (bit = 4; bit >= 0; bit--) {
+        drogue_canny_vertex_step(&v, bit);
+    }
+    return drogue_canny_vertex_offset(&v);
 }
 
 START_TEST(offset_of_every_maximum)
@@ -71,6 +97,7 @@ START_TEST(offset_of_every_maximum)
         after = i & 2 ? m : rng_range(&rng, 0, m);
         MUST(drogue_canny_offset_q5(before, m, after) == model_offset(before, m, after), "offset %d %d %d", before, m,
              after);
+        MUST(offset_by_steps(before, m, after) == model_offset(before, m, after), "steps %d %d %d", before, m, after);
     }
     ck_assert_int_eq(drogue_canny_offset_q5(2039, 2040, 2040), 15);
     ck_assert_int_eq(drogue_canny_offset_q5(2040, 2040, 2039), -15);

@@ -6,6 +6,10 @@
 #include "images.h"
 #include "workspace.h"
 
+#ifdef EXPECTED_ROW_PARTS
+#include "rows.h"
+#endif
+
 static void compare(const model *m, const drogue_workspace *w, const drogue_edge_list *list, int seed)
 {
     uint32_t i, next = 0;
@@ -104,6 +108,42 @@ START_TEST(one_workspace_for_many_sizes)
         check_seed(seed, rng_range(&rng, 1, 80), rng_range(&rng, 1, 80), &t);
     }
     test_workspace_free(&t);
+}
+END_TEST
+
+/* What is tested is the form of the row kernels that was asked for: on any machine one of them is not the usual. */
+START_TEST(the_form_asked_for)
+{
+#ifdef EXPECTED_ROW_PARTS
+    ck_assert_int_eq(DROGUE_ROW_PARTS, EXPECTED_ROW_PARTS);
+#endif
+}
+END_TEST
+
+/* The most merges there can be in a row, of both kinds: their list is as long as the row. */
+START_TEST(merges_fill_no_more_than_a_row)
+{
+    int seed;
+    for (seed = 0; seed < 200; seed++) {
+        const int32_t width = 3 + seed % 14, height = 9;
+        uint64_t rng = (uint64_t)seed + 400u;
+        uint8_t pixels[16 * 9];
+        drogue_frontend_config config;
+        test_workspace t = test_workspace_ample(width, height);
+        drogue_edge_list list;
+        model m;
+        int32_t i;
+        for (i = 0; i < width * height; i++) {
+            pixels[i] = (uint8_t)(255 * rng_range(&rng, 0, 1));
+        }
+        memset(&config, 0, sizeof config);
+        m = model_of(pixels, width, height, &config);
+        ck_assert_int_eq(frontend_run(&list, &t.workspace, &config, pixels, width, height), DROGUE_OK);
+        compare(&m, &t.workspace, &list, seed);
+        ck_assert(guarded_intact(&t.memory));
+        model_free(&m);
+        test_workspace_free(&t);
+    }
 }
 END_TEST
 
@@ -341,4 +381,4 @@ END_TEST
 
 SUITE_MAIN("frontend", every_small_size, random_images, one_workspace_for_many_sizes, edge_table_overfilled_by_one,
            arc_table_overfilled_by_one, label_table_overfilled_by_one, workspace_arguments, begin_arguments,
-           missing_rows, a_frame_ends_once, endless_weak_chain)
+           missing_rows, a_frame_ends_once, endless_weak_chain, merges_fill_no_more_than_a_row, the_form_asked_for)

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""python -m drogue report FRAMES... -o report.html: one page about a track."""
+from __future__ import annotations
+
+import argparse
+import pathlib
+import sys
+from typing import Callable, List, Optional
+
+from . import Camera, Model, Tracker, __version__, images, report
+
+
+def numbers(*counts: int) -> Callable[[str], List[float]]:
+    def parse_list(text: str) -> List[float]:
+        values = [float(item) for item in text.split(',')]
+        if len(values) not in counts:
+            raise argparse.ArgumentTypeError(f'{" or ".join(map(str, counts))} numbers separated by commas are wanted')
+        return values
+    return parse_list
+
+
+def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog='python -m drogue', description='Pose of a refuelling drogue from images.')
+    parser.add_argument('--version', action='version', version=f'drogue {__version__}')
+    commands = parser.add_subparsers(dest='command', required=True)
+    page = commands.add_parser('report', help='one self-contained page about a track')
+    page.add_argument('frames', nargs='+', help='images, folders of images, videos')
+    page.add_argument('-o', '--output', required=True, help='the page, .html')
+    page.add_argument('--camera', required=True, type=numbers(4), metavar='FX,FY,CX,CY')
+    page.add_argument('--distortion', type=numbers(5), default=[], metavar='K1,K2,P1,P2,K3')
+    page.add_argument('--drogue', type=numbers(1, 3), metavar='RADIUS[,INNER,DEPTH]')
+    page.add_argument('--roi', type=numbers(4), metavar='X,Y,W,H')
+    page.add_argument('--fps', type=float, default=30.0)
+    return parser.parse_args(arguments)
+
+
+def check_output(names: List[str], output: pathlib.Path) -> None:
+    for name in names:
+        if output.exists() and pathlib.Path(name).exists() and pathlib.Path(name).samefile(output):
+            raise ValueError(f'{output}: is read as input and would be overwritten')
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    a = parse(arguments)
+    output = pathlib.Path(a.output)
+    try:
+        check_output(a.frames, output)
+        camera = Camera(*a.camera, *a.distortion)
+        tracker = Tracker(camera, Model(*(a.drogue or [1.0])), None if a.roi is None else [int(v) for v in a.roi])
+        page = report.build(images.frames(a.frames), tracker, camera, a.fps, 'rim radii' if a.drogue is None else 'm')
+        output.write_text(page, encoding='utf-8')
+    except (OSError, ValueError, ImportError) as error:
+        print(f'drogue: {error}', file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
