@@ -132,7 +132,9 @@ private:
         }
         const bool black = r <= d_.inner_radius_m;
         const bool rib = !black && on_wall_rib(p);
-        hit = {black ? Surface::inner : rib ? Surface::wall_rib : Surface::coupling,
+        hit = {black ? Surface::inner
+               : rib ? Surface::wall_rib
+                     : Surface::coupling,
                black ? look_.inner_grey : lambert(rib ? look_.wall_rib_grey : look_.coupling_grey, {0, 0, facing}), p};
     }
 
@@ -406,7 +408,8 @@ cv::Mat render_light(const Scene &scene, const cv::Rect &region)
         for (int y = 0; y < region.height; y++) {
             for (int x = 0; x < region.width; x++) {
                 const double r = std::hypot(region.x + x - s.glare_at_px.x, region.y + y - s.glare_at_px.y);
-                light.at<double>(y, x) += s.glare_grey * std::exp(-0.5 * r * r / (s.glare_radius_px * s.glare_radius_px));
+                light.at<double>(y, x) +=
+                    s.glare_grey * std::exp(-0.5 * r * r / (s.glare_radius_px * s.glare_radius_px));
             }
         }
     }

@@ -37,10 +37,11 @@ struct Drogue {
     double spoke_width_m = 0;
     double spoke_phase_rad = 0;
     std::vector<Patch> patches = {};
-    double wall_share = 0;  /* of the rim's radius: what of the funnel's inside lies deeper is wall, not canopy; 0: none */
-    int wall_ribs = 0;      /* dark ribs on the wall, as far in as the black disc */
-    double tube_m = 0;      /* a torus round the end plane whose outer radius is the rim's; 0: a sharp edge */
-    double texture = 0;     /* share of the canopy's and the wall's grey by which a weave changes it */
+    double wall_share =
+        0;              /* of the rim's radius: what of the funnel's inside lies deeper is wall, not canopy; 0: none */
+    int wall_ribs = 0;  /* dark ribs on the wall, as far in as the black disc */
+    double tube_m = 0;  /* a torus round the end plane whose outer radius is the rim's; 0: a sharp edge */
+    double texture = 0; /* share of the canopy's and the wall's grey by which a weave changes it */
     double texture_turn = 0; /* where that begins, radians */
 };
 
@@ -57,7 +58,7 @@ struct Look {
     double wall_grey = 90;
     double wall_rib_grey = 25;
     double tube_grey = 120;
-    double shine_grey = 0;    /* the torus's highlight: this times cos^24 between sun and mirrored ray */
+    double shine_grey = 0; /* the torus's highlight: this times cos^24 between sun and mirrored ray */
     double ambient = 0.75;
     cv::Vec3d sun = {-0.48, -0.64, -0.6}; /* unit, towards the sun, camera frame */
 

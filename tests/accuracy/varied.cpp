@@ -11,8 +11,8 @@ namespace accuracy {
 
 namespace {
 
-constexpr const char *names[varieties] = {"plain",  "far",    "offset", "noise", "spot",    "blur", "probe",
-                                          "tilted", "bright", "half",   "clutter", "ribs",  "torus"};
+constexpr const char *names[varieties] = {"plain",  "far",    "offset", "noise",   "spot", "blur", "probe",
+                                          "tilted", "bright", "half",   "clutter", "ribs", "torus"};
 
 cv::Point2d direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
@@ -52,11 +52,6 @@ void draw_drogue(Scene &s, Random &random, Variety variety, bool held_out)
         d.wall_share = held_out ? random.uniform(0.66, 0.9) : random.uniform(0.7, 0.8);
         look.wall_grey = random.uniform(45, 110);
     }
-    if (variety == Variety::torus) {
-        d.tube_m = d.rim_radius_m * random.uniform(0.02, held_out ? 0.06 : 0.05);
-        look.tube_grey = random.uniform(60, 160);
-        look.shine_grey = random.uniform(40, 160);
-    }
     look.sun = draw_sun(random);
     look.ambient = random.uniform(0.6, 0.85);
 }
@@ -85,6 +80,15 @@ void draw_background(Scene &s, Random &random, bool held_out)
     }
 }
 
+/* A tube that shows before what is behind it, if only by 20 grey levels. */
+void draw_tube(Scene &s, Random &random, bool held_out)
+{
+    const double behind = std::max(s.background.top_grey, s.background.bottom_grey);
+    s.drogue.tube_m = s.drogue.rim_radius_m * random.uniform(0.02, held_out ? 0.06 : 0.05);
+    s.look.tube_grey = (behind + random.uniform(20, 70)) / s.look.ambient;
+    s.look.shine_grey = random.uniform(40, 160);
+}
+
 void draw_pose(Trial &t, Random &random, Variety variety, bool held_out)
 {
     Scene &s = t.scene;
@@ -105,15 +109,14 @@ void draw_pose(Trial &t, Random &random, Variety variety, bool held_out)
     const cv::Vec3d sight = cv::normalize(s.pose.position_m);
     const cv::Vec3d e1 = cv::normalize(cv::Vec3d(sight[2], 0, -sight[0]));
     const cv::Vec3d e2 = sight.cross(e1);
-    s.pose.axis =
-        std::cos(tilt) * sight + std::sin(tilt) * (std::cos(turn) * e1 + std::sin(turn) * e2);
+    s.pose.axis = std::cos(tilt) * sight + std::sin(tilt) * (std::cos(turn) * e1 + std::sin(turn) * e2);
 }
 
 void add_probe(Trial &t, Random &random)
 {
     const double a = t.rim.a_px;
-    const Ellipse disc = project_circle(t.scene.camera, t.scene.pose, t.scene.drogue.inner_radius_m,
-                                        t.scene.drogue.inner_depth_m);
+    const Ellipse disc =
+        project_circle(t.scene.camera, t.scene.pose, t.scene.drogue.inner_radius_m, t.scene.drogue.inner_depth_m);
     const cv::Point2d from = direction(any_angle(random));
     const cv::Point2d side(-from.y, from.x);
     const double reach = random.uniform(-0.3, 1.1); /* of the tip: over the disc where it is small */
@@ -186,6 +189,9 @@ Trial varied_trial(uint64_t seed, Variety variety, int index, bool held_out)
     Scene &s = t.scene;
     draw_drogue(s, random, variety, held_out);
     draw_background(s, random, held_out);
+    if (variety == Variety::torus) {
+        draw_tube(s, random, held_out);
+    }
     draw_pose(t, random, variety, held_out);
     s.sensor.blur_px = held_out ? random.uniform(0.4, 1.2) : random.uniform(0.5, 0.9);
     set_truth(t);
@@ -211,7 +217,8 @@ Trial varied_trial(uint64_t seed, Variety variety, int index, bool held_out)
     }
     const double off = variety == Variety::offset ? 0.15 : 0.03;
     const double a = t.rim.a_px;
-    const int side = static_cast<int>(std::lround((2.5 + (variety == Variety::offset ? random.uniform(-0.3, 0.3) : 0)) * a));
+    const int side =
+        static_cast<int>(std::lround((2.5 + (variety == Variety::offset ? random.uniform(-0.3, 0.3) : 0)) * a));
     const double x = t.rim.xc_px + off * a * random.uniform(-1, 1);
     const double y = t.rim.yc_px + off * a * random.uniform(-1, 1);
     t.region = cv::Rect(static_cast<int>(std::lround(x - (side - 1) / 2.0)),

@@ -90,8 +90,8 @@ void write_sheet(const std::string &path, const std::vector<cv::Mat> &pictures)
     for (size_t i = 0; i < pictures.size(); i++) {
         cv::Mat small;
         cv::resize(pictures[i], small, {side - 4, side - 4}, 0, 0, cv::INTER_AREA);
-        small.copyTo(sheet(cv::Rect(static_cast<int>(i) % columns * side, static_cast<int>(i) / columns * side,
-                                    side - 4, side - 4)));
+        small.copyTo(sheet(
+            cv::Rect(static_cast<int>(i) % columns * side, static_cast<int>(i) / columns * side, side - 4, side - 4)));
     }
     if (!cv::imwrite(path, sheet)) {
         std::fprintf(stderr, "varied_table: cannot write %s\n", path.c_str());
@@ -158,10 +158,14 @@ void usage(FILE *to)
 
 Options parse(int argc, char **argv)
 {
-    const option known[] = {{"scenes", required_argument, nullptr, 'n'}, {"seed", required_argument, nullptr, 's'},
-                            {"held-out", no_argument, nullptr, 'o'},     {"only", required_argument, nullptr, 'k'},
-                            {"verbose", no_argument, nullptr, 'v'},      {"cache", required_argument, nullptr, 'c'},
-                            {"sheet", required_argument, nullptr, 'p'},  {"help", no_argument, nullptr, 'h'},
+    const option known[] = {{"scenes", required_argument, nullptr, 'n'},
+                            {"seed", required_argument, nullptr, 's'},
+                            {"held-out", no_argument, nullptr, 'o'},
+                            {"only", required_argument, nullptr, 'k'},
+                            {"verbose", no_argument, nullptr, 'v'},
+                            {"cache", required_argument, nullptr, 'c'},
+                            {"sheet", required_argument, nullptr, 'p'},
+                            {"help", no_argument, nullptr, 'h'},
                             {nullptr, 0, nullptr, 0}};
     Options o;
     int c;
