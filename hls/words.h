@@ -16,6 +16,7 @@ typedef struct drogue_hls_parameters {
     drogue_mask mask; /* the ring's, in the region's coordinates */
     int32_t x_px;     /* the region's pixel (0, 0) in the image */
     int32_t y_px;
+    int32_t larger; /* 1: the larger outline about the one found is wanted */
 } drogue_hls_parameters;
 
 /* The parameters' registers from address 0 up: name, type, member. Up to MIN_CHI2_GAP they belong to the camera, the
@@ -36,6 +37,7 @@ typedef struct drogue_hls_parameters {
     R(INNER_DEPTH, drogue_q16, model.inner_depth_m_q16)            \
     R(CANNY_LOW, int32_t, config.canny_low)                        \
     R(CANNY_HIGH, int32_t, config.canny_high)                      \
+    R(CANNY_LEAST, int32_t, config.canny_least)                    \
     R(SMOOTH, int32_t, config.smooth)                              \
     R(MIN_ARC, uint32_t, config.min_arc_px)                        \
     R(MIN_ARC_SHARE, drogue_q16, config.min_arc_share_q16)         \
@@ -64,20 +66,22 @@ typedef struct drogue_hls_parameters {
     R(MIN_INNER_CONTRAST, int32_t, config.min_inner_contrast)      \
     R(INNER_GATE_PX, drogue_q16, config.inner_gate_px_q16)         \
     R(INNER_GATE, drogue_q16, config.inner_gate_q16)               \
-    R(MIN_FILL, drogue_q16, config.min_fill_q16)                   \
-    R(MAX_FILL, drogue_q16, config.max_fill_q16)                   \
+    R(INNER_COVER, drogue_q16, config.min_inner_cover_q16)         \
+    R(INNER_RMS, drogue_q16, config.inner_rms_px_q16)              \
+    R(INNER_SIZE_PX, drogue_q16, config.inner_size_px_q16)         \
+    R(INNER_SIZE, drogue_q16, config.inner_size_q16)               \
     R(OUTLINE_SHADING, drogue_q16, config.outline_shading_q16)     \
     R(OPTICS_BLUR_STD, drogue_q16, config.optics_blur_std_px2_q16) \
     R(INNER_STD, drogue_q16, config.inner_std_px_q16)              \
     R(INNER_STD_SHARE, drogue_q16, config.inner_std_share_q16)     \
-    R(INNER_STD_SPREAD, drogue_q16, config.inner_std_spread_q16)   \
     R(MAX_CHI2, drogue_q16, config.max_chi2_q16)                   \
     R(MIN_CHI2_GAP, drogue_q16, config.min_chi2_gap_q16)           \
     R(MASK_CENTRE2_X, int32_t, mask.centre2_x)                     \
     R(MASK_CENTRE2_Y, int32_t, mask.centre2_y)                     \
     R(MASK_LONGEST, int32_t, mask.longest_px)                      \
     R(REGION_X, int32_t, x_px)                                     \
-    R(REGION_Y, int32_t, y_px)
+    R(REGION_Y, int32_t, y_px)                                     \
+    R(LARGER, int32_t, larger)
 /* clang-format on */
 
 #define DROGUE_HLS_INDEX(name, type, member) DROGUE_HLS_P_##name,
@@ -124,6 +128,47 @@ enum drogue_hls_outline_word {
     DROGUE_HLS_O_COVERED,
     DROGUE_HLS_OUTLINE_WORDS
 };
+
+/* What drogue_hls_edge() leaves. */
+enum drogue_hls_edge_word {
+    DROGUE_HLS_E_STATUS, /* drogue_status: DROGUE_OK, DROGUE_E_NO_INNER_PART; DROGUE_E_ARGUMENT: nothing was looked for */
+    DROGUE_HLS_E_X,      /* coordinates of the region */
+    DROGUE_HLS_E_Y,
+    DROGUE_HLS_E_GROWN,
+    DROGUE_HLS_E_STD,
+    DROGUE_HLS_E_RMS,
+    DROGUE_HLS_E_RAYS,
+    DROGUE_HLS_E_WHICH, /* of the expected discs, 0 or 1 */
+    DROGUE_HLS_E_LEVEL,
+    DROGUE_HLS_E_CONTRAST,
+    DROGUE_HLS_EDGE_WORDS
+};
+
+static inline void drogue_hls_pack_edge_words(int32_t words[DROGUE_HLS_EDGE_WORDS], const drogue_inner_edge *e)
+{
+    words[DROGUE_HLS_E_X] = e->x_px_q16;
+    words[DROGUE_HLS_E_Y] = e->y_px_q16;
+    words[DROGUE_HLS_E_GROWN] = e->grown_px_q16;
+    words[DROGUE_HLS_E_STD] = e->std_px_q16;
+    words[DROGUE_HLS_E_RMS] = e->rms_px_q16;
+    words[DROGUE_HLS_E_RAYS] = (int32_t)e->rays;
+    words[DROGUE_HLS_E_WHICH] = (int32_t)e->which;
+    words[DROGUE_HLS_E_LEVEL] = e->level;
+    words[DROGUE_HLS_E_CONTRAST] = e->contrast;
+}
+
+static inline void drogue_hls_unpack_edge_words(drogue_inner_edge *e, const int32_t words[DROGUE_HLS_EDGE_WORDS])
+{
+    e->x_px_q16 = words[DROGUE_HLS_E_X];
+    e->y_px_q16 = words[DROGUE_HLS_E_Y];
+    e->grown_px_q16 = words[DROGUE_HLS_E_GROWN];
+    e->std_px_q16 = words[DROGUE_HLS_E_STD];
+    e->rms_px_q16 = words[DROGUE_HLS_E_RMS];
+    e->rays = (uint32_t)words[DROGUE_HLS_E_RAYS];
+    e->which = (uint32_t)words[DROGUE_HLS_E_WHICH] & 1u;
+    e->level = (uint8_t)words[DROGUE_HLS_E_LEVEL];
+    e->contrast = (uint8_t)words[DROGUE_HLS_E_CONTRAST];
+}
 
 /* What drogue_hls_pose() leaves. */
 enum drogue_hls_result_word {
@@ -184,14 +229,23 @@ void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_co
                         const uint64_t arcs[DROGUE_HLS_ARCS], uint32_t arc_count, uint32_t frontend_status,
                         const int32_t parameters[DROGUE_HLS_PARAMETERS], int32_t outline[DROGUE_HLS_OUTLINE_WORDS]);
 
+/* From the outline and the region's pixels to the inner disc: drogue_inner_edge_find().
+ *
+ *  pixels  width_px * height_px grey levels, row by row
+ *  edge    all words are written in every case
+ */
+void drogue_hls_edge(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
+                     const int32_t parameters[DROGUE_HLS_PARAMETERS], const int32_t outline[DROGUE_HLS_OUTLINE_WORDS],
+                     int32_t width_px, int32_t height_px, int32_t edge[DROGUE_HLS_EDGE_WORDS]);
+
 /* From the outline and the inner part to the pose and its covariance.
  *
- *  dark    not looked at when DISC is empty or INNER_RADIUS 0
+ *  edge    not looked at when INNER_RADIUS is 0
  *  result, covariance, std  all words are written in every case; 0 where there is nothing to say, AMBIGUITY 1
  *  STATUS  drogue_measure()'s
  */
 void drogue_hls_pose(const int32_t parameters[DROGUE_HLS_PARAMETERS], const int32_t outline[DROGUE_HLS_OUTLINE_WORDS],
-                     const int32_t inner[DROGUE_HLS_INNER_WORDS], int32_t result[DROGUE_HLS_RESULT_WORDS],
+                     const int32_t edge[DROGUE_HLS_EDGE_WORDS], int32_t result[DROGUE_HLS_RESULT_WORDS],
                      int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS], int64_t std[DROGUE_HLS_STD_WORDS]);
 
 /* Stages alone, to prove and to measure them. */

@@ -6,6 +6,7 @@ void drogue_config_default(drogue_config *config)
 {
     config->canny_low = 30;
     config->canny_high = 80;
+    config->canny_least = 16;
     config->smooth = 1;
     config->min_arc_px = 10;
     config->min_arc_share_q16 = DROGUE_Q16(1, 8);
@@ -34,13 +35,14 @@ void drogue_config_default(drogue_config *config)
     config->min_inner_contrast = 6;
     config->inner_gate_px_q16 = DROGUE_Q16(15, 10);
     config->inner_gate_q16 = DROGUE_Q16(5, 100);
-    config->min_fill_q16 = DROGUE_Q16(8, 10);
-    config->max_fill_q16 = DROGUE_Q16(11, 10);
+    config->min_inner_cover_q16 = DROGUE_Q16(4, 10);
+    config->inner_rms_px_q16 = DROGUE_Q16(65, 100);
+    config->inner_size_px_q16 = DROGUE_Q16(1, 1);
+    config->inner_size_q16 = DROGUE_Q16(125, 1000);
     config->outline_shading_q16 = DROGUE_Q16(38, 10);
     config->optics_blur_std_px2_q16 = DROGUE_Q16(12, 100);
     config->inner_std_px_q16 = DROGUE_Q16(3, 100);
     config->inner_std_share_q16 = DROGUE_Q16(2, 1000);
-    config->inner_std_spread_q16 = DROGUE_Q16(5, 10);
     config->max_chi2_q16 = DROGUE_Q16(16, 1);
     config->min_chi2_gap_q16 = DROGUE_Q16(9, 1);
 }
@@ -49,8 +51,8 @@ static int within(int32_t v, int32_t low, int32_t high) { return v >= low && v <
 
 int drogue_config_valid(const drogue_config *c)
 {
-    return within(c->canny_low, 0, c->canny_high) && within(c->min_arc_share_q16, 0, DROGUE_Q16_ONE) &&
-           within(c->min_short_px_q16, 0, INT32_MAX) &&
+    return within(c->canny_low, 0, c->canny_high) && within(c->canny_least, 0, c->canny_high) &&
+           within(c->min_arc_share_q16, 0, DROGUE_Q16_ONE) && within(c->min_short_px_q16, 0, INT32_MAX) &&
            within((int32_t)c->polarity, DROGUE_POLARITY_DARK, DROGUE_POLARITY_BOTH) &&
            within(c->quality.fit_error_px_q16, 0, DROGUE_Q16(1024, 1)) &&
            within(c->quality.k1_q16, 0, DROGUE_Q16(64, 1)) && within(c->quality.k2_q16, 0, DROGUE_Q16_ONE - 1) &&
@@ -63,9 +65,10 @@ int drogue_config_valid(const drogue_config *c)
            within(c->min_cover_q16, 0, DROGUE_Q16_ONE) && within(c->recentre_cover_q16, 0, DROGUE_Q16_ONE) &&
            within(c->optics_blur_px_q16, 0, DROGUE_Q16(16, 1)) && within(c->min_inner_contrast, 0, 255) &&
            within(c->inner_gate_px_q16, 0, INT32_MAX) && within(c->inner_gate_q16, 0, INT32_MAX) &&
-           within(c->min_fill_q16, 0, c->max_fill_q16) && within(c->outline_shading_q16, 1, DROGUE_Q16(1024, 1)) &&
+           within(c->min_inner_cover_q16, 0, DROGUE_Q16_ONE) && within(c->inner_rms_px_q16, 0, INT32_MAX) &&
+           within(c->inner_size_px_q16, 0, INT32_MAX) && within(c->inner_size_q16, 0, INT32_MAX) &&
+           within(c->outline_shading_q16, 1, DROGUE_Q16(1024, 1)) &&
            within(c->optics_blur_std_px2_q16, 0, DROGUE_Q16(16, 1)) &&
            within(c->inner_std_px_q16, 1, DROGUE_Q16(16, 1)) && within(c->inner_std_share_q16, 0, DROGUE_Q16_ONE) &&
-           within(c->inner_std_spread_q16, 0, DROGUE_Q16(16, 1)) && within(c->max_chi2_q16, 0, INT32_MAX) &&
-           within(c->min_chi2_gap_q16, 0, INT32_MAX);
+           within(c->max_chi2_q16, 0, INT32_MAX) && within(c->min_chi2_gap_q16, 0, INT32_MAX);
 }

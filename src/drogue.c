@@ -40,14 +40,15 @@ static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, con
 }
 
 static drogue_status run_frontend(drogue_edge_list *list, drogue_workspace *workspace, const drogue_config *config,
-                                  const drogue_image *view, const drogue_mask *mask)
+                                  int32_t canny_low, int32_t canny_high, const drogue_image *view,
+                                  const drogue_mask *mask)
 {
     drogue_frontend_config front;
     drogue_frontend frontend;
     drogue_status status;
     int32_t y;
-    front.canny_low = config->canny_low;
-    front.canny_high = config->canny_high;
+    front.canny_low = canny_low;
+    front.canny_high = canny_high;
     front.smooth = config->smooth;
     front.use_ring = 1;
     front.ring = *mask;
@@ -99,6 +100,10 @@ typedef struct frame {
     drogue_mask mask;
     drogue_outline outline;
     drogue_second_look second_look;
+    int32_t canny_low;
+    int32_t canny_high;
+    int32_t tried;
+    drogue_q16 doubt_q16; /* by what share the inner disc's size is off; 1 and more: not seen, or no outline */
 } frame;
 
 static drogue_status find_outline(frame *f, const drogue_region *region)
@@ -112,7 +117,7 @@ static drogue_status find_outline(frame *f, const drogue_region *region)
     f->view.width_px = out->region.width_px;
     f->view.height_px = out->region.height_px;
     f->view.stride = f->image->stride;
-    status = run_frontend(&out->list, f->workspace, f->setup->config, &f->view, &f->mask);
+    status = run_frontend(&out->list, f->workspace, f->setup->config, f->canny_low, f->canny_high, &f->view, &f->mask);
     return status == DROGUE_OK ? drogue_outline_find(&f->outline, f->workspace, &out->list, &f->mask, f->setup->config)
                                : status;
 }
@@ -194,28 +199,28 @@ static void describe(drogue_result *out, const drogue_outline *outline)
 }
 
 /* Find the inner part where a pose expects it, weigh it, and see which pose it is nearer to. */
-static drogue_status find_inner(drogue_evidence *evidence, const frame *f)
+static void find_inner(drogue_evidence *evidence, frame *f)
 {
     drogue_result *out = f->out;
-    const drogue_mask disc = drogue_inner_disc(&f->outline.ellipse);
+    const drogue_ellipse *outline = &f->outline.ellipse;
     drogue_inner_evidence inner;
     drogue_inner_expected expected;
-    uint32_t which;
-    drogue_status status = DROGUE_E_NO_INNER_PART;
+    drogue_inner_edge edge;
     memset(&inner, 0, sizeof inner);
-    drogue_inner_expect(&expected, evidence->poses, f->setup, out->region.x_px, out->region.y_px);
-    if (drogue_mask_valid(&disc)) {
-        status = drogue_inner_find(&inner.part, &which, f->workspace, &f->view, &disc, &expected);
-    }
-    if (status == DROGUE_OK) {
-        drogue_inner_weigh(&inner, &out->region, &expected.disc[which], &f->outline.ellipse, evidence->poses, f->setup);
+    drogue_inner_expect(&expected, outline, evidence->poses, f->setup, out->region.x_px, out->region.y_px);
+    if (drogue_inner_edge_find(&edge, &f->view, &expected, outline, f->setup->config) == DROGUE_OK) {
+        drogue_inner_weigh(&inner, &edge, &out->region, &expected, outline, evidence->poses, f->setup);
         evidence->inner = inner.weighed;
         evidence->nearer = inner.nearer;
         out->inner = inner.part;
         out->has_inner = inner.weighed.std_px_q16 > 0;
         out->ambiguity_q16 = inner.ambiguity_q16;
     }
-    return status == DROGUE_E_NO_INNER_PART ? DROGUE_OK : status;
+    f->doubt_q16 = DROGUE_Q16_ONE;
+    if (out->has_inner) {
+        f->doubt_q16 = drogue_q16_div(edge.grown_px_q16 < 0 ? -edge.grown_px_q16 : edge.grown_px_q16,
+                                      expected.disc[edge.which].a_px_q16);
+    }
 }
 
 /* Decide between the poses; the result has what was decided. */
@@ -234,16 +239,25 @@ static drogue_status decide(drogue_result *out, const drogue_evidence *evidence,
     return status;
 }
 
-static drogue_status measure(frame *f, const drogue_region *region)
+static void clear(drogue_result *out)
+{
+    int k;
+    memset(out, 0, sizeof *out);
+    out->ambiguity_q16 = DROGUE_Q16_ONE;
+    for (k = 0; k < 4; k++) {
+        out->arcs[k] = DROGUE_NO_ARC;
+    }
+}
+
+/* From the outline to the pose. */
+static drogue_status judge(frame *f)
 {
     const drogue_setup *setup = f->setup;
     drogue_result *out = f->out;
     drogue_evidence evidence;
-    drogue_status status = find_outline_twice(f, region);
-    if (status != DROGUE_OK) {
-        return status;
-    }
+    drogue_status status;
     describe(out, &f->outline);
+    out->tried = f->tried;
     if (drogue_camera_distorts(setup->camera)) {
         status = drogue_outline_undistorted(&out->ideal, &f->outline, f->workspace, &out->list, setup, out->region.x_px,
                                             out->region.y_px);
@@ -256,10 +270,98 @@ static drogue_status measure(frame *f, const drogue_region *region)
     evidence.ideal = out->ideal;
     evidence.support = &f->outline.support;
     status = drogue_pose_from_ellipse(evidence.poses, &out->ideal, setup->camera, setup->model->rim_radius_m_q16);
-    if (status == DROGUE_OK && setup->model->inner_radius_m_q16 > 0) {
-        status = find_inner(&evidence, f);
+    if (status != DROGUE_OK) {
+        return status;
     }
-    return status == DROGUE_OK ? decide(out, &evidence, setup) : status;
+    f->doubt_q16 = 0;
+    if (setup->model->inner_radius_m_q16 > 0) {
+        find_inner(&evidence, f);
+    }
+    return decide(out, &evidence, setup);
+}
+
+/* What may be tried, in this order: the configured thresholds of Canny or those of the region's own noise, and of either
+ * the outline found or a larger one about it. */
+enum { FIRST, FIRST_LARGER, LOWER, LOWER_LARGER, TRIES };
+
+static drogue_status try_out(frame *f, const drogue_region *region, int what, int looked)
+{
+    drogue_status status = DROGUE_OK;
+    f->doubt_q16 = DROGUE_Q16_MAX;
+    f->tried = what;
+    if (!looked) {
+        clear(f->out);
+        status = find_outline_twice(f, region);
+    }
+    if (status == DROGUE_OK && (what == FIRST_LARGER || what == LOWER_LARGER)) {
+        const drogue_region used = f->out->region;
+        const drogue_edge_list list = f->out->list;
+        clear(f->out);
+        f->out->region = used;
+        f->out->list = list;
+        if (!drogue_outline_enlarge(&f->outline, f->workspace, &f->out->list, &f->mask, f->setup->config)) {
+            return DROGUE_E_NO_ELLIPSE;
+        }
+    }
+    return status == DROGUE_OK ? judge(f) : status;
+}
+
+/* 1 when there are thresholds lower than the configured ones. */
+static int lower_thresholds(frame *f)
+{
+    const drogue_config *config = f->setup->config;
+    int32_t high = drogue_noise_threshold(f->workspace->histogram, &f->view);
+    high = high < config->canny_least ? config->canny_least : high;
+    f->canny_low = config->canny_low;
+    f->canny_high = config->canny_high;
+    if (high < config->canny_high) {
+        f->canny_low = (int32_t)((int64_t)high * config->canny_low / config->canny_high);
+        f->canny_high = high;
+    }
+    return high < config->canny_high;
+}
+
+#define SURE_Q16 DROGUE_Q16(4, 100) /* the inner disc is of its size to this */
+
+/* Measure; while the inner disc is not seen or not of its size, try what else the outline may be. What has the disc
+ * nearest to its size stands. */
+static drogue_status measure(frame *f, const drogue_region *region)
+{
+    const drogue_config *config = f->setup->config;
+    drogue_q16 least_q16 = DROGUE_Q16_MAX;
+    drogue_status status = DROGUE_OK;
+    int best = FIRST;
+    int last = -1;
+    int what;
+    f->canny_low = config->canny_low;
+    f->canny_high = config->canny_high;
+    for (what = FIRST; what < TRIES && least_q16 > SURE_Q16; what++) {
+        const int larger = what == FIRST_LARGER || what == LOWER_LARGER;
+        if (larger && status != DROGUE_OK) {
+            continue;
+        }
+        if (what == LOWER && !lower_thresholds(f)) {
+            break;
+        }
+        status = try_out(f, region, what, larger);
+        last = what;
+        if (what == FIRST && status != DROGUE_OK && status != DROGUE_E_NO_ELLIPSE && status != DROGUE_E_NO_EDGES &&
+            status != DROGUE_E_NO_ARCS) {
+            return status;
+        }
+        if (f->doubt_q16 < least_q16) {
+            least_q16 = f->doubt_q16;
+            best = what;
+        }
+    }
+    if (best != last) {
+        if (best < LOWER) {
+            f->canny_low = config->canny_low;
+            f->canny_high = config->canny_high;
+        }
+        status = try_out(f, region, best, 0);
+    }
+    return status;
 }
 
 static int valid(const drogue_image *image, const drogue_setup *setup)
@@ -273,12 +375,7 @@ drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, co
                              const drogue_image *image, const drogue_region *region)
 {
     frame f;
-    int k;
-    memset(out, 0, sizeof *out);
-    out->ambiguity_q16 = DROGUE_Q16_ONE;
-    for (k = 0; k < 4; k++) {
-        out->arcs[k] = DROGUE_NO_ARC;
-    }
+    clear(out);
     memset(&f, 0, sizeof f);
     f.out = out;
     f.workspace = workspace;

@@ -164,6 +164,10 @@ static inline void frame_find_outline(frame *f)
         status = drogue_outline_find(&f->outline, &f->workspace, &f->list, &f->p.mask, &f->p.config);
     }
     f->words[DROGUE_HLS_O_FOUND] = (int32_t)status;
+    if (status == DROGUE_OK && f->p.larger &&
+        !drogue_outline_enlarge(&f->outline, &f->workspace, &f->list, &f->p.mask, &f->p.config)) {
+        status = DROGUE_E_NO_ELLIPSE;
+    }
     if (status == DROGUE_OK) {
         status = frame_find_poses(f, poses);
     }
@@ -172,8 +176,8 @@ static inline void frame_find_outline(frame *f)
         if (!drogue_mask_valid(&disc)) {
             memset(&disc, 0, sizeof disc);
         }
-        drogue_inner_expect(&expected, poses, &(drogue_setup){&f->p.camera, &f->p.model, &f->p.config}, f->p.x_px,
-                            f->p.y_px);
+        drogue_inner_expect(&expected, &f->outline.ellipse, poses,
+                            &(drogue_setup){&f->p.camera, &f->p.model, &f->p.config}, f->p.x_px, f->p.y_px);
         f->words[DROGUE_HLS_O_EXPECTED_COUNT] = (int32_t)expected.count;
     }
     f->words[DROGUE_HLS_O_STATUS] = (int32_t)status;
@@ -182,28 +186,30 @@ static inline void frame_find_outline(frame *f)
 }
 
 /* The inner disc, where the outline says. */
-static inline void frame_find_inner(int32_t dark[DROGUE_HLS_INNER_WORDS], const frame *f)
+static inline void frame_find_inner(int32_t words[DROGUE_HLS_EDGE_WORDS], const frame *f)
 {
     const drogue_inner_expected expected = {{drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED),
                                              drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5)},
                                             (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT],
                                             f->p.config.min_inner_area_px};
-    drogue_workspace workspace = f->workspace;
-    drogue_mask disc;
-    drogue_inner_part part;
-    drogue_status status;
-    uint32_t which = 0;
-    memset(dark, 0, DROGUE_HLS_INNER_WORDS * sizeof *dark);
-    memset(&part, 0, sizeof part);
-    disc.centre2_x = f->words[DROGUE_HLS_O_DISC];
-    disc.centre2_y = f->words[DROGUE_HLS_O_DISC + 1];
-    disc.longest_px = f->words[DROGUE_HLS_O_DISC + 2];
-    if (disc.longest_px == 0) {
-        dark[DROGUE_HLS_D_STATUS] = DROGUE_E_ARGUMENT; /* which nobody is to look at */
-        return;
+    drogue_inner_edge edge;
+    memset(&edge, 0, sizeof edge);
+    words[DROGUE_HLS_E_STATUS] = DROGUE_E_ARGUMENT;
+    if (f->words[DROGUE_HLS_O_STATUS] == DROGUE_OK) {
+        words[DROGUE_HLS_E_STATUS] =
+            (int32_t)drogue_inner_edge_find(&edge, &f->view, &expected, &f->outline.ellipse, &f->p.config);
     }
-    status = drogue_inner_find(&part, &which, &workspace, &f->view, &disc, &expected);
-    bench_put_inner(dark, (uint32_t)status, &part, which);
+    drogue_hls_pack_edge_words(words, &edge);
+}
+
+/* Which try of drogue_measure() stands; -1 when it gives none. */
+static inline int32_t frame_tried(const frame *f)
+{
+    drogue_workspace workspace = f->workspace;
+    drogue_result r;
+    (void)drogue_measure(&r, &workspace, &(drogue_setup){&f->p.camera, &f->p.model, &f->p.config}, &f->image,
+                         &f->asked);
+    return r.status == DROGUE_OK ? r.tried : -1;
 }
 
 #endif

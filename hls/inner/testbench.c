@@ -90,26 +90,11 @@ static void question_of(question *q, const drogue_result *r, const drogue_camera
     q->disc = drogue_inner_disc(&outline);
     if (outline.b_px_q16 > 0 && model->inner_radius_m_q16 > 0 &&
         drogue_pose_from_ellipse(poses, &r->ideal, camera, model->rim_radius_m_q16) == DROGUE_OK) {
-        drogue_inner_expect(&q->expected, poses, &(drogue_setup){camera, model, config}, r->region.x_px,
+        drogue_inner_expect(&q->expected, &outline, poses, &(drogue_setup){camera, model, config}, r->region.x_px,
                             r->region.y_px);
     } else {
         q->disc = drogue_mask_of_size(q->image.width_px, q->image.height_px);
         expect_middle(q);
-    }
-}
-
-/* Where the library's frame has an inner part it is the block's. */
-static void check_frame(bench *b, const int32_t dark[DROGUE_HLS_INNER_WORDS], const conf_case *c,
-                        const drogue_region *region)
-{
-    enum { HAS_INNER = 14, INNER_X, INNER_Y, INNER_AREA, INNER_THRESHOLD, INNER_SPREAD };
-    const int32_t *frame = bench_words32(bench_expected(c, "frame"));
-    if (frame[HAS_INNER] != 0) {
-        bench_word(b, "frame's x", dark[DROGUE_HLS_D_X], frame[INNER_X] - drogue_q16_from_int(region->x_px));
-        bench_word(b, "frame's y", dark[DROGUE_HLS_D_Y], frame[INNER_Y] - drogue_q16_from_int(region->y_px));
-        bench_word(b, "frame's area", dark[DROGUE_HLS_D_AREA], frame[INNER_AREA]);
-        bench_word(b, "frame's threshold", dark[DROGUE_HLS_D_THRESHOLD], frame[INNER_THRESHOLD]);
-        bench_word(b, "frame's spread", dark[DROGUE_HLS_D_SPREAD], frame[INNER_SPREAD]);
     }
 }
 
@@ -148,7 +133,6 @@ static void frame_vectors(bench *b)
         q.expected.min_area_px = config.min_inner_area_px;
         question_of(&q, &result, &camera, &model, &config);
         compare(b, dark, &q);
-        check_frame(b, dark, c, &result.region);
     }
 }
 

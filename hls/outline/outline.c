@@ -72,7 +72,7 @@ static drogue_status find(frame *f, const drogue_workspace *workspace, const dro
         if (!drogue_mask_valid(&f->disc)) {
             memset(&f->disc, 0, sizeof f->disc);
         }
-        drogue_inner_expect(&f->expected, f->poses, &setup, p->x_px, p->y_px);
+        drogue_inner_expect(&f->expected, &f->outline.ellipse, f->poses, &setup, p->x_px, p->y_px);
     }
     return status;
 }
@@ -161,6 +161,9 @@ void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_co
         workspace.hull = hull;
         workspace.candidates = candidates;
         status = found = drogue_outline_find(&f.outline, &workspace, &list, &p.mask, &p.config);
+    }
+    if (status == DROGUE_OK && p.larger && !drogue_outline_enlarge(&f.outline, &workspace, &list, &p.mask, &p.config)) {
+        status = DROGUE_E_NO_ELLIPSE;
     }
     if (status == DROGUE_OK) {
         status = find(&f, &workspace, &list, &p);

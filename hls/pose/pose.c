@@ -22,18 +22,6 @@ static void get_support(drogue_support *support, const int32_t words[DROGUE_HLS_
     support->covered = (uint32_t)words[DROGUE_HLS_O_COVERED];
 }
 
-/* The inner part as a measurement; the index of the expected disc that it is nearest to. */
-static uint32_t get_inner(drogue_inner_part *part, const int32_t words[DROGUE_HLS_INNER_WORDS])
-{
-    part->x_px_q16 = words[DROGUE_HLS_D_X];
-    part->y_px_q16 = words[DROGUE_HLS_D_Y];
-    part->area_px = (uint32_t)words[DROGUE_HLS_D_AREA];
-    part->spread_px_q16 = words[DROGUE_HLS_D_SPREAD];
-    part->threshold = (uint8_t)(words[DROGUE_HLS_D_THRESHOLD] & 0xFF);
-    part->contrast = (uint8_t)(words[DROGUE_HLS_D_CONTRAST] & 0xFF);
-    return (uint32_t)words[DROGUE_HLS_D_WHICH] & 1u;
-}
-
 static void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS],
                 int64_t std[DROGUE_HLS_STD_WORDS], const drogue_inner_evidence *inner, const drogue_decision *r)
 {
@@ -64,35 +52,33 @@ static void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covariance[DROGU
 /* Weigh the inner part, if there is one, and decide. */
 static drogue_status solve(drogue_decision *out, drogue_inner_evidence *inner, drogue_evidence *evidence,
                            const drogue_hls_parameters *p, const int32_t outline[DROGUE_HLS_OUTLINE_WORDS],
-                           const int32_t words[DROGUE_HLS_INNER_WORDS])
+                           const int32_t words[DROGUE_HLS_EDGE_WORDS])
 {
     const drogue_setup setup = {&p->camera, &p->model, &p->config};
-    drogue_status status = DROGUE_E_NO_INNER_PART;
-    if (p->model.inner_radius_m_q16 > 0 && outline[DROGUE_HLS_O_DISC + 2] > 0) {
-        status = (drogue_status)((uint32_t)words[DROGUE_HLS_D_STATUS] & DROGUE_HLS_STATUS);
-    }
-    if (status == DROGUE_OK) {
-        const uint32_t which = get_inner(&inner->part, words);
+    if (p->model.inner_radius_m_q16 > 0 && words[DROGUE_HLS_E_STATUS] == DROGUE_OK) {
         const drogue_region region = {p->x_px, p->y_px, 0, 0};
-        const drogue_ellipse expected = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED + 5 * which);
         const drogue_ellipse ellipse = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_ELLIPSE);
-        drogue_inner_weigh(inner, &region, &expected, &ellipse, evidence->poses, &setup);
+        drogue_inner_expected expected;
+        drogue_inner_edge edge;
+        memset(&expected, 0, sizeof expected);
+        expected.disc[0] = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED);
+        expected.disc[1] = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED + 5);
+        drogue_hls_unpack_edge_words(&edge, words);
+        drogue_inner_weigh(inner, &edge, &region, &expected, &ellipse, evidence->poses, &setup);
         evidence->inner = inner->weighed;
         evidence->nearer = inner->nearer;
-    } else if (status != DROGUE_E_NO_INNER_PART) {
-        return status;
     }
     return drogue_decide(out, evidence, &setup);
 }
 
 void drogue_hls_pose(const int32_t parameters[DROGUE_HLS_PARAMETERS], const int32_t outline[DROGUE_HLS_OUTLINE_WORDS],
-                     const int32_t inner[DROGUE_HLS_INNER_WORDS], int32_t result[DROGUE_HLS_RESULT_WORDS],
+                     const int32_t edge[DROGUE_HLS_EDGE_WORDS], int32_t result[DROGUE_HLS_RESULT_WORDS],
                      int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS], int64_t std[DROGUE_HLS_STD_WORDS])
 {
 #ifndef __BAMBU__ /* registers; the other arrays are memory ports, which is the default */
 #pragma HLS interface mode = s_axilite port = parameters
 #pragma HLS interface mode = s_axilite port = outline
-#pragma HLS interface mode = s_axilite port = inner
+#pragma HLS interface mode = s_axilite port = edge
 #pragma HLS interface mode = s_axilite port = result
 #pragma HLS interface mode = s_axilite port = covariance
 #pragma HLS interface mode = s_axilite port = std
@@ -115,8 +101,7 @@ void drogue_hls_pose(const int32_t parameters[DROGUE_HLS_PARAMETERS], const int3
         drogue_hls_unpack_pose(&evidence.poses[1], outline + DROGUE_HLS_O_POSES + 8);
         get_support(&support, outline);
         evidence.support = &support;
-        bits |= (uint32_t)inner[DROGUE_HLS_D_STATUS] & ~DROGUE_HLS_STATUS;
-        bits |= (uint32_t)solve(&out, &found, &evidence, &p, outline, inner);
+        bits |= (uint32_t)solve(&out, &found, &evidence, &p, outline, edge);
     }
     result[DROGUE_HLS_R_STATUS] = (int32_t)bits;
     put(result, covariance, std, &found, &out);

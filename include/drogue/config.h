@@ -29,6 +29,8 @@ typedef struct drogue_cluster_config {
 typedef struct drogue_config {
     int32_t canny_low;             /* 30, L1 Sobel magnitude (grey levels * 8): lower links weaker edges */
     int32_t canny_high;            /* 80, same unit: an edge needs one pixel above it */
+    int32_t canny_least;           /* 16, same unit, [0, canny_high]: least upper threshold of a second try, when the
+                                      first finds no outline or doubts it; canny_high: no second try */
     int32_t smooth;                /* 1: smooth before the gradient; 0 for images that are smooth already */
     uint32_t min_arc_px;           /* 10 edge points, Th_length: shorter arcs are not fitted */
     drogue_q16 min_arc_share_q16;  /* 1/8: the same as a share of the region's longest side; a quarter of an outline
@@ -57,15 +59,16 @@ typedef struct drogue_config {
     int32_t min_inner_contrast;    /* 6 grey levels, [0, 255]: less contrast with its surround is no inner part */
     drogue_q16 inner_gate_px_q16;  /* 1.5 px, 0.05: the inner part is believed when it lies within so many pixels and */
     drogue_q16 inner_gate_q16;     /* this share of the major semi-axis of where a pose expects it */
-    drogue_q16 min_fill_q16;       /* 0.8, 1.1: and when its area over the expected disc's is between these, half a
-                                        pixel of its radius allowed for blur */
-    drogue_q16 max_fill_q16;
+    drogue_q16 min_inner_cover_q16; /* 0.4: and when this share of the rays across its edge agrees */
+    drogue_q16 inner_rms_px_q16;    /* 0.65 px: and these lie about it by no more, root mean square */
+    drogue_q16
+        inner_size_px_q16;     /* 1 px, 0.125: and its semi-axis is the expected one within so many pixels and this */
+    drogue_q16 inner_size_q16; /* share */
     drogue_q16 outline_shading_q16; /* 3.8 px grey * 8: error of the outline that its own residuals cannot show, over
                                        the gradient along it (joint.h) */
     drogue_q16 optics_blur_std_px2_q16; /* 0.12 px^2: uncertainty of half the variance of the optics' blur */
     drogue_q16 inner_std_px_q16;        /* 0.03 px: standard deviation of the inner centroid, */
     drogue_q16 inner_std_share_q16;     /* 0.002: and what its size adds, as a share of the disc's semi-axis */
-    drogue_q16 inner_std_spread_q16;    /* 0.5: and what its spread over thresholds adds, as a factor */
     drogue_q16 max_chi2_q16;            /* 16: outline and inner part contradict each other above this */
     drogue_q16 min_chi2_gap_q16;        /* 9: the orientation is resolved when the other pose is worse by so much */
 } drogue_config;
@@ -73,9 +76,8 @@ typedef struct drogue_config {
 void drogue_config_default(drogue_config *config);
 
 /* 1 when every threshold is within its range: counts and lengths not negative, fit_error to 1024 px, low <= high, shares of a
- * length or of points in [0, 1] (max_size, inner_gate and max_fill without upper bound),
- * refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px and its uncertainty in [0, 16] px^2, min_fill <=
- * max_fill, outline_shading in (0, 1024], inner_std in (0, 16] px, inner_std_spread in [0, 16], k1 in [0, 64], k2 in [0, 1). */
+ * length or of points in [0, 1] (max_size, inner_gate and inner_size without upper bound),
+ * refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px and its uncertainty in [0, 16] px^2, outline_shading in (0, 1024], inner_std in (0, 16] px, k1 in [0, 64], k2 in [0, 1). */
 int drogue_config_valid(const drogue_config *config);
 
 /* What stays the same from frame to frame, made once and passed from stage to stage. */

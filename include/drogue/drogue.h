@@ -52,6 +52,8 @@ typedef struct drogue_result {
     drogue_region region;           /* the region used: the one asked for, clipped to the image */
     drogue_edge_list list;          /* edges and arcs in the workspace, in coordinates of the region */
     uint32_t arcs[4];               /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
+    int32_t tried;                  /* what stands: 0 the outline found, 1 a larger one about it; 2, 3 the same with
+                                       thresholds of Canny that follow the region's noise */
     drogue_ellipse ellipse;         /* outline of the end plane, as seen (distorted) */
     drogue_ellipse ideal;           /* the same without distortion: what the pose is computed from */
     drogue_quality quality;         /* of the fit of the arcs */

@@ -142,6 +142,14 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row);
  */
 drogue_status drogue_frontend_end(drogue_edge_list *list, drogue_frontend *frontend);
 
+/* Upper threshold that noise alone does not pass: twelve standard deviations of the noise, which the lower quartile of
+ * the second differences along the rows gives.
+ *
+ *  histogram  work area, 256 counts
+ *  return     L1 Sobel magnitude, grey levels * 8
+ */
+int32_t drogue_noise_threshold(uint32_t *histogram, const drogue_image *image);
+
 #ifdef __cplusplus
 }
 #endif

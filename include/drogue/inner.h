@@ -8,6 +8,7 @@
 #include "drogue/frontend.h"
 #include "drogue/joint.h"
 #include "drogue/mask.h"
+#include "drogue/rays.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -71,20 +72,46 @@ drogue_q16 drogue_inner_fill(const drogue_inner_part *part, const drogue_ellipse
  * none.
  *
  *  expected  out, coordinates of the region whose pixel (0, 0) is pixel (x_px, y_px) of the image
+ *  outline   as seen: the disc's major axis lies as its does
  */
-void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose poses[2], const drogue_setup *setup,
-                         int32_t x_px, int32_t y_px);
+void drogue_inner_expect(drogue_inner_expected *expected, const drogue_ellipse *outline, const drogue_pose poses[2],
+                         const drogue_setup *setup, int32_t x_px, int32_t y_px);
 
 /* Where to look: a disc about the outline's centre of 5/6 of its semi-minor axis. */
 drogue_mask drogue_inner_disc(const drogue_ellipse *outline);
 
-/* Standard deviation of an inner part's centroid as that of the expected disc: a floor, a share of the disc's size, and
- * what the threshold moves it.
+/* The inner disc as its own edge shows it. */
+typedef struct drogue_inner_edge {
+    drogue_q16 x_px_q16; /* centre, region coordinates */
+    drogue_q16 y_px_q16;
+    drogue_q16 grown_px_q16; /* by how much its semi-axes are larger than expected */
+    drogue_q16 std_px_q16;   /* standard deviation of either coordinate, from the rays' residuals */
+    drogue_q16 rms_px_q16;   /* of the residuals */
+    uint32_t rays;           /* that agree */
+    uint32_t which;          /* of the expected discs */
+    uint8_t level;           /* mean grey at the edge */
+    uint8_t contrast;        /* mean step of grey across the edge */
+} drogue_inner_edge;
+
+/* Measure the disc by its edge: where the grey rises fastest along rays across the ellipse that a pose expects, and a fit
+ * of place and size to the rays that agree. Ribs, a wall or a probe that touch the disc cost rays, not place.
  *
- *  part, expected, outline  region coordinates
- *  return                   px Q16; 0 when it is not to be believed: of another size, in another place, cut by the rim
+ *  out      the expected disc whose rays agree with the steepest edges; zero on failure
+ *  image    the region's pixels
+ *  outline  region coordinates; the centre may lie from the expected one as far as the configured gate
+ *  return   DROGUE_OK; DROGUE_E_NO_INNER_PART when fewer than eight rays agree
  */
-drogue_q16 drogue_inner_std(const drogue_inner_part *part, const drogue_ellipse *expected,
+drogue_status drogue_inner_edge_find(drogue_inner_edge *out, const drogue_image *image,
+                                     const drogue_inner_expected *expected, const drogue_ellipse *outline,
+                                     const drogue_config *config);
+
+/* Standard deviation of the disc's centre: a floor, a share of the disc's size, and what the rays' residuals show.
+ *
+ *  expected, outline  region coordinates
+ *  return             px Q16; 0 when it is not to be believed: of another size, in another place, cut by the rim, or too
+ *                     few rays agree
+ */
+drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse *expected,
                             const drogue_ellipse *outline, const drogue_config *config);
 
 /* The inner part as evidence between the poses. */
@@ -96,14 +123,14 @@ typedef struct drogue_inner_evidence {
     uint32_t nearer;   /* index of the pose whose projected inner centre is nearer, believed or not */
 } drogue_inner_evidence;
 
-/* Weigh an inner part, and see which pose it is nearer to.
+/* Weigh the disc, and see which pose it is nearer to.
  *
- *  evidence           in: part, region coordinates; out: all of it
  *  region             pixel (0, 0) of it is where coordinates of the region begin
- *  expected, outline  region coordinates: the disc that drogue_inner_find() chose, the ellipse as seen
+ *  expected, outline  region coordinates: the discs, the ellipse as seen
  */
-void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_region *region, const drogue_ellipse *expected,
-                        const drogue_ellipse *outline, const drogue_pose poses[2], const drogue_setup *setup);
+void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge *edge, const drogue_region *region,
+                        const drogue_inner_expected *expected, const drogue_ellipse *outline,
+                        const drogue_pose poses[2], const drogue_setup *setup);
 
 #ifdef __cplusplus
 }

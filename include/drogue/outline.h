@@ -41,6 +41,15 @@ typedef struct drogue_outline {
 drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                                   const drogue_mask *mask, const drogue_config *config);
 
+/* Look for a larger outline about the one found, which may be the canopy's inner edge or a rib within the rim: the one
+ * that edge points cover best; of equals the largest.
+ *
+ *  out     in: what drogue_outline_find() found; out: the larger outline, untouched when there is none
+ *  return  1: found
+ */
+int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
+                           const drogue_mask *mask, const drogue_config *config);
+
 /* Fit the edge points that belong to an outline, each with the lens distortion removed.
  *
  *  out       ellipse as an ideal pinhole camera would see it, px of the whole image

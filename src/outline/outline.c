@@ -375,6 +375,56 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
     return status;
 }
 
+#define RINGS 14 /* about the outline, each larger than the one before by a fortieth: to 1.4 times its size */
+
+int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
+                           const drogue_mask *mask, const drogue_config *config)
+{
+    const uint32_t stride = list->edge_count / LOOKS + 1;
+    drogue_ellipse ring = out->fitted;
+    drogue_outline best;
+    context c;
+    int k;
+    memset(&c, 0, sizeof c);
+    c.workspace = workspace;
+    c.list = list;
+    c.mask = mask;
+    c.config = config;
+    best = *out;
+    best.cover_q16 = 0;
+    for (k = 0; k < RINGS; k++) {
+        drogue_ellipse_frame frame;
+        drogue_support support;
+        drogue_band band;
+        drogue_outline trial = *out;
+        ring.a_px_q16 += ring.a_px_q16 / 40;
+        ring.b_px_q16 += ring.b_px_q16 / 40;
+        band = band_about(&ring, config->search_band_q16, config);
+        if (!plausible(&ring, mask, config) || drogue_ellipse_frame_of(&frame, &ring) != DROGUE_OK) {
+            break;
+        }
+        drogue_support_count(&support, &frame, &band, workspace->edges, list->edge_count, stride);
+        drogue_support_judge(&support, &ring, config->polarity, stride);
+        if (drogue_support_cover(&support) < config->min_cover_q16) {
+            continue;
+        }
+        trial.ellipse = ring;
+        trial.support.bright_bins = support.bright_bins;
+        refit(&trial, &c);
+        if (trial.cover_q16 >= best.cover_q16 && trial.cover_q16 >= config->min_cover_q16 &&
+            (int64_t)trial.ellipse.b_px_q16 * 50 > (int64_t)out->fitted.b_px_q16 * 51) {
+            best = trial;
+        }
+    }
+    if (best.cover_q16 == 0) {
+        return 0;
+    }
+    *out = best;
+    out->fitted = out->ellipse;
+    undo_blur(&out->ellipse, config);
+    return 1;
+}
+
 drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outline *outline,
                                          const drogue_workspace *workspace, const drogue_edge_list *list,
                                          const drogue_setup *setup, int32_t x_px, int32_t y_px)

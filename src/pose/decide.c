@@ -83,6 +83,31 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
     return drogue_real_order(&best->chi2, &limit) <= 0;
 }
 
+/* Unresolved, the truth is as likely the one pose as the other: half the square of what lies between them. */
+static void add_spread(drogue_joint *joint, const drogue_pose *other)
+{
+    const drogue_pose *p = &joint->pose;
+    int64_t apart_q16[5];
+    int i;
+    int j;
+    for (i = 0; i < 3; i++) {
+        apart_q16[i] = (int64_t)other->position_m_q16[i] - p->position_m_q16[i];
+    }
+    apart_q16[3] = (int64_t)other->yaw_rad_q16 - p->yaw_rad_q16;
+    apart_q16[4] = (int64_t)other->pitch_rad_q16 - p->pitch_rad_q16;
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j <= i; j++) {
+            drogue_real *sum = &joint->covariance[DROGUE_PACKED(i, j)];
+            drogue_real t;
+            drogue_real other_factor;
+            drogue_real_set(&t, apart_q16[i], -16);
+            drogue_real_set(&other_factor, apart_q16[j], -17);
+            drogue_real_product(&t, &t, &other_factor);
+            drogue_real_sum(sum, sum, &t);
+        }
+    }
+}
+
 drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup)
 {
     const drogue_joint_inner none = {0, 0, 0};
@@ -107,6 +132,9 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
     out->orientation_resolved = resolved;
     out->pose = joint.pose;
     out->alternative = evidence->poses[1 - index];
+    if (!resolved) {
+        add_spread(&joint, &out->alternative);
+    }
     put_covariance(out, &joint);
     return DROGUE_OK;
 }

@@ -303,10 +303,19 @@ uint64_t fingerprint(const Trial &t)
                            s.sensor.motion_angle_rad,  s.sensor.light_k,
                            s.sensor.light_radius_px,   s.sensor.light_at_px.x,
                            s.probe.tip_px.x,           s.probe.root_px.x,
-                           s.probe.half_width_px,      s.probe.grey}) {
+                           s.probe.half_width_px,      s.probe.grey,
+                           s.drogue.wall_share,        s.drogue.tube_m,
+                           s.drogue.texture,           s.drogue.texture_turn,
+                           s.drogue.rim_radius_m,      s.drogue.inner_radius_m,
+                           s.drogue.inner_depth_m,     s.drogue.coupling_radius_m,
+                           s.look.wall_grey,           s.look.wall_rib_grey,
+                           s.look.tube_grey,           s.look.shine_grey,
+                           s.look.inner_grey,          s.look.ambient,
+                           s.sensor.glare_grey,        s.sensor.glare_radius_px,
+                           s.sensor.glare_at_px.x,     s.background.bottom_grey}) {
         add(v);
     }
-    for (const int v : {s.drogue.ribs, s.drogue.spokes, t.region.x, t.region.y, t.region.width}) {
+    for (const int v : {s.drogue.wall_ribs, s.drogue.ribs, s.drogue.spokes, t.region.x, t.region.y, t.region.width}) {
         add(v);
     }
     for (const Patch &p : s.drogue.patches) {

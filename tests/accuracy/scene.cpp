@@ -55,6 +55,7 @@ public:
         Hit hit = {Surface::background, 0, {0, 0, 0}};
         double nearest = std::numeric_limits<double>::infinity();
         const double housing_end_m = d_.inner_depth_m + d_.housing_length_m;
+        meet_tube(hit, nearest, ray);
         meet_disc(hit, nearest, ray);
         meet_cone(hit, nearest, ray);
         meet_cylinder(hit, nearest, ray, d_.coupling_radius_m, d_.inner_depth_m, housing_end_m, Surface::housing);
@@ -130,8 +131,63 @@ private:
             return;
         }
         const bool black = r <= d_.inner_radius_m;
-        hit = {black ? Surface::inner : Surface::coupling,
-               black ? look_.inner_grey : lambert(look_.coupling_grey, {0, 0, facing}), p};
+        const bool rib = !black && on_wall_rib(p);
+        hit = {black ? Surface::inner
+               : rib ? Surface::wall_rib
+                     : Surface::coupling,
+               black ? look_.inner_grey : lambert(rib ? look_.wall_rib_grey : look_.coupling_grey, {0, 0, facing}), p};
+    }
+
+    bool on_wall_rib(const cv::Vec3d &p) const
+    {
+        const double turn = std::atan2(p[1], p[0]) / (2 * CV_PI) * d_.wall_ribs + d_.rib_phase;
+        return d_.wall_ribs > 0 && std::fabs(turn - std::floor(turn + 0.5)) < d_.rib_share / 2;
+    }
+
+    /* A weave: two waves about the axis and one along it. */
+    double weave(const cv::Vec3d &p) const
+    {
+        const double angle = std::atan2(p[1], p[0]) + d_.texture_turn;
+        return 1 + d_.texture * (0.5 * std::sin(7 * angle) + 0.3 * std::sin(19 * angle) +
+                                 0.4 * std::sin(3 * angle + 40 * p[2] / d_.inner_depth_m));
+    }
+
+    /* The torus, by steps of its distance from the ray's point. */
+    void meet_tube(Hit &hit, double &nearest, const cv::Vec3d &ray) const
+    {
+        if (d_.tube_m <= 0 || ray[2] == 0) {
+            return;
+        }
+        const double middle_m = d_.rim_radius_m - d_.tube_m;
+        const double length = cv::norm(ray);
+        const auto away = [&](const cv::Vec3d &p) {
+            return std::hypot(std::hypot(p[0], p[1]) - middle_m, p[2]) - d_.tube_m;
+        };
+        double t = (-eye_[2] - std::copysign(3 * d_.tube_m, ray[2])) / ray[2];
+        const double end = (-eye_[2] + std::copysign(3 * d_.tube_m, ray[2])) / ray[2];
+        if (std::fabs(std::hypot(eye_[0] + t * ray[0], eye_[1] + t * ray[1]) - middle_m) > 12 * d_.tube_m) {
+            return;
+        }
+        for (int i = 0; i < 60 && t < end; i++) {
+            const cv::Vec3d p = eye_ + t * ray;
+            const double off = away(p);
+            if (off < 1e-6) {
+                if (t <= 0 || t >= nearest) {
+                    return;
+                }
+                const double r = std::hypot(p[0], p[1]);
+                const cv::Vec3d normal =
+                    cv::normalize(cv::Vec3d(p[0] * (1 - middle_m / r), p[1] * (1 - middle_m / r), p[2]));
+                const cv::Vec3d mirrored = ray / length - 2 * (ray / length).dot(normal) * normal;
+                nearest = t;
+                hit = {Surface::tube,
+                       lambert(look_.tube_grey, normal) +
+                           look_.shine_grey * std::pow(std::max(0.0, mirrored.dot(sun_)), 24),
+                       p};
+                return;
+            }
+            t += off / length;
+        }
     }
 
     /* Canopy: radius(z) = rim + slope z on [0, depth]. */
@@ -169,6 +225,13 @@ private:
                 albedo *= 1 - look_.depth_loss * p[2] / d_.inner_depth_m;
             }
             nearest = t;
+            albedo *= weave(p);
+            if (inside && r < d_.wall_share * d_.rim_radius_m) {
+                const bool dark = on_wall_rib(p);
+                hit = {dark ? Surface::wall_rib : Surface::wall,
+                       lambert((dark ? look_.wall_rib_grey : look_.wall_grey) * weave(p), normal), p};
+                continue;
+            }
             if (inside && on_patch(p)) {
                 hit = {Surface::patch, lambert(look_.patch_grey, normal), p};
                 continue;
@@ -338,6 +401,15 @@ cv::Mat render_light(const Scene &scene, const cv::Rect &region)
             for (int x = 0; x < region.width; x++) {
                 const double distance = std::hypot(region.x + x - s.light_at_px.x, region.y + y - s.light_at_px.y);
                 light.at<double>(y, x) *= std::max(0.0, s.light_k * (1 - distance / s.light_radius_px));
+            }
+        }
+    }
+    if (s.glare_grey > 0) {
+        for (int y = 0; y < region.height; y++) {
+            for (int x = 0; x < region.width; x++) {
+                const double r = std::hypot(region.x + x - s.glare_at_px.x, region.y + y - s.glare_at_px.y);
+                light.at<double>(y, x) +=
+                    s.glare_grey * std::exp(-0.5 * r * r / (s.glare_radius_px * s.glare_radius_px));
             }
         }
     }

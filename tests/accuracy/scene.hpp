@@ -37,6 +37,12 @@ struct Drogue {
     double spoke_width_m = 0;
     double spoke_phase_rad = 0;
     std::vector<Patch> patches = {};
+    double wall_share =
+        0;              /* of the rim's radius: what of the funnel's inside lies deeper is wall, not canopy; 0: none */
+    int wall_ribs = 0;  /* dark ribs on the wall, as far in as the black disc */
+    double tube_m = 0;  /* a torus round the end plane whose outer radius is the rim's; 0: a sharp edge */
+    double texture = 0; /* share of the canopy's and the wall's grey by which a weave changes it */
+    double texture_turn = 0; /* where that begins, radians */
 };
 
 /* Grey levels and light. Lambert: grey = albedo * (ambient + (1 - ambient) * max(0, normal . sun)). */
@@ -49,6 +55,10 @@ struct Look {
     double hose_grey = 45;
     double spoke_grey = 110;
     double patch_grey = 16;
+    double wall_grey = 90;
+    double wall_rib_grey = 25;
+    double tube_grey = 120;
+    double shine_grey = 0; /* the torus's highlight: this times cos^24 between sun and mirrored ray */
     double ambient = 0.75;
     cv::Vec3d sun = {-0.48, -0.64, -0.6}; /* unit, towards the sun, camera frame */
 
@@ -93,6 +103,9 @@ struct Sensor {
     double light_k = 1;
     double light_radius_px = 0;
     cv::Point2d light_at_px = {0, 0};
+    double glare_grey = 0; /* a round spot of light added before the sensor saturates; off at 0 */
+    double glare_radius_px = 0;
+    cv::Point2d glare_at_px = {0, 0};
 };
 
 /* The receiver's probe before the drogue: a rod in the image plane with a round tip; off at width 0. */
@@ -132,7 +145,10 @@ enum class Surface {
     hose,
     probe,
     spoke,
-    patch
+    patch,
+    wall,
+    wall_rib,
+    tube
 };
 
 /* What the ray of a pixel (as seen, subpixel) meets, and the light that it gives off. */

@@ -104,16 +104,10 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
     if (result.status != DROGUE_OK) {
         return;
     }
-    drogue_inner_expect(&expected, evidence.poses, &setup, 0, 0);
-    const auto miss = [&](const drogue_ellipse &e) {
-        return std::hypot(from_q16(e.xc_px_q16) - from_q16(inner.x_px_q16),
-                          from_q16(e.yc_px_q16) - from_q16(inner.y_px_q16));
-    };
+    drogue_inner_expect(&expected, &result.ellipse, evidence.poses, &setup, 0, 0);
     if (expected.count > 0 && result.has_inner != 0) {
-        const drogue_ellipse &disc = expected.count == 2 && miss(expected.disc[1]) < miss(expected.disc[0])
-                                         ? expected.disc[1]
-                                         : expected.disc[0];
-        inner.std_px_q16 = drogue_inner_std(&result.inner, &disc, &result.ellipse, &edges.config);
+        const drogue_q16 share = drogue_q16_mul(edges.config.inner_std_share_q16, expected.disc[0].a_px_q16);
+        inner.std_px_q16 = to_q16(std::hypot(from_q16(share), from_q16(edges.config.inner_std_px_q16)));
     }
     if (result.has_inner != 0) {
         result.status = drogue_choose_pose(&choice, evidence.poses, inner.x_px_q16, inner.y_px_q16,

@@ -24,7 +24,9 @@ mirror::Task task_of(const Trial &t, const cv::Mat &image)
         {from_q16(t.model.rim_radius_m_q16), from_q16(t.model.inner_radius_m_q16), from_q16(t.model.inner_depth_m_q16)},
         {t.region.x, t.region.y, t.region.width, t.region.height},
         {},
-        DROGUE_CAPACITY_FOR(side)};
+        DROGUE_CAPACITY_FOR(side),
+        {},
+        t.model};
     drogue_config_default(&task.config);
     return task;
 }

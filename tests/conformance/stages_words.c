@@ -80,14 +80,14 @@ const conf_measure conf_measures[CONF_MEASURES] = {
     {"frame", 'a', "its angle", "rad", 16, CONF_LSB, 4, 1024, "circle"},
     {"frame", 'i', "ideal outline", "px", 16, CONF_LSB, 4, 1024, NULL},
     {"frame", 'b', "its angle", "rad", 16, CONF_LSB, 4, 1024, "circle"},
-    {"frame", 'c', "inner part", "px", 16, CONF_LSB, 1, 1, NULL},
+    {"frame", 'c', "inner part", "px", 16, CONF_LSB, 4, 4, NULL},
     {"frame", 's', "its spread", "px", 16, CONF_LSB, 3, 3, NULL},
     {"frame", 'm', "position", "m", 16, CONF_LSB, 4, 512, NULL},
     {"frame", 'r', "axis, angles", "rad", 16, CONF_LSB, 4, 656, NULL},
     {"frame", 'x', "ambiguity", "1", 16, CONF_LSB, 0, 2048, "ill-conditioned"},
     {"frame", 'q', "quality", "1", 16, CONF_LSB, 4, 4, NULL},
-    {"frame", 'v', "covariance", "scale", 48, CONF_OF_SCALE, 4, 15625, NULL},
-    {"frame", 't', "std", "itself", 32, CONF_OF_ITSELF, 4, 7813, NULL},
+    {"frame", 'v', "covariance", "scale", 48, CONF_OF_SCALE, 4, 15625, "ill-conditioned"},
+    {"frame", 't', "std", "itself", 32, CONF_OF_ITSELF, 4, 7813, "ill-conditioned"},
     {NULL, '.', "exact", "", 0, CONF_EXACT, 0, 0, NULL},
     {NULL, '?', "no reference", "", 0, CONF_UNREFERENCED, 0, 0, "no-reference"}};
 /* clang-format on */

@@ -73,11 +73,11 @@ Words words_of(const mirror::Result &r)
     w[REFIT] = r.outline.refit_points;
     w[HAS_INNER] = r.has_inner;
     if (r.has_inner) {
-        w[INNER + 3] = r.part.threshold;
+        w[INNER + 3] = r.part.level;
         w[INNER] = q16(r.inner.x);
         w[INNER + 1] = q16(r.inner.y);
-        w[INNER + 2] = r.part.area;
-        w[INNER + 4] = q16(r.part.spread);
+        w[INNER + 2] = static_cast<int64_t>(std::floor(r.area + 0.5L));
+        w[INNER + 4] = q16(r.part.rms);
     }
     if (r.status != DROGUE_OK) {
         return w;
@@ -217,6 +217,23 @@ void poses_more(std::vector<Real> &more, const mirror::Task &task, const mirror:
     for (size_t i = COVARIANCE; i < ALL; i++) {
         more[i] = s.at(i) + std::fabs(static_cast<Real>(own[i])) * 0x1p-20L;
     }
+    if (!r.resolved) { /* half the square of what lies between two poses, whose words are off by an LSB each and more */
+        const reference::Pose &p = r.pose, &q = r.alternative;
+        const Real apart[5] = {q.position[0] - p.position[0], q.position[1] - p.position[1],
+                               q.position[2] - p.position[2], q.yaw - p.yaw, q.pitch - p.pitch};
+        const Real off = 4 / 65536.0L;
+        for (int i = 0, at = COVARIANCE; i < 5; i++) {
+            for (int j = 0; j <= i; j++) {
+                more[static_cast<size_t>(at++)] +=
+                    std::ldexp(off * (std::fabs(apart[i]) + std::fabs(apart[j]) + off) / 2, 48);
+            }
+        }
+        for (size_t k = 0; k < 4; k++) {
+            const Real std = k < 3 ? r.position_std[k] : r.axis_std;
+            const Real most = k < 3 ? std::fabs(apart[k]) : std::fabs(apart[3]) + std::fabs(apart[4]);
+            more[STD + k] += std::ldexp(off * (most + off) / std, 32);
+        }
+    }
 }
 
 mirror::Task task_of(const std::vector<Array> &in)
@@ -229,8 +246,13 @@ mirror::Task task_of(const std::vector<Array> &in)
         {real(m[0]), real(m[1]), real(m[2])},
         {g[0], g[1], g[2], g[3]},
         {},
-        {static_cast<uint32_t>(fits ? g[2] : DROGUE_MAX_SIDE), CONF_MAX_EDGES, CONF_MAX_LABELS, CONF_MAX_ARCS}};
+        {static_cast<uint32_t>(fits ? g[2] : DROGUE_MAX_SIDE), CONF_MAX_EDGES, CONF_MAX_LABELS, CONF_MAX_ARCS},
+        {},
+        {}};
     drogue_config_default(&t.config);
+    const auto q = [](int64_t v) { return static_cast<drogue_q16>(v); };
+    t.library_camera = {q(c[0]), q(c[1]), q(c[2]), q(c[3]), q(c[4]), q(c[5]), q(c[6]), q(c[7]), q(c[8])};
+    t.library_model = {q(m[0]), q(m[1]), q(m[2])};
     return t;
 }
 

@@ -4,10 +4,13 @@
 
 #define drogue_outline_find decisions_outline_find
 #define drogue_outline_undistorted decisions_outline_undistorted
+#define drogue_outline_enlarge decisions_outline_enlarge
 drogue_status decisions_outline_find(drogue_outline *, const drogue_workspace *, const drogue_edge_list *,
                                      const drogue_mask *, const drogue_config *);
 drogue_status decisions_outline_undistorted(drogue_ellipse *, const drogue_outline *, const drogue_workspace *,
                                             const drogue_edge_list *, const drogue_setup *, int32_t, int32_t);
+int decisions_outline_enlarge(drogue_outline *, const drogue_workspace *, const drogue_edge_list *, const drogue_mask *,
+                              const drogue_config *);
 #include "../../../src/outline/outline.c"
 
 /* As refit() in outline.c, written down on the way. */
@@ -62,5 +65,22 @@ int decisions_of_refit(decisions_round rounds[DECISIONS_MAX], const drogue_works
     memset(&outline, 0, sizeof outline);
     outline.ellipse = candidate.ellipse;
     outline.support.bright_bins = candidate.polarity;
+    return follow(rounds, &outline, &x);
+}
+
+int decisions_of_ring(decisions_round rounds[DECISIONS_MAX], const drogue_workspace *workspace,
+                      const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config,
+                      const drogue_ellipse *ring, uint32_t bright_bins)
+{
+    drogue_outline outline;
+    context x;
+    memset(&x, 0, sizeof x);
+    x.workspace = workspace;
+    x.list = list;
+    x.mask = mask;
+    x.config = config;
+    memset(&outline, 0, sizeof outline);
+    outline.ellipse = *ring;
+    outline.support.bright_bins = bright_bins;
     return follow(rounds, &outline, &x);
 }

@@ -21,6 +21,11 @@ int decisions_of_refit(decisions_round rounds[DECISIONS_MAX], const drogue_works
                        const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config,
                        const uint32_t arcs[4]);
 
+/* The rounds from an ellipse whose bins have the given polarities. */
+int decisions_of_ring(decisions_round rounds[DECISIONS_MAX], const drogue_workspace *workspace,
+                      const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config,
+                      const drogue_ellipse *ring, uint32_t bright_bins);
+
 #ifdef __cplusplus
 }
 #endif

@@ -2,6 +2,8 @@
 /* The measurement of a frame in floating point: region, outline, inner part, poses, choice, joint solution. */
 #include "mirror.hpp"
 
+#include "drogue/undistort.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +14,8 @@ using reference::Point;
 using reference::Pose;
 
 namespace {
+
+constexpr Real DOUBTED = 32768; /* of a try that gave no pose */
 
 /* The region within the image, and the circles about the region asked for in its coordinates. */
 bool place(cv::Rect &clipped, drogue_mask &mask, const cv::Mat &image, const std::array<int64_t, 4> &region)
@@ -40,6 +44,8 @@ struct Frame {
     std::unique_ptr<FrontEnd> front;
     drogue_outline decided; /* the library's */
     Follow follow;
+    cv::Rect region; /* of the last outline looked for, and that */
+    Outline outline;
 };
 
 drogue_status outline_in(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region, bool follow)
@@ -108,11 +114,33 @@ drogue_status outline_twice(Result &out, Frame &f, const Task &task, const drogu
 
 bool distorts(const reference::Camera &c) { return c.k1 != 0 || c.k2 != 0 || c.p1 != 0 || c.p2 != 0 || c.k3 != 0; }
 
-/* Look for the inner part where a pose expects it; 'expected' is the disc that it was found by. */
-void find_inner(Result &out, Ellipse &expected, const Frame &f, const std::array<Pose, 2> &pair, const Task &task)
+drogue_ellipse rounded_ellipse(const Ellipse &e)
 {
-    const Ellipse &rim = out.outline.ellipse;
-    std::vector<Ellipse> discs;
+    return {reference::q16(e.xc), reference::q16(e.yc), reference::q16(e.a), reference::q16(e.b),
+            reference::q16(e.angle)};
+}
+
+/* Where the poses expect the inner disc. The library's own places where there is a library to follow: rays begin there. */
+drogue_inner_expected expect(const Result &out, const Frame &f, const std::array<Pose, 2> &pair, const Task &task,
+                             const drogue_ellipse &rim)
+{
+    drogue_inner_expected expected = {};
+    if (f.follow.library != nullptr) {
+        const auto camera = task.library_camera;
+        const drogue_model model = task.library_model;
+        const drogue_setup setup = {&camera, &model, &task.config};
+        drogue_ellipse ideal = rim;
+        drogue_pose poses[2];
+        ideal.xc_px_q16 += out.region.x * 65536;
+        ideal.yc_px_q16 += out.region.y * 65536;
+        if ((!drogue_camera_distorts(&camera) ||
+             drogue_outline_undistorted(&ideal, &f.decided, &f.front->workspace, &f.front->list, &setup, out.region.x,
+                                        out.region.y) == DROGUE_OK) &&
+            drogue_pose_from_ellipse(poses, &ideal, &camera, model.rim_radius_m_q16) == DROGUE_OK) {
+            drogue_inner_expect(&expected, &rim, poses, &setup, out.region.x, out.region.y);
+        }
+        return expected;
+    }
     for (const Pose &pose : pair) {
         Ellipse e;
         Point at;
@@ -121,31 +149,39 @@ void find_inner(Result &out, Ellipse &expected, const Frame &f, const std::array
         }
         at = {e.xc, e.yc};
         if (reference::distort(task.camera, at)) {
-            discs.push_back({at.x - out.region.x, at.y - out.region.y, e.a, e.b, 0, true});
+            expected.disc[expected.count++] =
+                rounded_ellipse({at.x - out.region.x, at.y - out.region.y, e.a, e.b, out.outline.ellipse.angle, true});
         }
     }
-    out.part = reference::inner_disc(f.view, rounded(2 * rim.xc), rounded(2 * rim.yc), rounded(2.5L * rim.b),
-                                     static_cast<int>(task.config.min_inner_area_px), discs);
+    return expected;
+}
+
+/* Look for the inner disc where a pose expects it; 'expected' is the one that it was found by. */
+void find_inner(Result &out, Ellipse &expected, const Frame &f, const std::array<Pose, 2> &pair, const Task &task)
+{
+    const drogue_ellipse rim = f.follow.library != nullptr ? f.decided.ellipse : rounded_ellipse(out.outline.ellipse);
+    const drogue_inner_expected discs = expect(out, f, pair, task, rim);
+    const drogue_image view = {f.view.data, f.view.cols, f.view.rows, static_cast<int32_t>(f.view.step)};
+    out.part = inner_edge(view, discs, rim, task.config);
     out.has_inner = out.part.found;
     if (out.has_inner) {
-        expected = discs[static_cast<size_t>(out.part.which)];
+        const drogue_ellipse &e = discs.disc[out.part.which];
+        expected = {real(e.xc_px_q16), real(e.yc_px_q16), real(e.a_px_q16), real(e.b_px_q16), 0, true};
+        out.area = std::acos(Real(-1)) * (expected.a + out.part.grown) * (expected.b + out.part.grown);
     }
 }
 
-/* Of about the expected size, near the expected place, not cut by the rim? */
+/* Of about the expected size, near the expected place, not cut by the rim, and seen by enough rays? */
 bool trust(const Result &out, const Ellipse &expected, const drogue_config &config)
 {
     const Ellipse &rim = out.outline.ellipse;
     const Real c = std::cos(rim.angle), s = std::sin(rim.angle), dx = out.part.x - rim.xc, dy = out.part.y - rim.yc;
     const Real u = (dx * c + dy * s) / rim.a, v = (dy * c - dx * s) / rim.b, room = 1 - expected.a / rim.b;
     const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * rim.a;
-    const auto fill = [&](Real room_px) { /* of the expected disc made larger by so much */
-                                          return static_cast<Real>(out.part.area) /
-                                                 (std::acos(Real(-1)) * (expected.a + room_px) *
-                                                  (expected.b + room_px));
-    };
-    return out.part.contrast >= config.min_inner_contrast && fill(-0.5L) >= real(config.min_fill_q16) &&
-           fill(0.5L) <= real(config.max_fill_q16) &&
+    const Real size = real(config.inner_size_px_q16) + real(config.inner_size_q16) * expected.a;
+    return out.part.contrast >= config.min_inner_contrast && out.area >= config.min_inner_area_px &&
+           static_cast<Real>(out.part.rays) >= real(config.min_inner_cover_q16) * DROGUE_RAYS &&
+           out.part.rms <= real(config.inner_rms_px_q16) && std::fabs(out.part.grown) <= size &&
            std::hypot(out.part.x - expected.xc, out.part.y - expected.yc) <= gate && room > 0 &&
            std::hypot(u, v) <= room;
 }
@@ -153,7 +189,7 @@ bool trust(const Result &out, const Ellipse &expected, const drogue_config &conf
 Real inner_std(const Result &out, const Ellipse &expected, const drogue_config &config)
 {
     return std::hypot(std::hypot(real(config.inner_std_share_q16) * expected.a, real(config.inner_std_px_q16)),
-                      real(config.inner_std_spread_q16) * out.part.spread);
+                      out.part.std);
 }
 
 bool same_solution(const reference::Joint &p, const reference::Joint &q)
@@ -245,6 +281,18 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
     out.pose = t.joint.pose;
     out.alternative = pair[1 - t.index];
     out.covariance = t.joint.covariance;
+    if (!t.resolved) { /* the truth is as likely the other pose */
+        const Pose &p = out.pose, &q = out.alternative;
+        const double apart[5] = {static_cast<double>(q.position[0] - p.position[0]),
+                                 static_cast<double>(q.position[1] - p.position[1]),
+                                 static_cast<double>(q.position[2] - p.position[2]), static_cast<double>(q.yaw - p.yaw),
+                                 static_cast<double>(q.pitch - p.pitch)};
+        for (int i = 0; i < 5; i++) {
+            for (int j = 0; j < 5; j++) {
+                out.covariance(i, j) += apart[i] * apart[j] / 2;
+            }
+        }
+    }
     for (int k = 0; k < 3; k++) {
         out.position_std[static_cast<size_t>(k)] = std::sqrt(static_cast<Real>(out.covariance(k, k)));
     }
@@ -252,36 +300,25 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
     out.axis_std = std::sqrt(out.covariance(3, 3) * c * c + out.covariance(4, 4));
 }
 
-Result measure(const Task &task, const drogue_result *library, Features *features)
+namespace {
+
+/* From the outline to the pose; the doubt in it. */
+Real judge(Result &out, Features &from, const Frame &f, const Task &task, const drogue_result *library)
 {
-    Result out;
-    Frame f;
     const reference::Camera &camera = task.camera;
-    out.outline.arcs.fill(DROGUE_NO_ARC);
-    if (!(camera.fx > 0) || !(camera.fy > 0) || !(task.model.rim_radius > 0) || task.model.inner_radius < 0) {
-        out.status = DROGUE_E_ARGUMENT;
-        return out;
-    }
-    out.status = outline_twice(out, f, task, library);
-    if (out.status != DROGUE_OK) {
-        return out;
-    }
+    Real doubt = 0;
     out.found = true;
     out.seen = out.outline.ellipse;
     out.seen.xc += out.region.x;
     out.seen.yc += out.region.y;
     out.ideal =
         distorts(camera) ? ideal_of(out.outline, *f.front, task.config, f.follow, camera, out.region.tl()) : out.seen;
-    if (!out.ideal.ok) {
-        out.status = DROGUE_E_NO_ELLIPSE;
-        return out;
-    }
-    Features from = {out.ideal, out.outline.support, {{0, 0}, 0}, false, false};
     std::array<Pose, 2> pair;
-    if (!reference::poses(out.ideal, camera, task.model.rim_radius, pair)) {
-        out.status = DROGUE_E_DOMAIN;
-        return out;
+    if (!out.ideal.ok || !reference::poses(out.ideal, camera, task.model.rim_radius, pair)) {
+        out.status = out.ideal.ok ? DROGUE_E_DOMAIN : DROGUE_E_NO_ELLIPSE;
+        return DOUBTED;
     }
+    from = {out.ideal, out.outline.support, {{0, 0}, 0}, false, false};
     if (task.model.inner_radius > 0) {
         Ellipse expected = {0, 0, 0, 0, 0, false};
         find_inner(out, expected, f, pair, task);
@@ -292,12 +329,81 @@ Result measure(const Task &task, const drogue_result *library, Features *feature
             from.placed = reference::undistort(camera, from.inner.at);
             from.trusted = from.trusted && from.placed;
         }
-    }
-    if (features != nullptr) {
-        *features = from;
+        doubt = from.trusted ? std::fabs(out.part.grown) / expected.a : 1;
     }
     finish(out, task, from, library);
-    return out;
+    return doubt;
+}
+
+} // namespace
+
+/* The tries of drogue_measure(), in its order. */
+Result measure(const Task &asked, const drogue_result *library, Features *features)
+{
+    constexpr Real SURE = 0.04L;
+    Task task = asked;
+    Frame f;
+    Result best;
+    Real least = DOUBTED;
+    best.outline.arcs.fill(DROGUE_NO_ARC);
+    if (!(task.camera.fx > 0) || !(task.camera.fy > 0) || !(task.model.rim_radius > 0) || task.model.inner_radius < 0) {
+        best.status = DROGUE_E_ARGUMENT;
+        return best;
+    }
+    drogue_status status = DROGUE_OK;
+    for (int what = 0; what < 4 && least > SURE; what++) {
+        const bool larger = what % 2 == 1;
+        Result out;
+        Features from = {};
+        Real doubt = DOUBTED;
+        if (larger && status != DROGUE_OK) {
+            continue;
+        }
+        if (what == 2) {
+            uint32_t histogram[256];
+            const drogue_image view = {f.view.data, f.view.cols, f.view.rows, static_cast<int32_t>(f.view.step)};
+            const int32_t high = std::max(drogue_noise_threshold(histogram, &view), asked.config.canny_least);
+            if (high >= asked.config.canny_high) {
+                break;
+            }
+            task.config.canny_low =
+                static_cast<int32_t>(static_cast<int64_t>(high) * asked.config.canny_low / asked.config.canny_high);
+            task.config.canny_high = high;
+        }
+        out.outline.arcs.fill(DROGUE_NO_ARC);
+        if (larger) {
+            out.region = f.region;
+            out.outline = f.outline;
+            if (f.follow.library != nullptr) {
+                (void)drogue_outline_enlarge(&f.decided, &f.front->workspace, &f.front->list, &f.mask, &task.config);
+            }
+            out.status =
+                enlarge(out.outline, *f.front, f.mask, task.config, f.follow) ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
+        } else {
+            out.status = outline_twice(out, f, task, library);
+            f.region = out.region;
+            f.outline = out.outline;
+        }
+        if (out.status == DROGUE_OK) {
+            doubt = judge(out, from, f, task, library);
+        }
+        status = out.status;
+        if (what == 0) {
+            best = out;
+            if (status != DROGUE_OK && status != DROGUE_E_NO_ELLIPSE && status != DROGUE_E_NO_EDGES &&
+                status != DROGUE_E_NO_ARCS) {
+                return best;
+            }
+        }
+        if (doubt < least) {
+            least = doubt;
+            best = out;
+            if (features != nullptr) {
+                *features = from;
+            }
+        }
+    }
+    return best;
 }
 
 } // namespace mirror

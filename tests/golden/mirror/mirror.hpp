@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "edge.hpp"
 #include "outline.hpp"
 
 namespace mirror {
@@ -15,7 +16,9 @@ struct Task {
     reference::Model model;
     std::array<int64_t, 4> region; /* x y width height */
     drogue_config config;
-    drogue_capacity capacity; /* of the workspace; 'width_px' is set as the region needs */
+    drogue_capacity capacity;     /* of the workspace; 'width_px' is set as the region needs */
+    drogue_camera library_camera; /* the same as the library has them */
+    drogue_model library_model;
 };
 
 /* As drogue_result, unrounded. */
@@ -26,7 +29,8 @@ struct Result {
     Outline outline;    /* in coordinates of the region */
     reference::Ellipse seen = {0, 0, 0, 0, 0, false}, ideal = {0, 0, 0, 0, 0, false};
     bool has_inner = false;
-    reference::InnerDisc part = {};
+    Disc part = {};
+    Real area = 0;                   /* of the disc, px^2 */
     reference::Point inner = {0, 0}; /* as seen, px of the whole image */
     Real ambiguity = 1;
     bool resolved = false;

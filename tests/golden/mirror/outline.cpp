@@ -75,6 +75,7 @@ public:
         : front_(front), mask_(mask), config_(config), follow_(follow)
     {}
     drogue_status find(Outline &out);
+    bool enlarge(Outline &out) const;
 
 private:
     using Arcs = std::array<uint32_t, 4>;
@@ -93,6 +94,7 @@ private:
     bool plausible(const Ellipse &e) const;
     reference::Band band_about(const Ellipse &e) const;
     Outline refine(const Candidate &candidate) const;
+    void refit(Outline &o, const decisions_round *rounds, int known) const;
     void narrow(reference::Band &band, const Support &s, const Ellipse &e) const;
     reference::ClusterConfig cluster() const;
 
@@ -282,6 +284,13 @@ Outline Finder::refine(const Candidate &candidate) const
     o.quality = candidate.quality;
     o.ellipse = candidate.rated.ellipse;
     o.support.bright = static_cast<uint32_t>(candidate.rated.polarity);
+    refit(o, rounds, known);
+    return o;
+}
+
+/* Collect and fit until it settles, with what the library decided where that is known. */
+void Finder::refit(Outline &o, const decisions_round *rounds, int known) const
+{
     reference::Band band = band_about(o.ellipse);
     bool done = false;
     for (int round = 0; round <= static_cast<int>(config_.refit_rounds) && !done; round++) {
@@ -327,7 +336,43 @@ Outline Finder::refine(const Candidate &candidate) const
     o.polarity = o.support.bright == 0            ? DROGUE_POLARITY_DARK
                  : o.support.bright == UINT32_MAX ? DROGUE_POLARITY_BRIGHT
                                                   : DROGUE_POLARITY_BOTH;
-    return o;
+}
+
+bool Finder::enlarge(Outline &out) const
+{
+    Ellipse ring = out.fitted;
+    Outline best = out;
+    best.cover = 0;
+    for (int k = 0; k < 14; k++) {
+        Outline trial = out;
+        Real slack = 0;
+        uint32_t bright = 0;
+        ring.a += ring.a / 40;
+        ring.b += ring.b / 40;
+        if (!plausible(ring)) {
+            break;
+        }
+        if (cover(bright, slack, ring) < real(config_.min_cover_q16)) {
+            continue;
+        }
+        decisions_round rounds[DECISIONS_MAX];
+        const drogue_ellipse start = {q16(ring.xc), q16(ring.yc), q16(ring.a), q16(ring.b), q16(ring.angle)};
+        const int known = follow_.library != nullptr ? decisions_of_ring(rounds, &front_.workspace, &front_.list,
+                                                                         &mask_, &config_, &start, bright)
+                                                     : 0;
+        trial.ellipse = ring;
+        trial.support.bright = bright;
+        refit(trial, rounds, known);
+        if (trial.cover >= best.cover && trial.cover >= real(config_.min_cover_q16) &&
+            trial.ellipse.b * 50 > out.fitted.b * 51) {
+            best = trial;
+        }
+    }
+    if (best.cover == 0) {
+        return false;
+    }
+    out = best;
+    return true;
 }
 
 /* The most reliable candidate, refined; while it covers little, the next that differ, and the one that covers most. */
@@ -413,6 +458,17 @@ drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mas
         undo_blur(out.ellipse, config);
     }
     return status;
+}
+
+bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
+             const Follow &follow)
+{
+    if (!Finder(front, mask, config, follow).enlarge(out)) {
+        return false;
+    }
+    out.fitted = out.ellipse;
+    undo_blur(out.ellipse, config);
+    return true;
 }
 
 Ellipse ideal_of(const Outline &outline, const FrontEnd &front, const drogue_config &config, const Follow &follow,

@@ -59,6 +59,10 @@ struct Outline {
 drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
                            const Follow &follow);
 
+/* A larger outline about the one found, as drogue_outline_enlarge(); false: none, 'out' as it was. */
+bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
+             const Follow &follow);
+
 /* Ellipse as the ideal camera would see it, px of the whole image; not ok when the lens cannot be undone. */
 reference::Ellipse ideal_of(const Outline &outline, const FrontEnd &front, const drogue_config &config,
                             const Follow &follow, const reference::Camera &camera, cv::Point origin);

@@ -31,6 +31,7 @@ START_TEST(expected_where_the_poses_show_it)
         drogue_config config;
         drogue_pose poses[2];
         drogue_inner_expected got;
+        const drogue_ellipse outline = {0, 0, 2 * 65536, 65536, rng_range(&rng, -65536, 65536)};
         ellipse_real truth[2];
         if (i & 1) {
             f.camera.k1_q16 = q16_of(rng_real(&rng, -0.1, 0.1));
@@ -47,7 +48,7 @@ START_TEST(expected_where_the_poses_show_it)
             ck_assert(field_inner(&truth[k], &f, &p));
         }
         drogue_config_default(&config);
-        drogue_inner_expect(&got, poses, &(drogue_setup){&f.camera, &f.model, &config}, x_px, y_px);
+        drogue_inner_expect(&got, &outline, poses, &(drogue_setup){&f.camera, &f.model, &config}, x_px, y_px);
         MUST(got.count == 2 && got.min_area_px == config.min_inner_area_px, "case %d: not both", i);
         for (k = 0; k < 2; k++) {
             drogue_q16 u = q16_of(truth[k].xc), v = q16_of(truth[k].yc);
@@ -56,6 +57,7 @@ START_TEST(expected_where_the_poses_show_it)
             MUST(hypot(real_of_q16(got.disc[k].xc_px_q16) + x_px - real_of_q16(u),
                        real_of_q16(got.disc[k].yc_px_q16) + y_px - real_of_q16(v)) < 0.02,
                  "case %d: disc %d is elsewhere", i, k);
+            MUST(got.disc[k].angle_rad_q16 == outline.angle_rad_q16, "case %d: angle", i);
             MUST(fabs(real_of_q16(got.disc[k].a_px_q16) / truth[k].a - 1) < 0.15, "case %d: size", i);
         }
     }
@@ -69,21 +71,22 @@ START_TEST(poses_that_show_none)
     drogue_pose poses[2];
     drogue_config config;
     const drogue_setup setup = {&f.camera, &f.model, &config};
+    const drogue_ellipse outline = {0, 0, 2 * 65536, 65536, 0};
     drogue_inner_expected one, got;
     drogue_config_default(&config);
     poses[0] = poses[1] = pose_of(&good);
-    drogue_inner_expect(&one, poses, &setup, 0, 0);
+    drogue_inner_expect(&one, &outline, poses, &setup, 0, 0);
     ck_assert_uint_eq(one.count, 2);
     poses[0] = pose_of(&far); /* 0.9 px */
-    drogue_inner_expect(&got, poses, &setup, 0, 0);
+    drogue_inner_expect(&got, &outline, poses, &setup, 0, 0);
     ck_assert_uint_eq(got.count, 1);
     ck_assert_int_eq(memcmp(&got.disc[0], &one.disc[0], sizeof got.disc[0]), 0); /* the other one comes first */
     poses[1] = pose_of(&far);
-    drogue_inner_expect(&got, poses, &setup, 0, 0);
+    drogue_inner_expect(&got, &outline, poses, &setup, 0, 0);
     ck_assert_uint_eq(got.count, 0);
     f.model.inner_depth_m_q16 = q16_of(-7);
     poses[0] = poses[1] = pose_of(&behind);
-    drogue_inner_expect(&got, poses, &setup, 0, 0);
+    drogue_inner_expect(&got, &outline, poses, &setup, 0, 0);
     ck_assert_uint_eq(got.count, 0);
 }
 END_TEST
@@ -112,7 +115,7 @@ END_TEST
 
 /* An outline of 100 by 80 px, a disc of 30 px expected 10 px off its centre, and the part found there. */
 typedef struct finding {
-    drogue_inner_part part;
+    drogue_inner_edge edge;
     drogue_ellipse expected, outline;
     drogue_config config;
 } finding;
@@ -129,16 +132,16 @@ static finding usual_finding(void)
     f.expected.xc_px_q16 = q16_of(210);
     f.expected.yc_px_q16 = q16_of(150);
     f.expected.a_px_q16 = f.expected.b_px_q16 = q16_of(30);
-    f.part.x_px_q16 = q16_of(210);
-    f.part.y_px_q16 = q16_of(150);
-    f.part.area_px = 2827; /* 30^2 pi */
-    f.part.contrast = 40;
+    f.edge.x_px_q16 = q16_of(210);
+    f.edge.y_px_q16 = q16_of(150);
+    f.edge.rays = 50;
+    f.edge.contrast = 40;
     return f;
 }
 
 static double std_of(const finding *f)
 {
-    return real_of_q16(drogue_inner_std(&f->part, &f->expected, &f->outline, &f->config));
+    return real_of_q16(drogue_inner_std(&f->edge, &f->expected, &f->outline, &f->config));
 }
 
 START_TEST(standard_deviation)
@@ -148,13 +151,12 @@ START_TEST(standard_deviation)
     for (i = 0; i < 20000; i++) {
         finding f = usual_finding();
         double expected;
-        f.part.spread_px_q16 = q16_of(rng_real(&rng, 0, 3));
+        f.edge.std_px_q16 = q16_of(rng_real(&rng, 0, 3));
         f.config.inner_std_px_q16 = q16_of(rng_real(&rng, 0.001, 2));
         f.config.inner_std_share_q16 = q16_of(rng_real(&rng, 0, 0.1));
-        f.config.inner_std_spread_q16 = q16_of(rng_real(&rng, 0, 4));
-        expected = sqrt(pow(real_of_q16(f.config.inner_std_px_q16), 2) +
-                        pow(real_of_q16(f.config.inner_std_share_q16) * 30, 2) +
-                        pow(real_of_q16(f.config.inner_std_spread_q16) * real_of_q16(f.part.spread_px_q16), 2));
+        expected =
+            sqrt(pow(real_of_q16(f.config.inner_std_px_q16), 2) +
+                 pow(real_of_q16(f.config.inner_std_share_q16) * 30, 2) + pow(real_of_q16(f.edge.std_px_q16), 2));
         MUST(fabs(std_of(&f) - expected) < 2.5 / 65536, "case %d: %g, not %g", i, std_of(&f), expected);
     }
 }
@@ -165,42 +167,49 @@ START_TEST(reasons_not_to_believe)
     finding f = usual_finding();
     int k;
     ck_assert(std_of(&f) > 0);
-    f.part.area_px = (uint32_t)(2827 * 0.78);
+    for (k = -1; k <= 1; k += 2) { /* an eighth and a pixel larger or smaller */
+        f.edge.grown_px_q16 = k * q16_of(4.74);
+        ck_assert(std_of(&f) > 0);
+        f.edge.grown_px_q16 = k * q16_of(4.76);
+        ck_assert(std_of(&f) == 0);
+    }
+    f = usual_finding();
+    f.edge.rays = 26;
     ck_assert(std_of(&f) > 0);
-    f.part.area_px = (uint32_t)(2827 * 0.77); /* too small */
-    ck_assert(std_of(&f) == 0);
-    f.part.area_px = (uint32_t)(2827 * 1.13);
-    ck_assert(std_of(&f) > 0);
-    f.part.area_px = (uint32_t)(2827 * 1.14); /* too large */
+    f.edge.rays = 25; /* of 64: less than 0.4 */
     ck_assert(std_of(&f) == 0);
     f = usual_finding();
-    f.part.contrast = 6;
+    f.edge.rms_px_q16 = q16_of(0.649);
     ck_assert(std_of(&f) > 0);
-    f.part.contrast = 5; /* hardly darker than its surround */
+    f.edge.rms_px_q16 = q16_of(0.651); /* which what lies about at random has, too */
+    ck_assert(std_of(&f) == 0);
+    f = usual_finding();
+    f.edge.contrast = 6;
+    ck_assert(std_of(&f) > 0);
+    f.edge.contrast = 5; /* hardly darker than its surround */
     ck_assert(std_of(&f) == 0);
     for (k = 0; k < 4; k++) { /* 1.5 px and a twentieth of the semi-axis off, each way */
         f = usual_finding();
-        f.part.x_px_q16 += k == 0 ? q16_of(6.4) : k == 1 ? -q16_of(6.4) : 0;
-        f.part.y_px_q16 += k == 2 ? q16_of(6.4) : k == 3 ? -q16_of(6.4) : 0;
+        f.edge.x_px_q16 += k == 0 ? q16_of(6.4) : k == 1 ? -q16_of(6.4) : 0;
+        f.edge.y_px_q16 += k == 2 ? q16_of(6.4) : k == 3 ? -q16_of(6.4) : 0;
         ck_assert(std_of(&f) > 0);
-        f.part.x_px_q16 += k == 0 ? q16_of(0.2) : k == 1 ? -q16_of(0.2) : 0;
-        f.part.y_px_q16 += k == 2 ? q16_of(0.2) : k == 3 ? -q16_of(0.2) : 0;
+        f.edge.x_px_q16 += k == 0 ? q16_of(0.2) : k == 1 ? -q16_of(0.2) : 0;
+        f.edge.y_px_q16 += k == 2 ? q16_of(0.2) : k == 3 ? -q16_of(0.2) : 0;
         ck_assert(std_of(&f) == 0);
     }
     f = usual_finding(); /* the rim would cut it: (80 - 30) / 80 of the semi-axes is the room there is */
     f.config.inner_gate_q16 = INT32_MAX;
-    f.part.x_px_q16 = q16_of(200 + 62.4);
+    f.edge.x_px_q16 = q16_of(200 + 62.4);
     ck_assert(std_of(&f) > 0);
-    f.part.x_px_q16 = q16_of(200 + 62.6);
+    f.edge.x_px_q16 = q16_of(200 + 62.6);
     ck_assert(std_of(&f) == 0);
-    f.part.x_px_q16 = q16_of(200);
-    f.part.y_px_q16 = q16_of(150 + 49.9);
+    f.edge.x_px_q16 = q16_of(200);
+    f.edge.y_px_q16 = q16_of(150 + 49.9);
     ck_assert(std_of(&f) > 0);
-    f.part.y_px_q16 = q16_of(150 + 50.1);
+    f.edge.y_px_q16 = q16_of(150 + 50.1);
     ck_assert(std_of(&f) == 0);
     f = usual_finding(); /* as large as the outline */
     f.expected.a_px_q16 = f.expected.b_px_q16 = q16_of(81);
-    f.part.area_px = 20612;
     ck_assert(std_of(&f) == 0);
 }
 END_TEST
@@ -216,10 +225,10 @@ START_TEST(any_bits)
         for (k = 0; k < 9; k++) {
             any[k] = rng_s32_any_width(&rng);
         }
-        f.part.x_px_q16 = rng_range(&rng, 0, 2047 * 65536);
-        f.part.y_px_q16 = rng_range(&rng, 0, 2047 * 65536);
-        f.part.area_px = (uint32_t)rng_range(&rng, 0, 1 << 22);
-        f.part.spread_px_q16 = rng_range(&rng, 0, 2047 * 65536);
+        f.edge.x_px_q16 = rng_range(&rng, 0, 2047 * 65536);
+        f.edge.y_px_q16 = rng_range(&rng, 0, 2047 * 65536);
+        f.edge.rays = 64;
+        f.edge.std_px_q16 = rng_range(&rng, 0, INT32_MAX);
         f.expected.xc_px_q16 = any[0];
         f.expected.yc_px_q16 = any[1];
         f.expected.a_px_q16 = 65536 | (any[2] & INT32_MAX);
@@ -230,9 +239,7 @@ START_TEST(any_bits)
         f.outline.a_px_q16 = f.outline.b_px_q16 | (any[7] & INT32_MAX);
         f.config.inner_gate_q16 = any[8] & INT32_MAX;
         f.config.inner_std_share_q16 = 65536;
-        f.config.inner_std_px_q16 = f.config.inner_std_spread_q16 = 16 * 65536;
-        f.config.min_fill_q16 = 0;
-        f.config.max_fill_q16 = INT32_MAX;
+        f.config.inner_std_px_q16 = 16 * 65536;
         MUST(std_of(&f) >= 0, "case %d", i);
     }
 }

@@ -120,8 +120,8 @@ static void random_config(drogue_config *c, uint64_t *rng)
             case 24: c->optics_blur_px_q16 = any_up_to(rng, 16 * 65536); break;
             case 25: c->min_inner_area_px = (uint32_t)rng_u64(rng) >> rng_range(rng, 0, 31); break;
             case 26: c->inner_gate_q16 = any_up_to(rng, INT32_MAX); break;
-            case 27: c->min_fill_q16 = any_up_to(rng, c->max_fill_q16); break;
-            case 28: c->max_fill_q16 = any_up_to(rng, INT32_MAX); break;
+            case 27: c->min_inner_cover_q16 = any_up_to(rng, 65536); break;
+            case 28: c->inner_size_q16 = c->inner_rms_px_q16 = any_up_to(rng, INT32_MAX); break;
             case 29: c->outline_shading_q16 = 1 + any_up_to(rng, 1024 * 65536 - 1); break;
             case 30: c->optics_blur_std_px2_q16 = any_up_to(rng, 16 * 65536); break;
             case 31: c->inner_std_px_q16 = 1 + any_up_to(rng, 16 * 65536 - 1); break;

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Edges along rays across an ellipse, straight from the pixels: where the grey changes fastest along the normal. */
+#ifndef DROGUE_RAYS_H
+#define DROGUE_RAYS_H
+
+#include "drogue/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DROGUE_RAYS 64     /* evenly over the eccentric angle, two in each bin of a support */
+#define DROGUE_RAY_EDGES 4 /* of a ray, the steepest */
+
+/* An edge on a ray. */
+typedef struct drogue_ray_edge {
+    drogue_q16 at_px_q16; /* from the ellipse outwards */
+    int32_t slope_q8;     /* DROGUE_RAY_WEIGHT times the step of grey across it */
+    int32_t level_q8;     /* grey on it */
+} drogue_ray_edge;
+
+#define DROGUE_RAY_WEIGHT 12
+
+typedef struct drogue_ray {
+    drogue_q16 x_px_q16; /* on the ellipse */
+    drogue_q16 y_px_q16;
+    int32_t nx_q14; /* outward normal */
+    int32_t ny_q14;
+    drogue_q16 step_px_q16; /* between samples */
+    drogue_ray_edge edges[DROGUE_RAY_EDGES];
+    uint32_t count;
+} drogue_ray;
+
+/* Find the edges.
+ *
+ *  image    region's pixels; beyond its border the border's grey stands
+ *  ellipse  region coordinates; b >= 1 px
+ *  reach    how far from the ellipse edges are looked for; at least 16 px are, samples half a pixel apart or as far as
+ *           the reach asks for
+ *  phase    [0, 8): eighths of the angle between two rays by which they are turned; 4 puts two evenly into each bin
+ *  falling  bit k: on rays 2 k and 2 k + 1 the grey falls outwards at the edge looked for; it rises on the others
+ *  least    least step of grey, grey levels
+ */
+void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *ellipse,
+                      drogue_q16 reach_px_q16, int32_t phase, uint32_t falling, int32_t least);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The inner disc by its own edge: place and size of drawn discs, what touches them, and images without one. */
+#include "suite.h"
+
+#include "drogue/inner.h"
+
+#define SIDE 200
+
+static uint8_t pixels[SIDE * SIDE];
+static const drogue_image image = {pixels, SIDE, SIDE, SIDE};
+
+/* A disc of grey 20 on 120, its edge 2 px wide. */
+static void draw_disc(double xc, double yc, double radius)
+{
+    int x, y;
+    for (y = 0; y < SIDE; y++) {
+        for (x = 0; x < SIDE; x++) {
+            const double t = fmin(1, fmax(0, (hypot(x - xc, y - yc) - radius) / 2 + 0.5));
+            pixels[y * SIDE + x] = (uint8_t)lround(20 + 100 * t * t * (3 - 2 * t));
+        }
+    }
+}
+
+static void add_noise(uint64_t *rng, double sigma)
+{
+    int i, k;
+    for (i = 0; i < SIDE * SIDE; i++) {
+        double n = -6;
+        for (k = 0; k < 12; k++) {
+            n += rng_real(rng, 0, 1);
+        }
+        pixels[i] = (uint8_t)lround(fmin(255, fmax(0, pixels[i] + sigma * n)));
+    }
+}
+
+static drogue_ellipse circle(double xc, double yc, double radius)
+{
+    drogue_ellipse e;
+    e.xc_px_q16 = q16_of(xc);
+    e.yc_px_q16 = q16_of(yc);
+    e.a_px_q16 = e.b_px_q16 = q16_of(radius);
+    e.angle_rad_q16 = 0;
+    return e;
+}
+
+static drogue_status find(drogue_inner_edge *out, const drogue_ellipse *discs, uint32_t count)
+{
+    const drogue_ellipse outline = circle(100, 100, 90);
+    drogue_inner_expected expected;
+    drogue_config config;
+    drogue_config_default(&config);
+    memset(&expected, 0, sizeof expected);
+    memcpy(expected.disc, discs, count * sizeof *discs);
+    expected.count = count;
+    return drogue_inner_edge_find(out, &image, &expected, &outline, &config);
+}
+
+START_TEST(place_and_size)
+{
+    uint64_t rng = 1;
+    int i;
+    for (i = 0; i < 200; i++) {
+        const double xc = rng_real(&rng, 80, 120), yc = rng_real(&rng, 80, 120), radius = rng_real(&rng, 6, 40);
+        const double away = rng_real(&rng, 0, 4), turn = rng_real(&rng, -3.14, 3.14), grown = rng_real(&rng, -0.5, 1.5);
+        drogue_inner_edge e;
+        drogue_ellipse discs[2];
+        draw_disc(xc, yc, radius);
+        discs[1] = circle(xc + away * cos(turn), yc + away * sin(turn), radius - grown);
+        discs[0] = circle(xc + 3 * radius, yc, radius); /* the other pose's: nothing is there */
+        MUST(find(&e, discs, 2) == DROGUE_OK, "case %d: not found", i);
+        MUST(e.which == 1, "case %d: the other one", i);
+        MUST(e.rays == DROGUE_RAYS, "case %d: %u rays", i, e.rays);
+        MUST(hypot(real_of_q16(e.x_px_q16) - xc, real_of_q16(e.y_px_q16) - yc) < 0.03, "case %d: off by %g px", i,
+             hypot(real_of_q16(e.x_px_q16) - xc, real_of_q16(e.y_px_q16) - yc));
+        MUST(fabs(real_of_q16(e.grown_px_q16) - grown) < 0.15, "case %d: %g larger, not %g", i,
+             real_of_q16(e.grown_px_q16), grown);
+    }
+}
+END_TEST
+
+START_TEST(noise_shows_in_the_standard_deviation)
+{
+    uint64_t rng = 2;
+    double sum = 0;
+    int i;
+    for (i = 0; i < 100; i++) {
+        const double xc = rng_real(&rng, 95, 105), yc = rng_real(&rng, 95, 105);
+        const drogue_ellipse disc = circle(100, 100, 25);
+        drogue_inner_edge e;
+        draw_disc(xc, yc, 25);
+        add_noise(&rng, 10);
+        MUST(find(&e, &disc, 1) == DROGUE_OK, "case %d: not found", i);
+        sum += (pow(real_of_q16(e.x_px_q16) - xc, 2) + pow(real_of_q16(e.y_px_q16) - yc, 2)) /
+               pow(real_of_q16(e.std_px_q16), 2);
+    }
+    ck_assert_double_gt(sum / 200, 0.5);
+    ck_assert_double_lt(sum / 200, 2);
+}
+END_TEST
+
+START_TEST(what_touches_it_costs_rays_alone)
+{
+    int k;
+    for (k = 0; k < 4; k++) {
+        const drogue_ellipse disc = circle(101, 99, 24);
+        drogue_inner_edge e;
+        int x, y;
+        draw_disc(100, 100, 24);
+        for (y = 0; y < SIDE; y++) { /* a bar as dark as the disc, from its middle outwards */
+            for (x = 0; x < SIDE; x++) {
+                const int u = k == 0 ? x : k == 1 ? y : k == 2 ? SIDE - x : SIDE - y;
+                const int v = k & 1 ? x : y;
+                if (u > 100 && abs(v - 100) < 6) {
+                    pixels[y * SIDE + x] = 20;
+                }
+            }
+        }
+        ck_assert_int_eq(find(&e, &disc, 1), DROGUE_OK);
+        ck_assert_uint_lt(e.rays, 62);
+        ck_assert_uint_gt(e.rays, 50);
+        MUST(hypot(real_of_q16(e.x_px_q16) - 100, real_of_q16(e.y_px_q16) - 100) < 0.1, "bar %d: off by %g px", k,
+             hypot(real_of_q16(e.x_px_q16) - 100, real_of_q16(e.y_px_q16) - 100));
+    }
+}
+END_TEST
+
+START_TEST(nothing_there)
+{
+    const drogue_ellipse disc = circle(100, 100, 24);
+    drogue_inner_edge e;
+    drogue_inner_edge zero;
+    memset(&zero, 0, sizeof zero);
+    memset(pixels, 90, sizeof pixels);
+    ck_assert_int_eq(find(&e, &disc, 1), DROGUE_E_NO_INNER_PART);
+    ck_assert_int_eq(memcmp(&e, &zero, sizeof e), 0);
+    ck_assert_int_eq(find(&e, &disc, 0), DROGUE_E_NO_INNER_PART);
+    draw_disc(100, 100, 24);
+    {
+        int i;
+        for (i = 0; i < SIDE * SIDE; i++) { /* brighter inside */
+            pixels[i] = (uint8_t)(255 - pixels[i]);
+        }
+    }
+    ck_assert_int_eq(find(&e, &disc, 1), DROGUE_E_NO_INNER_PART);
+}
+END_TEST
+
+START_TEST(rays_of_either_sign)
+{
+    static drogue_ray rays[DROGUE_RAYS];
+    const drogue_ellipse e = circle(100, 100, 30);
+    int k;
+    draw_disc(100, 100, 31);
+    drogue_rays_cast(rays, &image, &e, 0, 4, 0, 6);
+    for (k = 0; k < DROGUE_RAYS; k++) {
+        ck_assert_uint_eq(rays[k].count, 1);
+        MUST(fabs(real_of_q16(rays[k].edges[0].at_px_q16) - 1) < 0.1, "ray %d", k);
+        ck_assert_int_lt(abs(rays[k].edges[0].level_q8 - 70 * 256), 12 * 256);
+    }
+    drogue_rays_cast(rays, &image, &e, 0, 4, UINT32_C(0xFFFF0000), 6);
+    for (k = 0; k < DROGUE_RAYS; k++) {
+        ck_assert_uint_eq(rays[k].count, k < 32 ? 1 : 0);
+    }
+}
+END_TEST
+
+START_TEST(noise_of_an_image)
+{
+    uint32_t histogram[256];
+    uint64_t rng = 3;
+    int sigma;
+    for (sigma = 1; sigma <= 8; sigma++) {
+        int32_t threshold;
+        draw_disc(100, 100, 60);
+        add_noise(&rng, sigma);
+        threshold = drogue_noise_threshold(histogram, &image);
+        MUST(fabs(threshold / 12.0 - sigma) < 0.15 * sigma + 0.3, "sigma %d: threshold %d", sigma, threshold);
+    }
+}
+END_TEST
+
+SUITE_MAIN("edge", place_and_size, noise_shows_in_the_standard_deviation, what_touches_it_costs_rays_alone, nothing_there,
+           rays_of_either_sign, noise_of_an_image)
