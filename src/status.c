@@ -20,6 +20,7 @@ const char *drogue_status_name(drogue_status status)
     case DROGUE_E_NO_INNER_PART: return "no_inner_part";
     case DROGUE_E_DOMAIN: return "domain";
     case DROGUE_E_BEHIND_CAMERA: return "behind_camera";
+    case DROGUE_E_UNSURE: return "unsure";
     case DROGUE_STATUS_COUNT: break;
     }
     return "unknown";

@@ -58,6 +58,9 @@ void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q
 void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
                            const drogue_q16 std_q16[DROGUE_PARAMETERS]);
 
+/* Measured less predicted value of parameter p, m or rad; an angle's less its whole turns. */
+void drogue_kalman_innovation(drogue_real *out, const drogue_kalman *filter, int p, drogue_q16 value_q16);
+
 /* State k (0 value, 1 rate, 2 acceleration) of every parameter, Q16, saturated. */
 void drogue_kalman_state(drogue_q16 out_q16[DROGUE_PARAMETERS], const drogue_kalman *filter, int k);
 

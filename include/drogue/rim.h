@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The rim about a dark disc in one level of the search: rays from the disc, each to its largest step, and the circle
- * through the places where they meet it. */
+/* The rim about a dark disc in one level of the search: rays from the disc, each to a step, and the circle through the
+ * places where they meet it. A drogue has more than one such circle: its rim, its canopy's inner edge. */
 #ifndef DROGUE_RIM_H
 #define DROGUE_RIM_H
 
@@ -12,7 +12,7 @@ extern "C" {
 
 #define DROGUE_SEARCH_REACH 18   /* cells that a ray goes at most */
 #define DROGUE_SEARCH_ROWS 48    /* rows that a level keeps: two reaches and what a dark disc waits */
-#define DROGUE_SEARCH_PENDING 16 /* dark discs of a level that may still grow with the next row */
+#define DROGUE_SEARCH_PENDING 32 /* dark discs of a level that may still grow with the next row */
 
 typedef struct drogue_search_disc {
     int32_t x; /* cells */
@@ -35,19 +35,24 @@ static inline const uint8_t *drogue_search_level_row(const drogue_search_level *
     return level->rows + (y % DROGUE_SEARCH_ROWS) * level->width;
 }
 
+#define DROGUE_RIMS 6 /* circles about a disc: of either sign by the largest, the outermost and the innermost steps */
+
 /* Circle relative to the disc, cells Q4. */
 typedef struct drogue_rim {
     int32_t x_q4;
     int32_t y_q4;
     int32_t radius_q4;
+    uint32_t score; /* the square of the number of rays that meet it, times the mean contrast of disc and rim */
 } drogue_rim;
 
-/* Find the rim, be it a step to brighter or to darker.
+/* The score that no circle about a disc exceeds. */
+uint32_t drogue_rim_most(const drogue_search_disc *disc);
+
+/* Find circles, be they steps to brighter or to darker: those that at least 9 of 16 rays meet and that suit the disc.
  *
- *  return  score: the square of the number of rays that meet the circle, times the mean contrast of disc and rim; 0
- *          when fewer than 9 of 16 meet it, or it does not suit the disc (out undefined)
+ *  return  how many there are
  */
-uint32_t drogue_rim_find(drogue_rim *out, const drogue_search_level *level, const drogue_search_disc *disc);
+int32_t drogue_rim_find(drogue_rim rims[DROGUE_RIMS], const drogue_search_level *level, const drogue_search_disc *disc);
 
 #ifdef __cplusplus
 }

@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-#define DROGUE_SEARCH_MAX 8    /* candidates */
+#define DROGUE_SEARCH_MAX 12   /* candidates */
 #define DROGUE_SEARCH_LEVELS 6 /* block means of 2 to 64 px a side: semi-axes from 12 to 800 px */
 
 /* Bytes of memory for frames up to the given width: 100352 for 2048 px. Usable in a static array's size. */
@@ -60,16 +60,26 @@ void drogue_search_row(drogue_search *search, const uint8_t *row);
 /* End the frame: search->best[0 .. count - 1] are its sightings. Returns the count. */
 int32_t drogue_search_end(drogue_search *search);
 
-/* Search a part of an image, and measure what was sighted in order of score, last the part itself with the drogue
- * about its middle, until an inner part decides the orientation within an outline covered to four fifths. When none
- * does, the result is the one of most cover whose inner part decides; or else the first with an inner part; or else the
- * first with a pose.
+/* Is enough of a drogue seen in a measurement to begin with it: an inner part of about the model's size that decides the
+ * orientation within an outline covered to 0.6, or that is seen in one covered to 0.75; or, for a model without an inner part, cover of at least
+ * 0.75 and a reliability of at least 0.9?
  *
- *  out     as of drogue_measure()
+ *  r  of status DROGUE_OK
+ */
+int drogue_result_sure(const drogue_result *r, const drogue_model *model);
+
+/* Search a part of an image, and measure what was sighted in order of score, until an inner part decides the orientation
+ * within an outline covered to four fifths. When none does, the result is the one of most cover among those that are sure and
+ * whose inner part decides; or else that are sure; or else of all. The part itself is measured last, with
+ * the drogue about its middle, where no inner part decides and the part is small, at most 512 px a side, or the model has
+ * no inner part.
+ *
+ *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured
  *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not
  *          measured itself
- *  return  DROGUE_OK; DROGUE_E_ARGUMENT (the image), DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else the
- *          status of the last, DROGUE_E_REGION where the part itself is too large
+ *  return  DROGUE_OK when drogue_result_sure() of what was measured; DROGUE_E_UNSURE: something was measured, but less than that;
+ *          DROGUE_E_ARGUMENT (the image), DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else the status of
+ *          the last, DROGUE_E_REGION where the part itself is too large, DROGUE_E_NO_INNER_PART where nothing was sighted
  */
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region);

@@ -23,6 +23,7 @@ typedef enum drogue_status {
     DROGUE_E_NO_INNER_PART,  /* no dark component of the least size */
     DROGUE_E_DOMAIN,         /* a value outside the domain of the function */
     DROGUE_E_BEHIND_CAMERA,  /* the geometry puts the drogue behind the camera */
+    DROGUE_E_UNSURE,         /* a search measured something, but not enough of a drogue is seen in it */
     DROGUE_STATUS_COUNT
 } drogue_status;
 

@@ -5,19 +5,25 @@
  * drogue_track_frame() does a frame in one call. The parts are there too: drogue_track_begin() says where to look,
  * drogue_measure() or drogue_acquire() looks, drogue_track_end() says what to believe.
  *
+ * Each parameter is followed by filters side by side that differ in their process noise; the estimate is that of the one
+ * that has predicted best (bank.h).
+ *
  * The gate is the squared Mahalanobis distance between the five measured and predicted parameters, with the
- * covariance of both. A measurement beyond it is not believed and the frame counts as missed; but it opens a second
+ * covariance of both, in the model one step more agile than the chosen one. A measurement beyond it is not believed and the frame counts as missed; but it opens a second
  * filter beside the first, and when so many frames in a row are refused that agree with each other, or the track
- * would be lost, the second filter takes over: a drogue that truly jumped is followed again.
+ * would be lost, the second filter takes over: a drogue that truly jumped is followed again. Where the model has an inner
+ * part, only a measurement that shows it opens a second filter, one that shows none must agree in range to a twentieth, and a
+ * track that does not show it again within five measurements is lost.
  *
  * Of the two poses that an outline allows, one whose orientation is not resolved goes by the smaller distance. A
  * resolved one that the gate refuses gives way to its twin when that passes; after the same number of frames in
- * a row with the same verdict the measurement is believed and the angles start anew. */
+ * a row with the same verdict the measurement is believed and the angles start anew. While both twins pass the gate the
+ * orientation is not known, and what is known expires when nothing decides for long. */
 #ifndef DROGUE_TRACK_H
 #define DROGUE_TRACK_H
 
+#include "drogue/bank.h"
 #include "drogue/drogue.h"
-#include "drogue/kalman.h"
 #include "drogue/search.h"
 
 #ifdef __cplusplus
@@ -46,20 +52,28 @@ typedef struct drogue_track_config {
     int32_t min_region_px;        /* 32 px */
     int32_t max_region_px;        /* DROGUE_MAX_SIDE; what the workspace holds */
     drogue_q16 lateral_std_q16;   /* 0.0005: standard deviation of x and y, share of the distance; this and the */
-    drogue_q16 depth_std_q16;     /* 0.002: of z, share of the distance; next two where a result has no covariance */
+    drogue_q16 depth_std_q16;     /* 0.002: of z, share of the distance; next two where a result has no covariance; the
+                                     gate allows for it, too */
     drogue_q16 angle_std_rad_q16; /* 0.02 rad: of pitch and yaw */
     drogue_q16 position_floor_m_q16; /* 0.0001 m: added in quadrature to the measured standard deviations */
     drogue_q16 angle_floor_rad_q16;  /* 0.0005 rad */
     drogue_q16 process_std_q16[DROGUE_PARAMETERS]; /* change of acceleration per frame: x, y 0.2 m/s^2, z 0.02 m/s^2,
                                                       angles 0.15 rad/s^2; for a swing to 1.1 m at 0.2 Hz and an
                                                       approach at constant speed, 25 to 50 frames a second */
-    drogue_q16 start_rate_std_q16;                 /* 2 m/s and rad/s: of the unknown rate at the start */
-    drogue_q16 start_accel_std_q16;                /* 2 m/s^2 and rad/s^2 */
+    drogue_q16
+        process_step_q16; /* 6: a model's process noise over that of the one before, for gusts of 3 g; at least 1 */
+    drogue_q16
+        lasting_share_q16; /* 0.75, [0, 1]: share of a measurement's variance that is the same from frame to frame
+                                     (shading, lens): the estimate's standard deviations keep it */
+    uint32_t known_frames; /* 25: so many measurements in a row that do not decide, and the orientation is not known
+                                     any more; 0: it stays known */
+    drogue_q16 start_rate_std_q16;  /* 2 m/s and rad/s: of the unknown rate at the start */
+    drogue_q16 start_accel_std_q16; /* 15 m/s^2 and rad/s^2 */
 } drogue_track_config;
 
 void drogue_track_config_default(drogue_track_config *config);
 
-/* 1 when agree_frames and region_scale_q16 are above 0, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and
+/* 1 when agree_frames and region_scale_q16 are above 0, process_step is at least 1, lasting_share at most 1, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and
  * nothing else is negative. */
 int drogue_track_config_valid(const drogue_track_config *config);
 
@@ -76,10 +90,13 @@ typedef struct drogue_track {
     int32_t orientation_known; /* 1: a resolved measurement has chosen between the twin poses */
     uint32_t open_frames;      /* unresolved measurements believed in a row */
     uint32_t turned;           /* resolved measurements in a row that gave way to their twins */
+    uint32_t trial;            /* measurements left in which what began the track must show its inner part again */
     uint32_t agreeing;         /* refused measurements in a row that agree; 'second' holds them */
     int32_t second_known;      /* orientation_known of 'second' */
-    drogue_kalman filter;
-    drogue_kalman second;
+    drogue_bank bank;
+    drogue_kalman filter;                 /* of the bank's chosen models */
+    drogue_kalman second;                 /* follows what is refused, as the most agile model */
+    drogue_real noise[DROGUE_PARAMETERS]; /* variances of the last measurement believed */
 } drogue_track;
 
 /* The filter's estimate, Q16, with standard deviations, Q32. */
@@ -89,7 +106,7 @@ typedef struct drogue_track_estimate {
     drogue_q16 axis_q16[3];
     drogue_q16 yaw_rad_q16;
     drogue_q16 pitch_rad_q16;
-    int32_t orientation_resolved; /* 1: not only one of two twins, see drogue_track */
+    int32_t orientation_resolved; /* 1: known, and not contradicted by the last measurement that decided */
     int64_t position_std_m_q32[3];
     int64_t yaw_std_rad_q32;
     int64_t pitch_std_rad_q32;
@@ -122,10 +139,10 @@ drogue_track_state drogue_track_end(drogue_track *track, const drogue_result *re
 void drogue_track_get(drogue_track_estimate *out, const drogue_track *track);
 
 /* A frame in one call: begin; measure where the drogue is expected, and when that fails and 'search' is set search
- * where it may be; end. While lost the first region is measured, then the whole frame searched; a drogue of known
- * inner part that a search finds starts a track only when its inner part resolved the orientation, or was seen within an
- * outline of three quarters. A track of something else, which shows no inner part, gives way after reconsider_frames
- * when the drogue is in sight.
+ * where it may be; end. With 'search' set an outline covered to less than nine tenths counts only when
+ * drogue_result_sure(). While lost the first region is measured, then the whole frame searched; what the search is sure of
+ * starts a track. A track of something else, which shows no inner part, gives way after reconsider_frames when the drogue
+ * is in sight.
  *
  *  result  out, the frame's measurement; its region is where it was taken
  *  region  out, the region asked for

@@ -27,6 +27,9 @@ const char *explain_status(drogue_status status)
     case DROGUE_E_DOMAIN:
         return "an outline, but its pose is beyond what the numbers hold: are camera and radius right?";
     case DROGUE_E_BEHIND_CAMERA: return "the outline's pose lies behind the camera: is the camera right?";
+    case DROGUE_E_UNSURE:
+        return "something was found, but not enough of a drogue is seen in it: no inner part of the drogue's size in an "
+               "outline seen well; --roi where it is known to be";
     case DROGUE_STATUS_COUNT: break;
     }
     return "a status that this program does not know";

@@ -4,20 +4,73 @@
 
 #include <string.h>
 
-/* How much a result is worth: 0 without a pose; more with an inner part; most when that decides, and then by cover. */
-static int32_t worth(const drogue_result *r)
+/* What a search must show to be sure: an inner part, and this cover of the outline, less of it when the inner part decides
+ * the orientation; where the model knows no inner part its reliability, too. */
+#define DECIDED_COVER DROGUE_Q16(6, 10)
+#define SURE_COVER DROGUE_Q16(3, 4)
+#define SURE_RELIABILITY DROGUE_Q16(9, 10)
+#define MOST_OFF_PX DROGUE_Q16(6, 10)   /* and an eighth, of the inner part's radius */
+#define SETTLED_COVER DROGUE_Q16(8, 10) /* of a result after which nothing else is looked at */
+#define MOST_WHOLE_PX 512               /* a larger image is not measured itself: a drogue in it shows its inner part */
+
+/* Radii of the inner part, px Q16, as circles of its area: what the model expects in this outline, and by how much it is
+ * off. A ring about some dark disc has another; and of concentric outlines the rim fits best. */
+static int sizes(int64_t *expected, int64_t *off, const drogue_result *r, const drogue_model *model)
 {
+    const int64_t z = r->pose.position_m_q16[2];
+    const int64_t end = z + model->inner_depth_m_q16;
+    if (!r->has_inner || z <= 0 || end <= 0) {
+        return 0;
+    }
+    *expected = (int64_t)drogue_isqrt_u64((uint64_t)((int64_t)r->ellipse.a_px_q16 * r->ellipse.b_px_q16));
+    *expected = drogue_div_round_s64(*expected * model->inner_radius_m_q16, model->rim_radius_m_q16);
+    *expected = drogue_div_round_s64(*expected * z, end);
+    *off = (int64_t)drogue_isqrt_u64((((uint64_t)r->inner.area_px << 32) / (uint64_t)DROGUE_Q16_PI) << 16) - *expected;
+    *off = *off < 0 ? -*off : *off;
+    return 1;
+}
+
+int drogue_result_sure(const drogue_result *r, const drogue_model *model)
+{
+    int64_t expected;
+    int64_t off;
+    if (model->inner_radius_m_q16 == 0) {
+        return r->cover_q16 >= SURE_COVER && r->quality.reliability_q16 >= SURE_RELIABILITY;
+    }
+    return sizes(&expected, &off, r, model) && 8 * (off - MOST_OFF_PX) <= expected &&
+           r->cover_q16 >= (r->orientation_resolved ? DECIDED_COVER : SURE_COVER);
+}
+
+/* How much a result is worth: 0 without a pose; more where it is sure; most when the inner part decides, too; and then by
+ * cover, less the share by which the inner part's size is off. */
+static int32_t worth(const drogue_result *r, const drogue_model *model)
+{
+    int64_t expected;
+    int64_t off;
     if (r->status != DROGUE_OK) {
         return 0;
     }
-    return r->orientation_resolved ? 3 + r->cover_q16 : r->has_inner ? 2 : 1;
+    if (!drogue_result_sure(r, model)) {
+        return 1 + r->cover_q16;
+    }
+    if (!sizes(&expected, &off, r, model)) {
+        return 2 * DROGUE_Q16_ONE + r->cover_q16;
+    }
+    off = drogue_div_round_s64(off * DROGUE_Q16_ONE, expected > 0 ? expected : 1);
+    return (r->orientation_resolved ? 5 * DROGUE_Q16_ONE : 3 * DROGUE_Q16_ONE) + r->cover_q16 -
+           (int32_t)(off < DROGUE_Q16_ONE ? off : DROGUE_Q16_ONE);
 }
 
 /* Good enough not to look at what scored less? */
 static int settles(const drogue_result *r, const drogue_model *model)
 {
-    return r->status == DROGUE_OK && (r->orientation_resolved || model->inner_radius_m_q16 == 0) &&
-           r->cover_q16 >= DROGUE_Q16(8, 10);
+    int64_t expected;
+    int64_t off;
+    if (r->status != DROGUE_OK || r->cover_q16 < SETTLED_COVER || !drogue_result_sure(r, model)) {
+        return 0;
+    }
+    return model->inner_radius_m_q16 == 0 ||
+           (r->orientation_resolved && sizes(&expected, &off, r, model) && 16 * (off - MOST_OFF_PX / 2) <= expected);
 }
 
 /* Sightings in a part of the image, in coordinates of the image. */
@@ -42,6 +95,12 @@ static drogue_status search_part(drogue_search *search, const drogue_image *imag
     return DROGUE_OK;
 }
 
+/* Is the part itself measured when nothing sighted decides? */
+static int measures_whole(const drogue_region *part, const drogue_model *model)
+{
+    return model->inner_radius_m_q16 == 0 || (part->width_px <= MOST_WHOLE_PX && part->height_px <= MOST_WHOLE_PX);
+}
+
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region)
 {
@@ -50,6 +109,7 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     drogue_status status;
     int32_t most = 0;
     int32_t best = 0;
+    int32_t last = -1;
     int32_t i;
     memset(out, 0, sizeof *out);
     whole.x_px = 0;
@@ -77,18 +137,26 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         out->status = status;
         return status;
     }
+    out->status = DROGUE_E_NO_INNER_PART;
     for (i = 0; i <= search->count; i++) {
+        if (i == search->count && (most > 2 * DROGUE_Q16_ONE || !measures_whole(&part, setup->model))) {
+            break;
+        }
         (void)drogue_measure(out, workspace, setup, image, i < search->count ? &search->best[i].region : &whole);
         if (settles(out, setup->model)) {
             return DROGUE_OK;
         }
-        if (worth(out) > most) {
-            most = worth(out);
+        if (worth(out, setup->model) > most) {
+            most = worth(out, setup->model);
             best = i;
         }
+        last = i;
     }
-    if (most > 0 && best < search->count) { /* again, so that the workspace holds its points */
+    if (most > 0 && best != last) { /* again, so that the workspace holds its points */
         (void)drogue_measure(out, workspace, setup, image, &search->best[best].region);
+    }
+    if (out->status == DROGUE_OK && !drogue_result_sure(out, setup->model)) {
+        out->status = DROGUE_E_UNSURE;
     }
     return out->status;
 }

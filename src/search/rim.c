@@ -5,17 +5,26 @@
 #include "drogue/real.h"
 
 #define RAYS 16
-#define FAR_Q4 1024  /* cells Q4: a centre farther away is none */
-#define LEAST_RAYS 9 /* that must meet the circle */
+#define FAR_Q4 1024      /* cells Q4: a centre farther away is none */
+#define LEAST_RAYS 9     /* that must meet the circle */
+#define DIFFERENT_RAYS 3 /* on fewer, another choice of steps is the same circle */
 
 /* Directions of the rays, Q8. */
 static const int32_t ray_x[RAYS] = {256, 237, 181, 98, 0, -98, -181, -237, -256, -237, -181, -98, 0, 98, 181, 237};
 static const int32_t ray_y[RAYS] = {0, 98, 181, 237, 256, 237, 181, 98, 0, -98, -181, -237, -256, -237, -181, -98};
 
+#define MOST_STEP 64 /* grey levels that count of an edge's contrast */
+#define LEAST_STEP 3 /* grey levels: less is no edge */
+
+/* Steps along the rays, bright beyond dark positive, 0 outside the level; and the place taken on each. */
 typedef struct rays {
+    int32_t first; /* cells from the disc's centre; what is nearer may belong to the disc */
+    int32_t last;
+    int16_t steps[RAYS][DROGUE_SEARCH_REACH];
+    int32_t taken[RAYS]; /* cells; 0: none */
     int32_t x_q4[RAYS];
     int32_t y_q4[RAYS];
-    int32_t step[RAYS]; /* grey levels at the edge; 0: none */
+    int32_t step[RAYS]; /* of the sign looked for; 0: none */
     int32_t used[RAYS];
 } rays;
 
@@ -84,22 +93,18 @@ static int fit_circle(drogue_rim *out, const rays *r)
     return out->radius_q4 > 0;
 }
 
-/* Follow each ray to its largest step of the given sign: 1 from dark to bright, -1 from bright to dark. */
-static void follow_rays(rays *r, const drogue_search_level *level, const drogue_search_disc *disc, int32_t sign)
+/* Read the steps: at t, across the cells t - 1 and t + 1. */
+static void read_rays(rays *r, const drogue_search_level *level, const drogue_search_disc *disc)
 {
-    const int32_t first = (disc->ring_q4 + 8) >> 4;
     const int32_t far = (7 * disc->ring_q4 + 16) >> 5; /* 1.7 radii of the rim: the inner part may lie aside */
-    const int32_t last = far < DROGUE_SEARCH_REACH ? far : DROGUE_SEARCH_REACH - 1;
     int i;
+    r->first = ((disc->ring_q4 + 8) >> 4) + 1;
+    r->last = far < DROGUE_SEARCH_REACH ? far : DROGUE_SEARCH_REACH - 1;
     for (i = 0; i < RAYS; i++) {
         int32_t before = 0;
         int32_t here = 0;
-        int32_t best = 0;
         int32_t t;
-        r->used[i] = 0;
-        r->x_q4[i] = 0;
-        r->y_q4[i] = 0;
-        for (t = first; t <= last + 1; t++) {
+        for (t = r->first - 1; t <= r->last + 1; t++) {
             const int32_t x = disc->x + ((ray_x[i] * t + 128) >> 8);
             const int32_t y = disc->y + ((ray_y[i] * t + 128) >> 8);
             int32_t next;
@@ -107,21 +112,60 @@ static void follow_rays(rays *r, const drogue_search_level *level, const drogue_
                 break;
             }
             next = drogue_search_level_row(level, y)[x];
-            if (t == first) { /* what is nearer may belong to the disc */
+            if (t == r->first - 1) {
                 before = here = next;
                 continue;
             }
-            if (sign * (next - before) > best) { /* across the step at t - 1 */
-                best = sign * (next - before);
-                r->x_q4[i] = (ray_x[i] * (t - 1)) >> 4;
-                r->y_q4[i] = (ray_y[i] * (t - 1)) >> 4;
-            }
+            r->steps[i][t - 1] = (int16_t)(next - before);
             before = here;
             here = next;
         }
-        r->step[i] = best;
-        r->used[i] = best > 0;
+        for (t = t > r->first ? t - 1 : r->first - 1; t <= r->last; t++) {
+            r->steps[i][t] = 0;
+        }
     }
+}
+
+/* Which step of each ray is taken. */
+typedef enum choice { LARGEST, OUTERMOST, INNERMOST } choice; /* the last two: of those half as large as the largest */
+
+/* Take a step of the given sign on each ray; returns how many rays differ from what was taken before. */
+static int32_t take_steps(rays *r, int32_t sign, choice which)
+{
+    int32_t differ = 0;
+    int i;
+    for (i = 0; i < RAYS; i++) {
+        int32_t best = LEAST_STEP - 1;
+        int32_t at = 0;
+        int32_t t;
+        for (t = r->first - 1; t <= r->last; t++) {
+            if (sign * r->steps[i][t] > best) {
+                best = sign * r->steps[i][t];
+                at = t;
+            }
+        }
+        if (at > 0 && which != LARGEST) {
+            const int32_t half = (best + 1) / 2 > LEAST_STEP ? (best + 1) / 2 : LEAST_STEP;
+            const int32_t way = which == OUTERMOST ? -1 : 1;
+            t = which == OUTERMOST ? r->last : r->first - 1;
+            while (sign * r->steps[i][t] < half) { /* ends at the largest */
+                t += way;
+            }
+            while (t + way >= r->first - 1 && t + way <= r->last &&
+                   sign * r->steps[i][t + way] > sign * r->steps[i][t]) {
+                t += way; /* up to the top of its slope */
+            }
+            at = t;
+            best = sign * r->steps[i][t];
+        }
+        differ += at != r->taken[i];
+        r->taken[i] = at;
+        r->step[i] = at > 0 ? best : 0;
+        r->used[i] = at > 0;
+        r->x_q4[i] = (ray_x[i] * at) >> 4;
+        r->y_q4[i] = (ray_y[i] * at) >> 4;
+    }
+    return differ;
 }
 
 /* Keep the points within tolerance of the circle; returns their number. */
@@ -142,41 +186,60 @@ static int32_t keep_near(rays *r, const drogue_rim *c, int32_t tolerance_q8)
     return count;
 }
 
-/* Rim about a dark disc by steps of one sign: its score, 0 when there is none. */
-static uint32_t find_by_sign(drogue_rim *rim, const drogue_search_level *level, const drogue_search_disc *disc,
-                             int32_t sign)
+static uint32_t score_of(int32_t count, int32_t step, const drogue_search_disc *disc)
+{
+    return (uint32_t)(count * count * (step + (disc->contrast > MOST_STEP ? MOST_STEP : disc->contrast)));
+}
+
+/* Circle through the steps taken: its score, 0 when there is none. */
+static uint32_t find_circle(drogue_rim *rim, rays *r, const drogue_search_disc *disc)
 {
     static const int32_t tolerances_q8[3] = {90, 56, 40};
     const int32_t ring = disc->ring_q4;
     int32_t count = 0;
     int32_t step = 0;
-    rays r;
     int i;
-    follow_rays(&r, level, disc, sign);
+    for (i = 0; i < RAYS; i++) {
+        count += r->used[i];
+    }
     for (i = 0; i < 3; i++) {
-        if (!fit_circle(rim, &r)) {
+        if (count < LEAST_RAYS || !fit_circle(rim, r)) {
             return 0;
         }
-        count = keep_near(&r, rim, tolerances_q8[i]);
+        count = keep_near(r, rim, tolerances_q8[i]);
     }
     if (count < LEAST_RAYS || 10 * rim->radius_q4 < 13 * ring || 10 * rim->radius_q4 > 29 * ring ||
         4 * (rim->x_q4 * rim->x_q4 + rim->y_q4 * rim->y_q4) > rim->radius_q4 * rim->radius_q4 * 2) {
         return 0;
     }
     for (i = 0; i < RAYS; i++) {
-        step += r.used[i] ? (r.step[i] > 64 ? 64 : r.step[i]) : 0;
+        step += r->used[i] ? (r->step[i] > MOST_STEP ? MOST_STEP : r->step[i]) : 0;
     }
-    return (uint32_t)(count * count * (step / count + (disc->contrast > 64 ? 64 : disc->contrast)));
+    return score_of(count, step / count, disc);
 }
 
-uint32_t drogue_rim_find(drogue_rim *out, const drogue_search_level *level, const drogue_search_disc *disc)
+uint32_t drogue_rim_most(const drogue_search_disc *disc) { return score_of(RAYS, MOST_STEP, disc); }
+
+int32_t drogue_rim_find(drogue_rim rims[DROGUE_RIMS], const drogue_search_level *level, const drogue_search_disc *disc)
 {
-    drogue_rim falling;
-    const uint32_t rises = find_by_sign(out, level, disc, 1);
-    const uint32_t falls = find_by_sign(&falling, level, disc, -1);
-    if (falls > rises) {
-        *out = falling;
-        return falls;
+    static const choice choices[DROGUE_RIMS / 2] = {LARGEST, OUTERMOST, INNERMOST};
+    rays r;
+    int32_t count = 0;
+    int32_t sign;
+    int k;
+    read_rays(&r, level, disc);
+    for (sign = 1; sign >= -1; sign -= 2) {
+        for (k = 0; k < RAYS; k++) {
+            r.taken[k] = 0;
+        }
+        for (k = 0; k < DROGUE_RIMS / 2; k++) {
+            drogue_rim *rim = &rims[count];
+            if (take_steps(&r, sign, choices[k]) < DIFFERENT_RAYS) {
+                continue;
+            }
+            rim->score = find_circle(rim, &r, disc);
+            count += rim->score > 0;
+        }
     }
-    return rises;
+    return count;
 }

@@ -4,14 +4,15 @@
 
 #include <string.h>
 
-#define SCALES 3
+#define SCALES 4
 #define REACH DROGUE_SEARCH_REACH
 
-/* The circle of eight cells (+-p, +-q), (+-q, +-p) lies between inner part and rim: about half the rim's radius. */
-static const int32_t ring_p[SCALES] = {3, 4, 5};
-static const int32_t ring_q[SCALES] = {1, 2, 2};
-static const int32_t inner_at[SCALES] = {1, 2, 2};   /* samples of the disc beside its centre */
-static const int32_t ring_q4[SCALES] = {51, 72, 86}; /* radius of the circle, 16ths of a cell */
+/* The circle of eight cells (+-p, +-q), (+-q, +-p) lies between inner part and rim: about half the rim's radius. The
+ * first serves the smallest drogues, in the first level alone. */
+static const int32_t ring_p[SCALES] = {2, 3, 4, 5};
+static const int32_t ring_q[SCALES] = {1, 1, 2, 2};
+static const int32_t inner_at[SCALES] = {1, 1, 2, 2};    /* samples of the disc beside its centre */
+static const int32_t ring_q4[SCALES] = {36, 51, 72, 86}; /* radius of the circle, 16ths of a cell */
 
 drogue_status drogue_search_init(drogue_search *search, void *memory, size_t bytes, int32_t width_px)
 {
@@ -60,7 +61,7 @@ static int same_outline(const drogue_sighting *b, const drogue_sighting *c)
     const int32_t smaller = b->radius_px > c->radius_px ? c->radius_px : b->radius_px;
     const int32_t dx = b->x_px - c->x_px;
     const int32_t dy = b->y_px - c->y_px;
-    return 2 * larger < 3 * smaller && 2 * dx < larger && -2 * dx < larger && 2 * dy < larger && -2 * dy < larger;
+    return 5 * larger <= 6 * smaller && 2 * dx < larger && -2 * dx < larger && 2 * dy < larger && -2 * dy < larger;
 }
 
 /* Keep a sighting if it is among the best; of two of the same outline the better. They are sorted at the end. */
@@ -106,26 +107,45 @@ static void sort_sightings(drogue_search *search)
     }
 }
 
+/* Can a disc not be among the best, whatever its circles are? */
+static int beaten(const drogue_search *search, const drogue_search_disc *disc)
+{
+    const uint32_t most = drogue_rim_most(disc);
+    int32_t i;
+    for (i = 0; i < search->count; i++) {
+        if (search->best[i].score < most) {
+            return 0;
+        }
+    }
+    return search->count == DROGUE_SEARCH_MAX;
+}
+
 static void judge_disc(drogue_search *search, int k, const drogue_search_disc *disc)
 {
     const int32_t cell_px = 2 << k;
-    drogue_sighting c;
-    drogue_rim rim;
-    int32_t side;
-    c.score = drogue_rim_find(&rim, &search->levels[k], disc);
-    if (c.score == 0) {
+    drogue_rim rims[DROGUE_RIMS];
+    int32_t count;
+    int32_t i;
+    if (beaten(search, disc)) {
         return;
     }
-    c.x_px = (int32_t)(((16 * disc->x + 8 + rim.x_q4) * cell_px) >> 4);
-    c.y_px = (int32_t)(((16 * disc->y + 8 + rim.y_q4) * cell_px) >> 4);
-    c.radius_px = (int32_t)((rim.radius_q4 * cell_px) >> 4);
-    side = (c.radius_px * 21) >> 3; /* 2.5 major semi-axes */
-    side = side < DROGUE_MAX_SIDE ? side : DROGUE_MAX_SIDE;
-    c.region.x_px = c.x_px - side / 2;
-    c.region.y_px = c.y_px - side / 2;
-    c.region.width_px = side;
-    c.region.height_px = side;
-    keep_sighting(search, &c);
+    count = drogue_rim_find(rims, &search->levels[k], disc);
+    for (i = 0; i < count; i++) {
+        const drogue_rim *rim = &rims[i];
+        drogue_sighting c;
+        int32_t side;
+        c.score = rim->score;
+        c.x_px = (int32_t)(((16 * disc->x + 8 + rim->x_q4) * cell_px) >> 4);
+        c.y_px = (int32_t)(((16 * disc->y + 8 + rim->y_q4) * cell_px) >> 4);
+        c.radius_px = (int32_t)((rim->radius_q4 * cell_px) >> 4);
+        side = (c.radius_px * 21) >> 3; /* 2.5 major semi-axes */
+        side = side < DROGUE_MAX_SIDE ? side : DROGUE_MAX_SIDE;
+        c.region.x_px = c.x_px - side / 2;
+        c.region.y_px = c.y_px - side / 2;
+        c.region.width_px = side;
+        c.region.height_px = side;
+        keep_sighting(search, &c);
+    }
 }
 
 /* Judge the pending discs above row y, and forget them. */
@@ -144,11 +164,13 @@ static void judge_above(drogue_search *search, int k, int32_t y)
     level->pending_count = kept;
 }
 
-/* Add a dark disc; of those beside each other the one of most contrast stays. */
+/* Add a dark disc; of those beside each other the one of most contrast stays, and so when there are too many at once: what
+ * a row of texture costs is bounded. */
 static void keep_disc(drogue_search *search, int k, const drogue_search_disc *disc)
 {
     drogue_search_level *level = &search->levels[k];
     const int32_t near = disc->ring_q4 >> 4;
+    int32_t faintest = 0;
     int32_t i;
     for (i = 0; i < level->pending_count; i++) {
         drogue_search_disc *p = &level->pending[i];
@@ -158,11 +180,15 @@ static void keep_disc(drogue_search *search, int k, const drogue_search_disc *di
             }
             return;
         }
+        if (p->contrast < level->pending[faintest].contrast) {
+            faintest = i;
+        }
     }
-    if (level->pending_count == DROGUE_SEARCH_PENDING) {
-        judge_above(search, k, INT32_MAX);
+    if (level->pending_count < DROGUE_SEARCH_PENDING) {
+        level->pending[level->pending_count++] = *disc;
+    } else if (disc->contrast > level->pending[faintest].contrast) {
+        level->pending[faintest] = *disc;
     }
-    level->pending[level->pending_count++] = *disc;
 }
 
 /* Contrast of a dark disc at x: the second darkest of the eight cells about it less its mean; at most 'least' when
@@ -214,7 +240,7 @@ static void scan_row(drogue_search *search, int k, int32_t y)
         const int32_t at = y + i;
         rows[REACH + i] = drogue_search_level_row(level, at < 0 ? 0 : at >= level->rows_in ? level->rows_in - 1 : at);
     }
-    for (scale = 0; scale < SCALES; scale++) {
+    for (scale = k == 0 ? 0 : 1; scale < SCALES; scale++) {
         const int32_t margin = ring_p[scale];
         int32_t x;
         if (y < margin || y + margin >= level->rows_in) {

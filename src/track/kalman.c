@@ -134,8 +134,7 @@ static void wrap(drogue_real *angle)
     drogue_real_subtract_product(angle, &turns, &two_pi);
 }
 
-/* Measured less predicted value. */
-static void innovation_of(drogue_real *out, const drogue_kalman *filter, int p, drogue_q16 value_q16)
+void drogue_kalman_innovation(drogue_real *out, const drogue_kalman *filter, int p, drogue_q16 value_q16)
 {
     drogue_real_set_q16(out, value_q16);
     drogue_real_difference(out, out, &filter->parameter[p].state[0]);
@@ -158,7 +157,7 @@ void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DRO
         drogue_real_set_q16(&noise, std_q16[p]);
         drogue_real_product(&noise, &noise, &noise);
         drogue_real_sum(&variance, &f->variance[0], &noise);
-        innovation_of(&change, filter, p, value_q16[p]);
+        drogue_kalman_innovation(&change, filter, p, value_q16[p]);
         drogue_real_quotient(&t, &f->variance[0], &variance);
         drogue_real_product(&change, &change, &t);
         move(f, &change);
@@ -205,7 +204,7 @@ void drogue_kalman_distance2(drogue_real *out, const drogue_kalman *filter,
         drogue_real *own = &covariance[DROGUE_PACKED(p, p)];
         drogue_real square;
         drogue_real_sum(own, own, &filter->parameter[p].variance[0]);
-        innovation_of(&innovation[p], filter, p, value_q16[p]);
+        drogue_kalman_innovation(&innovation[p], filter, p, value_q16[p]);
         drogue_real_product(&square, &innovation[p], &innovation[p]);
         drogue_real_quotient(&square, &square, own);
         drogue_real_sum(out, out, &square);

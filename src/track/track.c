@@ -6,6 +6,8 @@
 
 #include "drogue/undistort.h"
 
+#define MOST_APART DROGUE_Q16(6, 10) /* semi-axes between two predictions that one region holds */
+
 const char *drogue_track_state_name(drogue_track_state state)
 {
     switch (state) {
@@ -38,7 +40,10 @@ void drogue_track_config_default(drogue_track_config *config)
     config->process_std_q16[DROGUE_PITCH] = DROGUE_Q16(15, 100);
     config->process_std_q16[DROGUE_YAW] = DROGUE_Q16(15, 100);
     config->start_rate_std_q16 = DROGUE_Q16(2, 1);
-    config->start_accel_std_q16 = DROGUE_Q16(2, 1);
+    config->process_step_q16 = DROGUE_Q16(6, 1);
+    config->lasting_share_q16 = DROGUE_Q16(75, 100);
+    config->known_frames = 25;
+    config->start_accel_std_q16 = DROGUE_Q16(15, 1);
 }
 
 int drogue_track_config_valid(const drogue_track_config *c)
@@ -51,8 +56,9 @@ int drogue_track_config_valid(const drogue_track_config *c)
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         any |= c->process_std_q16[p];
     }
-    return any >= 0 && c->agree_frames > 0 && c->region_scale_q16 > 0 && c->min_region_px > 0 &&
-           c->min_region_px <= c->max_region_px && c->max_region_px <= DROGUE_MAX_SIDE;
+    return any >= 0 && c->process_step_q16 >= DROGUE_Q16_ONE && c->lasting_share_q16 >= 0 &&
+           c->lasting_share_q16 <= DROGUE_Q16_ONE && c->agree_frames > 0 && c->region_scale_q16 > 0 &&
+           c->min_region_px > 0 && c->min_region_px <= c->max_region_px && c->max_region_px <= DROGUE_MAX_SIDE;
 }
 
 drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *config, const drogue_camera *camera,
@@ -111,6 +117,26 @@ static int64_t axis_std(int64_t yaw_std_q32, int64_t pitch_std_q32, drogue_q16 p
     return drogue_real_to_s64(yaw, 32);
 }
 
+/* Standard deviations of the estimate: what lasts of the last measurement's variance N does not go with filtering, so
+ * that the filter's own P < N counts as P + share (N - P). */
+static void estimate_std(int64_t std_q32[DROGUE_PARAMETERS], const drogue_track *track)
+{
+    drogue_real share;
+    int p;
+    drogue_real_set_q16(&share, track->config.lasting_share_q16);
+    for (p = 0; p < DROGUE_PARAMETERS; p++) {
+        drogue_real variance = track->filter.parameter[p].variance[0];
+        drogue_real more;
+        if (drogue_real_order(&variance, &track->noise[p]) < 0) {
+            drogue_real_difference(&more, &track->noise[p], &variance);
+            drogue_real_product(&more, &share, &more);
+            drogue_real_sum(&variance, &variance, &more);
+        }
+        drogue_real_root(&variance, &variance);
+        std_q32[p] = drogue_real_to_s64(variance, 32);
+    }
+}
+
 void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
 {
     drogue_q16 value[DROGUE_PARAMETERS];
@@ -123,7 +149,7 @@ void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
     }
     drogue_kalman_state(value, &track->filter, 0);
     drogue_kalman_state(rate, &track->filter, 1);
-    drogue_kalman_std(std, &track->filter);
+    estimate_std(std, track);
     for (k = 0; k < 3; k++) {
         out->position_m_q16[k] = value[k];
         out->velocity_mps_q16[k] = rate[k];
@@ -132,7 +158,7 @@ void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
     out->yaw_rad_q16 = wrap_q16(value[DROGUE_YAW]);
     out->pitch_rad_q16 = wrap_q16(value[DROGUE_PITCH]);
     axis_of(out->axis_q16, out->yaw_rad_q16, out->pitch_rad_q16);
-    out->orientation_resolved = track->orientation_known;
+    out->orientation_resolved = track->orientation_known && track->turned == 0;
     out->yaw_std_rad_q32 = std[DROGUE_YAW];
     out->pitch_std_rad_q32 = std[DROGUE_PITCH];
     out->axis_std_rad_q32 = axis_std(std[DROGUE_YAW], std[DROGUE_PITCH], out->pitch_rad_q16);
@@ -172,13 +198,55 @@ static void predicted_spread(drogue_real *out, const drogue_track_estimate *e, c
     drogue_real_product(out, &t, out);
 }
 
+/* Where a point is seen; 0 when it is not. */
+static int seen_at(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_q16 position_m_q16[3],
+                   const drogue_camera *camera)
+{
+    drogue_pose pose;
+    memset(&pose, 0, sizeof pose);
+    memcpy(pose.position_m_q16, position_m_q16, sizeof pose.position_m_q16);
+    return drogue_project_axis_point(x_px_q16, y_px_q16, &pose, 0, camera) == DROGUE_OK &&
+           (!drogue_camera_distorts(camera) || drogue_distort_point(x_px_q16, y_px_q16, camera) == DROGUE_OK);
+}
+
+/* While refused measurements are followed as well: the middle of both predictions, and half their distance more spread,
+ * when they are near each other. */
+static void hold_second(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, drogue_real *spread, const drogue_track *track,
+                        const drogue_real *semi_axis_px)
+{
+    drogue_q16 value[DROGUE_PARAMETERS];
+    drogue_q16 x;
+    drogue_q16 y;
+    drogue_q16 dx;
+    drogue_q16 dy;
+    drogue_real half;
+    drogue_real most;
+    if (track->agreeing == 0) {
+        return;
+    }
+    drogue_kalman_state(value, &track->second, 0);
+    if (!seen_at(&x, &y, value, &track->camera)) {
+        return;
+    }
+    dx = drogue_q16_sub(x, *x_px_q16) / 2;
+    dy = drogue_q16_sub(y, *y_px_q16) / 2;
+    drogue_real_set(&half, (int64_t)drogue_isqrt_u64(drogue_square_sum(dx, dy)), -16);
+    drogue_real_quotient(&half, &half, semi_axis_px);
+    drogue_real_set_q16(&most, MOST_APART / 2);
+    if (drogue_real_order(&half, &most) > 0) {
+        return;
+    }
+    *x_px_q16 = drogue_q16_add(*x_px_q16, dx);
+    *y_px_q16 = drogue_q16_add(*y_px_q16, dy);
+    drogue_real_sum(spread, spread, &half);
+}
+
 /* Regions about the predicted outline; 0 when the prediction cannot be seen.
  * What drogue_measure() bears at a side of 2.5 semi-axes: an outline 0.4 semi-axes away from the middle, and at that a
  * side a tenth larger. */
 static int predicted_region(drogue_region *region, drogue_track *track)
 {
     drogue_track_estimate estimate;
-    drogue_pose pose;
     drogue_real semi_axis_px;
     drogue_real spread;
     drogue_real scale;
@@ -186,19 +254,17 @@ static int predicted_region(drogue_region *region, drogue_track *track)
     drogue_real most;
     drogue_q16 x;
     drogue_q16 y;
-    memset(&pose, 0, sizeof pose);
     drogue_track_get(&estimate, track);
-    memcpy(pose.position_m_q16, estimate.position_m_q16, sizeof pose.position_m_q16);
-    if (drogue_project_axis_point(&x, &y, &pose, 0, &track->camera) != DROGUE_OK ||
-        (drogue_camera_distorts(&track->camera) && drogue_distort_point(&x, &y, &track->camera) != DROGUE_OK)) {
+    if (!seen_at(&x, &y, estimate.position_m_q16, &track->camera)) {
         return 0;
     }
     drogue_real_set_q16(&semi_axis_px, track->model.rim_radius_m_q16);
-    drogue_real_set_q16(&scale, pose.position_m_q16[2]);
+    drogue_real_set_q16(&scale, estimate.position_m_q16[2]);
     drogue_real_quotient(&semi_axis_px, &semi_axis_px, &scale);
     drogue_real_set_q16(&scale, track->camera.fx_px_q16);
     drogue_real_product(&semi_axis_px, &scale, &semi_axis_px);
     predicted_spread(&spread, &estimate, track);
+    hold_second(&x, &y, &spread, track, &semi_axis_px);
     drogue_real_set_q16(&most, DROGUE_Q16(4, 10));
     track->search = drogue_real_order(&spread, &most) > 0;
     drogue_real_set_q16(&scale, track->config.region_scale_q16);
@@ -221,10 +287,17 @@ void drogue_track_begin(drogue_region *region, drogue_track *track, uint32_t dt_
 {
     track->gated = 0;
     if (track->agreeing > 0) {
-        drogue_kalman_predict(&track->second, dt_us, track->config.process_std_q16);
+        drogue_q16 agile[DROGUE_PARAMETERS];
+        int p;
+        for (p = 0; p < DROGUE_PARAMETERS; p++) {
+            agile[p] = drogue_q16_mul(drogue_q16_mul(track->config.process_std_q16[p], track->config.process_step_q16),
+                                      track->config.process_step_q16);
+        }
+        drogue_kalman_predict(&track->second, dt_us, agile);
     }
     if (track->state != DROGUE_LOST) {
-        drogue_kalman_predict(&track->filter, dt_us, track->config.process_std_q16);
+        drogue_bank_predict(&track->bank, dt_us, track->config.process_std_q16, track->config.process_step_q16);
+        drogue_bank_mix(&track->filter, &track->bank, 0);
         if (predicted_region(region, track)) {
             return;
         }
@@ -236,16 +309,16 @@ void drogue_track_begin(drogue_region *region, drogue_track *track, uint32_t dt_
     track->search = track->first_region.width_px <= 0;
 }
 
-/* May a search's find start a track? Its inner part decided, or was at least seen within a good outline. */
-static int looks_whole(const drogue_result *result)
+/* Is an outline that was measured while it may be elsewhere to be believed? Cut ones are drawn to what cuts them. */
+static int whole(const drogue_result *result, const drogue_model *model)
 {
-    return result->orientation_resolved || (result->has_inner && result->cover_q16 >= DROGUE_Q16(3, 4));
+    return result->cover_q16 >= DROGUE_Q16(9, 10) || drogue_result_sure(result, model);
 }
 
-/* Look where the drogue is expected, then where it may be. 1 when a search found it. */
-static int look(drogue_result *result, const drogue_region *region, const drogue_track *track,
-                drogue_workspace *workspace, drogue_search *search, const drogue_setup *setup,
-                const drogue_image *image)
+/* Look where the drogue is expected, then where it may be. */
+static void look(drogue_result *result, const drogue_region *region, const drogue_track *track,
+                 drogue_workspace *workspace, drogue_search *search, const drogue_setup *setup,
+                 const drogue_image *image)
 {
     const int lost = track->state == DROGUE_LOST;
     drogue_result found;
@@ -254,15 +327,16 @@ static int look(drogue_result *result, const drogue_region *region, const drogue
     if (region->width_px > 0) {
         (void)drogue_measure(result, workspace, setup, image, region);
     }
+    if (result->status == DROGUE_OK && !lost && track->search && !whole(result, &track->model)) {
+        result->status = DROGUE_E_UNSURE;
+    }
     if (result->status == DROGUE_OK || (!lost && !track->search)) {
-        return 0;
+        return;
     }
     (void)drogue_acquire(&found, search, workspace, setup, image, lost ? NULL : &track->reach);
     if (found.status == DROGUE_OK || region->width_px <= 0) {
         *result = found;
-        return 1;
     }
-    return 0;
 }
 
 /* Is it time to look whether the drogue is elsewhere? */
@@ -290,9 +364,6 @@ drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *regi
         track->state = DROGUE_LOST; /* begin anew from this */
         return drogue_track_end(track, result);
     }
-    if (look(result, region, track, workspace, search, &setup, image) && track->state == DROGUE_LOST &&
-        track->model.inner_radius_m_q16 > 0 && !looks_whole(result)) {
-        return track->state;
-    }
+    look(result, region, track, workspace, search, &setup, image);
     return drogue_track_end(track, result);
 }

@@ -3,98 +3,13 @@
 #include <string.h>
 
 #include "drogue/track.h"
+#include "measurement.h"
 
-/* One of a result's two poses as the filter takes it. */
-typedef struct measurement {
-    drogue_q16 value_q16[DROGUE_PARAMETERS];
-    drogue_q16 std_q16[DROGUE_PARAMETERS];
-    drogue_real noise[DROGUE_PACKED_MAX]; /* covariance in the filter's order */
-} measurement;
-
-static drogue_q16 at_least_one(drogue_q16 v) { return v < 1 ? 1 : v; }
-
-/* Noise from the configured standard deviations. */
-static void configured_noise(measurement *m, const drogue_track_config *c)
-{
-    const drogue_q16 z = m->value_q16[DROGUE_Z];
-    int p;
-    m->std_q16[DROGUE_X] = m->std_q16[DROGUE_Y] = at_least_one(drogue_q16_mul(c->lateral_std_q16, z));
-    m->std_q16[DROGUE_Z] = at_least_one(drogue_q16_mul(c->depth_std_q16, z));
-    m->std_q16[DROGUE_PITCH] = m->std_q16[DROGUE_YAW] = at_least_one(c->angle_std_rad_q16);
-    for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        drogue_real *variance = &m->noise[DROGUE_PACKED(p, p)];
-        drogue_real_set_q16(variance, m->std_q16[p]);
-        drogue_real_product(variance, variance, variance);
-    }
-}
-
-/* Noise from the result's covariance, whose order ends with yaw, pitch. The pose's twin has the same variances and the
- * same correlations of position; those of its angles are its own, not known, and count as none. */
-static void measured_noise(measurement *m, const drogue_result *result, int twin, const drogue_track_config *c)
-{
-    static const int from[DROGUE_PARAMETERS] = {0, 1, 2, 4, 3};
-    int p;
-    int q;
-    for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        const int64_t own_q48 = result->covariance_q48[from[p]][from[p]];
-        drogue_real *variance = &m->noise[DROGUE_PACKED(p, p)];
-        drogue_real own;
-        drogue_real_set_q16(variance, at_least_one(p == DROGUE_PITCH || p == DROGUE_YAW ? c->angle_floor_rad_q16
-                                                                                        : c->position_floor_m_q16));
-        drogue_real_product(variance, variance, variance);
-        drogue_real_set(&own, own_q48 > 0 ? own_q48 : 0, -48);
-        drogue_real_sum(variance, &own, variance);
-        drogue_real_root(&own, variance);
-        m->std_q16[p] = at_least_one(drogue_real_to_q16(own));
-        for (q = 0; q < p && !(twin && p > DROGUE_Z); q++) {
-            drogue_real_set(&m->noise[DROGUE_PACKED(p, q)], result->covariance_q48[from[p]][from[q]], -48);
-        }
-    }
-}
-
-static void read_pose(measurement *m, const drogue_result *result, int twin, const drogue_track_config *c)
-{
-    const drogue_pose *pose = twin ? &result->alternative : &result->pose;
-    memset(m, 0, sizeof *m);
-    m->value_q16[DROGUE_X] = pose->position_m_q16[0];
-    m->value_q16[DROGUE_Y] = pose->position_m_q16[1];
-    m->value_q16[DROGUE_Z] = pose->position_m_q16[2];
-    m->value_q16[DROGUE_PITCH] = pose->pitch_rad_q16;
-    m->value_q16[DROGUE_YAW] = pose->yaw_rad_q16;
-    if (result->covariance_q48[0][0] > 0) {
-        measured_noise(m, result, twin, c);
-    } else {
-        configured_noise(m, c);
-    }
-}
-
-/* An outline that its region cut and no second look made whole may be another than it seems: what it lacks of its
- * circumference, by third parts, is off beside its own noise, in semi-axes sideways, in distances along the axis and in rad. */
-static void doubt_if_cut(measurement *m, const drogue_result *result, drogue_q16 rim_radius_m_q16)
-{
-    const drogue_q16 lacking_q16 = (DROGUE_Q16_ONE - result->cover_q16) / 3;
-    int p;
-    if (result->second_look <= DROGUE_SECOND_BETTER) {
-        return;
-    }
-    for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        drogue_real *variance = &m->noise[DROGUE_PACKED(p, p)];
-        drogue_real more;
-        drogue_real_set_q16(&more, lacking_q16);
-        if (p <= DROGUE_Z) {
-            drogue_real of;
-            drogue_real_set_q16(&of, p == DROGUE_Z ? m->value_q16[p] : rim_radius_m_q16);
-            drogue_real_product(&more, &more, &of);
-        }
-        drogue_real_product(&more, &more, &more);
-        drogue_real_sum(variance, variance, &more);
-        drogue_real_root(&more, variance);
-        m->std_q16[p] = at_least_one(drogue_real_to_q16(more));
-    }
-}
+#define NEAR_TWIN DROGUE_Q16(3, 1) /* times the gate: so near, a twin may be what the next frames show */
+#define TRIAL_FRAMES 5             /* in which a track that began with an inner part must show it again */
 
 /* Squared distance from a filter's prediction against a gate. */
-static int passes(const drogue_kalman *filter, const measurement *m, int n, drogue_q16 gate_q16)
+static int passes(const drogue_kalman *filter, const drogue_measurement *m, int n, drogue_q16 gate_q16)
 {
     drogue_real distance2;
     drogue_real gate;
@@ -114,7 +29,7 @@ static void restart(drogue_kalman *filter, int p, drogue_q16 value_q16, drogue_q
 }
 
 /* A filter that knows this measurement alone. */
-static void start(drogue_kalman *filter, const measurement *m, const drogue_track_config *c)
+static void start(drogue_kalman *filter, const drogue_measurement *m, const drogue_track_config *c)
 {
     int p;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
@@ -122,23 +37,33 @@ static void start(drogue_kalman *filter, const measurement *m, const drogue_trac
     }
 }
 
+/* The bank and the estimate from one filter. */
+static void begin_with(drogue_track *track, const drogue_kalman *filter)
+{
+    drogue_bank_start(&track->bank, filter);
+    drogue_bank_mix(&track->filter, &track->bank, 0);
+}
+
 /* Forget the angles: the measurement at hand will say. */
-static void forget_angles(drogue_kalman *filter, const measurement *m, const drogue_track_config *c)
+static void forget_angles(drogue_track *track, const drogue_measurement *m)
 {
     const drogue_q16 unknown_rad_q16 = DROGUE_Q16_ONE;
-    restart(filter, DROGUE_PITCH, m->value_q16[DROGUE_PITCH], unknown_rad_q16, c);
-    restart(filter, DROGUE_YAW, m->value_q16[DROGUE_YAW], unknown_rad_q16, c);
+    int i;
+    for (i = 0; i < DROGUE_BANK_MODELS; i++) {
+        restart(&track->bank.model[i], DROGUE_PITCH, m->value_q16[DROGUE_PITCH], unknown_rad_q16, &track->config);
+        restart(&track->bank.model[i], DROGUE_YAW, m->value_q16[DROGUE_YAW], unknown_rad_q16, &track->config);
+    }
 }
 
 /* Correct a filter. Off the optical axis the errors of x and y are mostly that of z, times the tangent of the bearing:
  * the filter, whose parameters are independent, would take a wrong z for a wrong x. So what z's correction leaves of
  * its innovation, r, is taken out of x and y by their regression on z, k = N_xz / N_zz: x - k r, with variance
  * N_xx - k^2 N_zz of its own and k^2 P_zz of the corrected z. */
-static void correct(drogue_kalman *filter, const measurement *m, const drogue_track_config *c)
+static void correct(drogue_kalman *filter, const drogue_measurement *m, const drogue_track_config *c)
 {
     const drogue_real *zz = &m->noise[DROGUE_PACKED(DROGUE_Z, DROGUE_Z)];
     const drogue_kalman3 *z = &filter->parameter[DROGUE_Z];
-    measurement own = *m;
+    drogue_measurement own = *m;
     drogue_real variance; /* of the corrected z */
     drogue_real rest;
     drogue_real least;
@@ -152,7 +77,7 @@ static void correct(drogue_kalman *filter, const measurement *m, const drogue_tr
     drogue_real_difference(&rest, &rest, &z->state[0]);
     drogue_real_product(&rest, &rest, &t);
     drogue_real_product(&variance, &z->variance[0], &t);
-    drogue_real_set_q16(&least, at_least_one(c->position_floor_m_q16));
+    drogue_real_set_q16(&least, drogue_at_least_one(c->position_floor_m_q16));
     drogue_real_product(&least, &least, &least);
     for (p = DROGUE_X; p <= DROGUE_Y; p++) {
         drogue_real_quotient(&k, &m->noise[DROGUE_PACKED(DROGUE_Z, p)], zz);
@@ -165,7 +90,7 @@ static void correct(drogue_kalman *filter, const measurement *m, const drogue_tr
         drogue_real_product(&k2, &k2, &variance);
         drogue_real_sum(&t, &t, &k2);
         drogue_real_root(&t, &t);
-        own.std_q16[p] = at_least_one(drogue_real_to_q16(t));
+        own.std_q16[p] = drogue_at_least_one(drogue_real_to_q16(t));
         drogue_real_product(&k, &k, &rest);
         drogue_real_set_q16(&t, m->value_q16[p]);
         drogue_real_difference(&t, &t, &k);
@@ -174,18 +99,72 @@ static void correct(drogue_kalman *filter, const measurement *m, const drogue_tr
     drogue_kalman_correct(filter, own.value_q16, own.std_q16);
 }
 
-static drogue_track_state believe(drogue_track *track, const measurement *m)
+/* What the estimate's standard deviations keep of a measurement: as long as the orientation is open it may be the twin. */
+static void keep_noise(drogue_track *track, const drogue_measurement *m)
 {
-    correct(&track->filter, m, &track->config);
+    int p;
+    for (p = 0; p < DROGUE_PARAMETERS; p++) {
+        track->noise[p] = m->noise[DROGUE_PACKED(p, p)];
+        if (!track->orientation_known) {
+            drogue_real_sum(&track->noise[p], &track->noise[p], &m->apart[p]);
+        }
+    }
+}
+
+static drogue_track_state believe(drogue_track *track, const drogue_measurement *m)
+{
+    int i;
+    drogue_bank_weigh(&track->bank, m->value_q16);
+    for (i = 0; i < DROGUE_BANK_MODELS; i++) {
+        correct(&track->bank.model[i], m, &track->config);
+    }
+    drogue_bank_mix(&track->filter, &track->bank, 0);
+    keep_noise(track, m);
     track->missed = 0;
     track->agreeing = 0;
     track->state = DROGUE_TRACKING;
+    if (m->solid) {
+        track->trial = 0;
+    } else if (track->trial > 0 && --track->trial == 0) {
+        track->state = DROGUE_LOST;
+    }
     return track->state;
+}
+
+/* What is measured against: a step more agile than the estimate, and with room in depth for what light and lens do to the
+ * outline from one frame to the next. */
+static void gate_of(drogue_kalman *gate, const drogue_track *track)
+{
+    drogue_real *variance = &gate->parameter[DROGUE_Z].variance[0];
+    drogue_real room;
+    drogue_bank_mix(gate, &track->bank, 1);
+    drogue_real_set_q16(&room, track->config.depth_std_q16);
+    drogue_real_product(&room, &room, &gate->parameter[DROGUE_Z].state[0]);
+    drogue_real_product(&room, &room, &room);
+    drogue_real_sum(variance, variance, &room);
+}
+
+/* Without an inner part where there should be one, the range must be about what is predicted. */
+static int range_fits(const drogue_kalman *filter, const drogue_measurement *m)
+{
+    drogue_real off;
+    drogue_real most;
+    int order;
+    if (m->solid) {
+        return 1;
+    }
+    drogue_kalman_innovation(&off, filter, DROGUE_Z, m->value_q16[DROGUE_Z]);
+    drogue_real_product(&off, &off, &off);
+    drogue_real_set_q16(&most, m->value_q16[DROGUE_Z] / 20);
+    drogue_real_product(&most, &most, &most);
+    order = drogue_real_order(&off, &most);
+    return order <= 0;
 }
 
 /* A new filter begins. */
 static void take_over(drogue_track *track, int orientation_known)
 {
+    track->trial = 0;
     track->orientation_known = orientation_known;
     track->open_frames = 0;
     track->turned = 0;
@@ -194,71 +173,7 @@ static void take_over(drogue_track *track, int orientation_known)
     track->state = DROGUE_TRACKING;
 }
 
-/* A refused measurement: the second filter follows it, and takes over when it has followed long enough. */
-static drogue_track_state refuse(drogue_track *track, const measurement *m, int resolved)
-{
-    const drogue_track_config *c = &track->config;
-    track->gated = 1;
-    track->missed++;
-    if (track->agreeing > 0 && passes(&track->second, m, DROGUE_PARAMETERS, c->gate_q16)) {
-        correct(&track->second, m, c);
-        track->agreeing++;
-        track->second_known |= resolved;
-    } else {
-        start(&track->second, m, c);
-        track->agreeing = 1;
-        track->second_known = resolved;
-    }
-    track->state = DROGUE_COASTING;
-    if (track->agreeing >= c->agree_frames || track->missed > c->max_missed) {
-        track->filter = track->second;
-        track->gated = 0;
-        take_over(track, track->second_known);
-    }
-    return track->state;
-}
-
-/* The orientation is open: the pose nearer to the prediction. */
-static drogue_track_state end_unresolved(drogue_track *track, const measurement *pose, const measurement *twin)
-{
-    const measurement *nearer;
-    drogue_real d;
-    drogue_real e;
-    drogue_kalman_distance2(&d, &track->filter, pose->value_q16, pose->noise, DROGUE_PARAMETERS);
-    drogue_kalman_distance2(&e, &track->filter, twin->value_q16, twin->noise, DROGUE_PARAMETERS);
-    nearer = drogue_real_order(&e, &d) < 0 ? twin : pose;
-    if (!passes(&track->filter, nearer, DROGUE_PARAMETERS, track->config.gate_q16)) {
-        return refuse(track, nearer, 0);
-    }
-    track->open_frames++;
-    return believe(track, nearer);
-}
-
-static drogue_track_state end_resolved(drogue_track *track, const measurement *pose, const measurement *twin)
-{
-    const drogue_track_config *c = &track->config;
-    int fits;
-    track->open_frames = 0;
-    if (passes(&track->filter, pose, DROGUE_PARAMETERS, c->gate_q16)) {
-        track->orientation_known = 1;
-        track->turned = 0;
-        return believe(track, pose);
-    }
-    fits = track->orientation_known ? passes(&track->filter, twin, DROGUE_PARAMETERS, c->gate_q16)
-                                    : passes(&track->filter, pose, 3, c->position_gate_q16);
-    if (!fits) {
-        return refuse(track, pose, 1);
-    }
-    track->turned++;
-    if (track->orientation_known && track->turned < c->agree_frames) {
-        return believe(track, twin);
-    }
-    forget_angles(&track->filter, pose, c);
-    track->orientation_known = 1;
-    track->turned = 0;
-    return believe(track, pose);
-}
-
+/* Refused, or nothing to be followed. */
 static drogue_track_state end_missed(drogue_track *track)
 {
     track->missed++;
@@ -271,20 +186,103 @@ static drogue_track_state end_missed(drogue_track *track)
     return track->state;
 }
 
+/* A refused measurement: the second filter follows it, and takes over when it has followed long enough. One without the
+ * inner part that the model has opens none. */
+static drogue_track_state refuse(drogue_track *track, const drogue_measurement *m, int resolved)
+{
+    const drogue_track_config *c = &track->config;
+    track->gated = 1;
+    if (!m->solid) {
+        return end_missed(track);
+    }
+    track->missed++;
+    if (track->agreeing > 0 && passes(&track->second, m, DROGUE_PARAMETERS, c->gate_q16)) {
+        correct(&track->second, m, c);
+        track->agreeing++;
+        track->second_known |= resolved;
+    } else {
+        start(&track->second, m, c);
+        track->agreeing = 1;
+        track->second_known = resolved;
+    }
+    track->state = DROGUE_COASTING;
+    if (track->agreeing >= c->agree_frames || track->missed > c->max_missed) {
+        begin_with(track, &track->second);
+        track->gated = 0;
+        take_over(track, track->second_known);
+        keep_noise(track, m);
+    }
+    return track->state;
+}
+
+/* The orientation is open: the pose nearer to the prediction. */
+static drogue_track_state end_unresolved(drogue_track *track, const drogue_measurement *pose,
+                                         const drogue_measurement *twin)
+{
+    const drogue_track_config *c = &track->config;
+    drogue_kalman gate;
+    drogue_real d;
+    drogue_real e;
+    const drogue_measurement *nearer;
+    gate_of(&gate, track);
+    drogue_kalman_distance2(&d, &gate, pose->value_q16, pose->noise, DROGUE_PARAMETERS);
+    drogue_kalman_distance2(&e, &gate, twin->value_q16, twin->noise, DROGUE_PARAMETERS);
+    nearer = drogue_real_order(&e, &d) < 0 ? twin : pose;
+    if (!passes(&gate, nearer, DROGUE_PARAMETERS, c->gate_q16) || !range_fits(&gate, nearer)) {
+        return refuse(track, nearer, 0);
+    }
+    track->open_frames++;
+    if (passes(&gate, nearer == pose ? twin : pose, DROGUE_PARAMETERS, drogue_q16_mul(c->gate_q16, NEAR_TWIN)) ||
+        (c->known_frames > 0 && track->open_frames >= c->known_frames)) {
+        track->orientation_known = 0;
+    }
+    return believe(track, nearer);
+}
+
+static drogue_track_state end_resolved(drogue_track *track, const drogue_measurement *pose,
+                                       const drogue_measurement *twin)
+{
+    const drogue_track_config *c = &track->config;
+    drogue_kalman gate;
+    int fits;
+    gate_of(&gate, track);
+    track->open_frames = 0;
+    if (passes(&gate, pose, DROGUE_PARAMETERS, c->gate_q16)) {
+        track->orientation_known = 1;
+        track->turned = 0;
+        return believe(track, pose);
+    }
+    fits = track->orientation_known ? passes(&gate, twin, DROGUE_PARAMETERS, c->gate_q16)
+                                    : passes(&gate, pose, 3, c->position_gate_q16);
+    if (!fits) {
+        return refuse(track, pose, 1);
+    }
+    track->turned++;
+    if (track->orientation_known && track->turned < c->agree_frames) {
+        return believe(track, twin);
+    }
+    forget_angles(track, pose);
+    track->orientation_known = 1;
+    track->turned = 0;
+    return believe(track, pose);
+}
+
 drogue_track_state drogue_track_end(drogue_track *track, const drogue_result *result)
 {
-    measurement pose;
-    measurement twin;
+    const int inner_known = track->model.inner_radius_m_q16 > 0;
+    drogue_measurement pose;
+    drogue_measurement twin;
     if (result->status != DROGUE_OK) {
         return end_missed(track);
     }
-    read_pose(&pose, result, 0, &track->config);
-    read_pose(&twin, result, 1, &track->config);
-    doubt_if_cut(&pose, result, track->model.rim_radius_m_q16);
-    doubt_if_cut(&twin, result, track->model.rim_radius_m_q16);
+    drogue_measurement_read(&pose, result, 0, &track->model, &track->config);
+    drogue_measurement_read(&twin, result, 1, &track->model, &track->config);
     if (track->state == DROGUE_LOST) {
         start(&track->filter, &pose, &track->config);
+        begin_with(track, &track->filter);
         take_over(track, result->orientation_resolved);
+        track->trial = pose.solid && inner_known ? TRIAL_FRAMES : 0;
+        keep_noise(track, &pose);
         return track->state;
     }
     return result->orientation_resolved ? end_resolved(track, &pose, &twin) : end_unresolved(track, &pose, &twin);

@@ -55,6 +55,9 @@ Background Background::ground() { return {60, 50, 18, 48, 4}; }
 double background_grey(const Scene &scene, int x_px, int y_px)
 {
     const Background &b = scene.background;
+    if (!b.plate.empty()) {
+        return b.plate.at<float>(std::clamp(y_px, 0, b.plate.rows - 1), std::clamp(x_px, 0, b.plate.cols - 1));
+    }
     const double down = static_cast<double>(y_px) / scene.image_px.height;
     double sum = 0;
     double weights = 0;

@@ -19,6 +19,8 @@ struct Lattice {
 };
 constexpr Lattice outline_lattice = {233, 89}; /* pixels that hold background and drogue */
 constexpr Lattice detail_lattice = {89, 34};   /* edges within the drogue */
+constexpr Lattice coarse_outline_lattice = {55, 34};
+constexpr Lattice coarse_detail_lattice = {13, 8};
 
 std::vector<cv::Point2d> points_of(const Lattice &lattice)
 {
@@ -277,8 +279,8 @@ private:
 cv::Mat trace_area(const Scene &scene, const cv::Rect &area)
 {
     const Tracer tracer(scene);
-    const std::vector<cv::Point2d> outline_points = points_of(outline_lattice);
-    const std::vector<cv::Point2d> detail_points = points_of(detail_lattice);
+    const std::vector<cv::Point2d> outline_points = points_of(scene.coarse ? coarse_outline_lattice : outline_lattice);
+    const std::vector<cv::Point2d> detail_points = points_of(scene.coarse ? coarse_detail_lattice : detail_lattice);
     const auto background = static_cast<uint8_t>(Surface::background);
     cv::Mat surface(area.height + 2, area.width + 2, CV_8U);
     cv::Mat grey(area.height + 2, area.width + 2, CV_64F);
@@ -307,11 +309,12 @@ cv::Mat trace_area(const Scene &scene, const cv::Rect &area)
                 continue;
             }
             double sum = 0;
-            for (const cv::Point2d &d : outline ? outline_points : detail_points) {
+            const std::vector<cv::Point2d> &points = outline ? outline_points : detail_points;
+            for (const cv::Point2d &d : points) {
                 const Hit hit = tracer(cv::Point2d(area.x + x + d.x, area.y + y + d.y));
                 sum += hit.surface == Surface::background ? behind : hit.grey;
             }
-            result = sum / (outline ? outline_lattice : detail_lattice).points;
+            result = sum / static_cast<double>(points.size());
         }
     }
     return out;

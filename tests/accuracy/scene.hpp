@@ -86,6 +86,7 @@ struct Background {
     cv::Point2d ramp_at_px = {0, 0};
     cv::Point2d ramp_per_px = {0, 0}; /* grey levels a pixel along x and y, 0 at ramp_at; the sum stays in [0, 255] */
     std::vector<Clutter> clutter = {};
+    cv::Mat plate = {}; /* CV_32F, as large as the image: grey levels that take the place of all the above */
 
     static Background sky();    /* bright */
     static Background cloud();  /* mid grey */
@@ -126,6 +127,7 @@ struct Scene {
     Sensor sensor;
     Probe probe;
     uint64_t seed = 1;
+    bool coarse = false; /* fewer rays a pixel, for many frames: edges err by up to a grey level */
 
     Ellipse rim() const { return project_circle(camera, pose, drogue.rim_radius_m, 0); } /* ideal pixels */
     cv::Point2d inner_centre_ideal() const { return camera.project_ideal(inner_centre_m()); }

@@ -89,6 +89,7 @@ bool study(const Arguments &a)
         section_table5(report, options);
         section_search(report, options);
         section_sequences(report, options);
+        section_tracking(report, options);
         section_boards(report, options);
     }
     section_systems(report, options);

@@ -51,5 +51,7 @@ void section_regions(Report &report, const StudyOptions &options);
 void section_search(Report &report, const StudyOptions &options);
 /* Sequences at three levels of turbulence, raw against filtered, and a long one with blanked frames. */
 void section_sequences(Report &report, const StudyOptions &options);
+/* Courses that disturb the tracker, and painted whole frames. */
+void section_tracking(Report &report, const StudyOptions &options);
 
 } // namespace accuracy

@@ -6,10 +6,22 @@
 
 START_TEST(names_are_the_documented_ones)
 {
-    static const char *const names[DROGUE_STATUS_COUNT] = {
-        "ok",           "argument", "region",     "workspace",      "labels_full", "edges_full",    "arcs_full",
-        "no_edges",     "no_arcs",  "no_ellipse", "too_few_points", "degenerate",  "no_inner_part", "domain",
-        "behind_camera"};
+    static const char *const names[DROGUE_STATUS_COUNT] = {"ok",
+                                                           "argument",
+                                                           "region",
+                                                           "workspace",
+                                                           "labels_full",
+                                                           "edges_full",
+                                                           "arcs_full",
+                                                           "no_edges",
+                                                           "no_arcs",
+                                                           "no_ellipse",
+                                                           "too_few_points",
+                                                           "degenerate",
+                                                           "no_inner_part",
+                                                           "domain",
+                                                           "behind_camera",
+                                                           "unsure"};
     int i;
     for (i = 0; i < (int)DROGUE_STATUS_COUNT; i++) {
         ck_assert_str_eq(drogue_status_name((drogue_status)i), names[i]);

@@ -57,7 +57,10 @@ START_TEST(defaults_are_the_documented_ones)
         ck_assert_int_eq(c.process_std_q16[k], q16_of(k < 2 ? 0.2 : k == 2 ? 0.02 : 0.15));
     }
     ck_assert_int_eq(c.start_rate_std_q16, q16_of(2));
-    ck_assert_int_eq(c.start_accel_std_q16, q16_of(2));
+    ck_assert_int_eq(c.start_accel_std_q16, q16_of(15));
+    ck_assert_int_eq(c.process_step_q16, q16_of(6));
+    ck_assert_int_eq(c.lasting_share_q16, q16_of(0.75));
+    ck_assert_uint_eq(c.known_frames, 25);
 }
 END_TEST
 
@@ -86,6 +89,9 @@ START_TEST(each_limit)
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         LIMIT(process_std_q16[p], 0, INT32_MIN);
     }
+    LIMIT(process_step_q16, DROGUE_Q16_ONE, DROGUE_Q16_ONE - 1);
+    LIMIT(lasting_share_q16, 0, -1);
+    LIMIT(lasting_share_q16, DROGUE_Q16_ONE, DROGUE_Q16_ONE + 1);
     LIMIT(start_rate_std_q16, 0, -1);
     LIMIT(start_accel_std_q16, 0, -1);
     c.max_missed = c.reconsider_frames = 0;
@@ -278,7 +284,7 @@ START_TEST(region_grows_with_uncertainty)
         (void)step(&t, &hit);
     }
     drogue_track_begin(&region, &t, 20000);
-    must_be_about(&region, 650, 512, 2.5 * 35 * 1.01); /* 5 mm a frame against a rim of 350 mm */
+    must_be_about(&region, 650, 512, 2.5 * 35 * 1.03); /* what lasts of 5 mm and 20 mm, against a rim of 350 mm */
     ck_assert_int_eq(t.search, 0);
     ck_assert_int_eq(drogue_track_end(&t, &miss), DROGUE_COASTING);
     side = region.width_px;

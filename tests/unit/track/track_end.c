@@ -1,51 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* What the tracker believes: the gate, jumps, coasting, twin poses, long runs. */
-#include "suite.h"
-
-#include "drogue/track.h"
-#include "results.h"
-
-static const drogue_model model = {22938, 13107, 16384};
-
-enum { DT_US = 40000 };
-
-static drogue_track new_track(void)
-{
-    const drogue_camera camera = pinhole(1465.5, 1465.5, 1023.5, 1023.5);
-    drogue_track_config config;
-    drogue_track t;
-    drogue_track_config_default(&config);
-    (void)drogue_track_init(&t, &config, &camera, &model, NULL);
-    return t;
-}
-
-static drogue_track_state step(drogue_track *t, const drogue_result *r)
-{
-    drogue_region region;
-    drogue_track_begin(&region, t, DT_US);
-    return drogue_track_end(t, r);
-}
-
-static drogue_track steady_track(const drogue_result *hit)
-{
-    drogue_track t = new_track();
-    int k;
-    for (k = 0; k < 50; k++) {
-        ck_assert_int_eq(step(&t, hit), DROGUE_TRACKING);
-    }
-    return t;
-}
-
-static void must_be_at(const drogue_track *t, double x, double y, double z, double tolerance)
-{
-    drogue_track_estimate e;
-    drogue_track_get(&e, t);
-    MUST(fabs(real_of_q16(e.position_m_q16[0]) - x) <= tolerance &&
-             fabs(real_of_q16(e.position_m_q16[1]) - y) <= tolerance &&
-             fabs(real_of_q16(e.position_m_q16[2]) - z) <= tolerance,
-         "at (%g, %g, %g), not (%g, %g, %g)", real_of_q16(e.position_m_q16[0]), real_of_q16(e.position_m_q16[1]),
-         real_of_q16(e.position_m_q16[2]), x, y, z);
-}
+/* What the tracker believes: the gate, jumps, coasting, long runs. */
+#include "track_steps.h"
 
 START_TEST(an_outlier_is_refused)
 {
@@ -281,62 +236,6 @@ START_TEST(standard_deviations_are_those_of_the_measurement)
 }
 END_TEST
 
-static double yaw_of_track(const drogue_track *t)
-{
-    drogue_track_estimate e;
-    drogue_track_get(&e, t);
-    return real_of_q16(e.yaw_rad_q16);
-}
-
-START_TEST(twins_go_by_continuity)
-{
-    const drogue_result hit = seen(0, 0, 8, 0.3, 0);
-    drogue_result turned = seen(0, 0, 8, -0.3, 0);
-    drogue_track t = steady_track(&hit);
-    unsigned k;
-    turned.alternative = hit.pose;
-    turned.orientation_resolved = 0;
-    for (k = 0; k < 100; k++) {
-        ck_assert_int_eq(step(&t, &turned), DROGUE_TRACKING);
-    }
-    MUST(fabs(yaw_of_track(&t) - 0.3) < 0.005, "open twins: yaw %g", yaw_of_track(&t));
-    turned.orientation_resolved = 1;
-    for (k = 1; k < t.config.agree_frames; k++) { /* resolved, but against a confident prediction */
-        ck_assert_int_eq(step(&t, &turned), DROGUE_TRACKING);
-        MUST(fabs(yaw_of_track(&t) - 0.3) < 0.005, "resolved %u times: yaw %g", k, yaw_of_track(&t));
-    }
-    ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING); /* the count begins again */
-    for (k = 1; k < t.config.agree_frames; k++) {
-        ck_assert_int_eq(step(&t, &turned), DROGUE_TRACKING);
-        MUST(fabs(yaw_of_track(&t) - 0.3) < 0.005, "again %u times: yaw %g", k, yaw_of_track(&t));
-    }
-    ck_assert_int_eq(step(&t, &turned), DROGUE_TRACKING);
-    MUST(fabs(yaw_of_track(&t) + 0.3) < 0.005, "after as many as it takes: yaw %g", yaw_of_track(&t));
-    must_be_at(&t, 0, 0, 8, 0.001);
-}
-END_TEST
-
-START_TEST(the_first_resolved_frame_turns_open_twins)
-{
-    drogue_result open = seen(0, 0, 8, 0.3, 0.1), resolved = seen(0, 0, 8, -0.3, -0.1);
-    drogue_track t;
-    drogue_track_estimate e;
-    open.orientation_resolved = 0;
-    open.alternative = resolved.pose;
-    resolved.alternative = open.pose;
-    t = steady_track(&open);
-    drogue_track_get(&e, &t);
-    ck_assert_int_eq(e.orientation_resolved, 0);
-    ck_assert_int_eq(step(&t, &resolved), DROGUE_TRACKING);
-    drogue_track_get(&e, &t);
-    ck_assert_int_eq(e.orientation_resolved, 1);
-    MUST(fabs(real_of_q16(e.yaw_rad_q16) + 0.3) < 0.005 && fabs(real_of_q16(e.pitch_rad_q16) + 0.1) < 0.005,
-         "not turned");
-    ck_assert_int_eq(step(&t, &open), DROGUE_TRACKING);
-    MUST(fabs(yaw_of_track(&t) + 0.3) < 0.005, "turned back");
-}
-END_TEST
-
 static drogue_result anything(uint64_t *rng)
 {
     drogue_result r;
@@ -437,5 +336,4 @@ END_TEST
 SUITE_MAIN("track_end", an_outlier_is_refused, a_cut_outline_does_not_lock_the_drogue_out,
            what_noise_allows_is_believed, correlation_counts, lateral_errors_follow_depth, a_true_jump_is_followed,
            outliers_that_disagree_are_not_followed, coasting_grows_and_never_breaks,
-           standard_deviations_are_those_of_the_measurement, twins_go_by_continuity,
-           the_first_resolved_frame_turns_open_twins, nothing_locks_it_up, ten_thousand_frames)
+           standard_deviations_are_those_of_the_measurement, nothing_locks_it_up, ten_thousand_frames)

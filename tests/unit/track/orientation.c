@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Twin poses in the tracker: which is followed, when the orientation is known. */
+#include "track_steps.h"
+
+static double yaw_of_track(const drogue_track *t)
+{
+    drogue_track_estimate e;
+    drogue_track_get(&e, t);
+    return real_of_q16(e.yaw_rad_q16);
+}
+
+static void must_be_resolved(const drogue_track *t, int resolved)
+{
+    drogue_track_estimate e;
+    drogue_track_get(&e, t);
+    ck_assert_int_eq(e.orientation_resolved, resolved);
+}
+
+START_TEST(twins_go_by_continuity)
+{
+    const drogue_result hit = seen(0, 0, 8, 0.3, 0);
+    drogue_result turned = seen(0, 0, 8, -0.3, 0);
+    drogue_track t = steady_track(&hit);
+    unsigned k;
+    turned.alternative = hit.pose;
+    turned.orientation_resolved = 0;
+    for (k = 1; k < t.config.known_frames; k++) {
+        ck_assert_int_eq(step(&t, &turned), DROGUE_TRACKING);
+        ck_assert_int_eq(t.orientation_known, 1);
+    }
+    MUST(fabs(yaw_of_track(&t) - 0.3) < 0.005, "open twins: yaw %g", yaw_of_track(&t));
+    turned.orientation_resolved = 1;
+    for (k = 1; k < t.config.agree_frames; k++) { /* resolved, but against a confident prediction */
+        ck_assert_int_eq(step(&t, &turned), DROGUE_TRACKING);
+        MUST(fabs(yaw_of_track(&t) - 0.3) < 0.005, "resolved %u times: yaw %g", k, yaw_of_track(&t));
+        must_be_resolved(&t, 0); /* contradicted */
+    }
+    ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING); /* the count begins again */
+    must_be_resolved(&t, 1);
+    for (k = 1; k < t.config.agree_frames; k++) {
+        ck_assert_int_eq(step(&t, &turned), DROGUE_TRACKING);
+        MUST(fabs(yaw_of_track(&t) - 0.3) < 0.005, "again %u times: yaw %g", k, yaw_of_track(&t));
+    }
+    ck_assert_int_eq(step(&t, &turned), DROGUE_TRACKING);
+    MUST(fabs(yaw_of_track(&t) + 0.3) < 0.005, "after as many as it takes: yaw %g", yaw_of_track(&t));
+    must_be_at(&t, 0, 0, 8, 0.001);
+}
+END_TEST
+
+/* What is known of the orientation goes when nothing decides for long, or both twins fit the prediction. */
+START_TEST(orientation_is_forgotten)
+{
+    const drogue_result hit = seen(0, 0, 8, 0.3, 0);
+    drogue_result open = hit;
+    drogue_track t = steady_track(&hit), forever;
+    unsigned k;
+    open.orientation_resolved = 0;
+    open.alternative = seen(0, 0, 8, -0.3, 0).pose;
+    forever = t;
+    forever.config.known_frames = 0;
+    for (k = 1; k <= t.config.known_frames; k++) {
+        ck_assert_int_eq(t.orientation_known, 1);
+        ck_assert_int_eq(step(&t, &open), DROGUE_TRACKING);
+        ck_assert_int_eq(step(&forever, &open), DROGUE_TRACKING);
+    }
+    ck_assert_int_eq(t.orientation_known, 0);
+    ck_assert_int_eq(forever.orientation_known, 1);
+    t = steady_track(&hit);
+    open.alternative = seen(0, 0, 8, 0.28, 0).pose;
+    ck_assert_int_eq(step(&t, &open), DROGUE_TRACKING);
+    ck_assert_int_eq(t.orientation_known, 0);
+    ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING);
+    ck_assert_int_eq(t.orientation_known, 1);
+}
+END_TEST
+
+/* An unresolved result's covariance holds the distance of the twins: the filter follows one of them without it, and its
+ * estimate's standard deviation keeps it while the orientation is open. */
+START_TEST(distance_of_twins)
+{
+    const double std[5] = {0.001, 0.001, 0.01, 0.01, 0.01};
+    drogue_result r = seen(0.1, 0, 8, 0.3, 0);
+    drogue_track t;
+    drogue_track_estimate e;
+    uint64_t rng = 5;
+    int spread, k;
+    for (spread = 0; spread <= 1; spread++) {
+        set_covariance(&r, std);
+        r.orientation_resolved = 0;
+        r.has_inner = 1;
+        r.alternative = seen(0.12, 0, 8, -0.3, 0).pose;
+        if (spread) {
+            r.covariance_q48[0][0] += (int64_t)(0.5 * 0.02 * 0.02 * 281474976710656.0);
+            r.covariance_q48[3][3] += (int64_t)(0.5 * 0.6 * 0.6 * 281474976710656.0);
+            r.covariance_q48[0][3] = r.covariance_q48[3][0] = (int64_t)(-0.5 * 0.02 * 0.6 * 281474976710656.0);
+        }
+        t = new_track();
+        for (k = 0; k < 60; k++) { /* with noise, which tells calm flight from gusts */
+            const int32_t noise = q16_of(0.001 * rng_normal(&rng));
+            r.pose.position_m_q16[0] = q16_of(0.1) + noise;
+            r.alternative.position_m_q16[0] = q16_of(0.12) + noise;
+            ck_assert_int_eq(step(&t, &r), DROGUE_TRACKING);
+        }
+        MUST(fabs(yaw_of_track(&t) - 0.3) < 0.001, "yaw %g", yaw_of_track(&t));
+        drogue_track_get(&e, &t);
+        ck_assert_double_lt(ldexp((double)e.position_std_m_q32[1], -32), 0.0012);
+        MUST((ldexp((double)e.position_std_m_q32[0], -32) > 0.01) == spread, "std of x %g",
+             ldexp((double)e.position_std_m_q32[0], -32));
+        r.pose.position_m_q16[0] += q16_of(0.03); /* 30 standard deviations: not that of both, and refused */
+        r.alternative.position_m_q16[0] += q16_of(0.03);
+        ck_assert_int_eq(step(&t, &r), DROGUE_COASTING);
+    }
+}
+END_TEST
+
+START_TEST(the_first_resolved_frame_turns_open_twins)
+{
+    drogue_result open = seen(0, 0, 8, 0.3, 0.1), resolved = seen(0, 0, 8, -0.3, -0.1);
+    drogue_track t;
+    drogue_track_estimate e;
+    open.orientation_resolved = 0;
+    open.alternative = resolved.pose;
+    resolved.alternative = open.pose;
+    t = steady_track(&open);
+    drogue_track_get(&e, &t);
+    ck_assert_int_eq(e.orientation_resolved, 0);
+    ck_assert_int_eq(step(&t, &resolved), DROGUE_TRACKING);
+    drogue_track_get(&e, &t);
+    ck_assert_int_eq(e.orientation_resolved, 1);
+    MUST(fabs(real_of_q16(e.yaw_rad_q16) + 0.3) < 0.005 && fabs(real_of_q16(e.pitch_rad_q16) + 0.1) < 0.005,
+         "not turned");
+    ck_assert_int_eq(step(&t, &open), DROGUE_TRACKING);
+    MUST(fabs(yaw_of_track(&t) + 0.3) < 0.005, "turned back");
+}
+END_TEST
+
+SUITE_MAIN("orientation", twins_go_by_continuity, orientation_is_forgotten, distance_of_twins,
+           the_first_resolved_frame_turns_open_twins)
