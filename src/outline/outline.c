@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "collection.h"
 #include "drogue/ellipse.h"
 #include "near.h"
 
@@ -26,15 +27,10 @@ static void add_arc(drogue_moments *sum, const drogue_edge *edges, const drogue_
     *sum = m;
 }
 
-static int round_enough(const drogue_ellipse *e, const drogue_config *config)
-{
-    return (int64_t)e->b_px_q16 * DROGUE_Q16_ONE >= (int64_t)e->a_px_q16 * config->min_axis_ratio_q16;
-}
-
 static int plausible(const drogue_ellipse *e, const drogue_mask *mask, const drogue_config *config)
 {
     int64_t a = e->a_px_q16;
-    return round_enough(e, config) && a >= (int64_t)config->min_size_q16 * mask->longest_px &&
+    return drogue_round_enough(e, config) && a >= (int64_t)config->min_size_q16 * mask->longest_px &&
            a <= (int64_t)config->max_size_q16 * mask->longest_px;
 }
 
@@ -162,55 +158,6 @@ static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES
     return count;
 }
 
-/* Begin a collection of points that reach this far from a centre: the finest unit in which they fit 16 bits. The origin
- * is a whole pixel: edge points, multiples of 1/32 px, are then exact, where any other would shift them all alike. */
-static void collection_begin(drogue_collection *c, const drogue_ellipse *e, int64_t reach_px_q16)
-{
-    drogue_moments_clear(&c->moments);
-    c->x_px_q16 = drogue_q16_from_int((int32_t)drogue_shr_round_s64(e->xc_px_q16, 16));
-    c->y_px_q16 = drogue_q16_from_int((int32_t)drogue_shr_round_s64(e->yc_px_q16, 16));
-    c->frac_bits = 10;
-    /* bound: 10 */
-    while (c->frac_bits > 0 && reach_px_q16 >> (16 - c->frac_bits) > INT16_MAX) {
-        c->frac_bits--;
-    }
-}
-
-static drogue_status collection_fit(drogue_ellipse *out, const drogue_collection *c)
-{
-    drogue_status status = drogue_ellipse_fit(out, &c->moments, c->frac_bits);
-    out->xc_px_q16 = drogue_q16_add(out->xc_px_q16, c->x_px_q16);
-    out->yc_px_q16 = drogue_q16_add(out->yc_px_q16, c->y_px_q16);
-    return status;
-}
-
-/* Put back what blur takes: an edge of curvature c under blur of variance v shows v c / 2 further in. The front end's
- * own share of v / 2 is measured on discs of 20 to 160 px. Curvature is a / b^2 at the ends of the major axis, b / a^2
- * at those of the minor. */
-static void undo_blur(drogue_ellipse *e, const drogue_config *config)
-{
-    drogue_real own;
-    drogue_real half;
-    drogue_real axis[2];
-    drogue_real grown[2];
-    int k;
-    drogue_real_set_q16(&own, config->smooth ? DROGUE_Q16(82, 100) : DROGUE_Q16(32, 100));
-    drogue_real_set_q16(&half, config->optics_blur_px_q16);
-    drogue_real_product(&half, &half, &half);
-    drogue_real_shift(&half, -1);
-    drogue_real_sum(&half, &own, &half);
-    drogue_real_set_q16(&axis[0], e->a_px_q16);
-    drogue_real_set_q16(&axis[1], e->b_px_q16);
-    for (k = 0; k < 2; k++) {
-        drogue_real_product(&own, &axis[1 - k], &axis[1 - k]);
-        drogue_real_product(&grown[k], &half, &axis[k]);
-        drogue_real_quotient(&grown[k], &grown[k], &own);
-        drogue_real_sum(&grown[k], &axis[k], &grown[k]);
-    }
-    e->a_px_q16 = drogue_real_to_q16(grown[0]);
-    e->b_px_q16 = drogue_real_to_q16(grown[1]);
-}
-
 /* Collect the edge points that belong to an outline: counts by bin, residuals and moments. Bins have the polarity that
  * the collection before gave them. */
 static drogue_status collect_outline(drogue_collection *c, drogue_support *support, const drogue_ellipse *ellipse,
@@ -224,7 +171,7 @@ static drogue_status collect_outline(drogue_collection *c, drogue_support *suppo
     }
     memset(support, 0, sizeof *support);
     support->bright_bins = bright_bins;
-    collection_begin(c, ellipse, (int64_t)ellipse->a_px_q16 + 16 * DROGUE_Q16_ONE);
+    drogue_collection_begin(c, ellipse, (int64_t)ellipse->a_px_q16 + 16 * DROGUE_Q16_ONE);
     drogue_collect_edges(c, support, &frame, band, x->workspace->edges, x->list->edge_count, NULL);
     return DROGUE_OK;
 }
@@ -280,7 +227,7 @@ static void refit(drogue_outline *outline, const context *x)
                 drogue_support_judge_as(&outline->support, &outline->ellipse, bright_bins, 1);
             }
         } else if (outline->support.bright_bins == bright_bins) {
-            if (collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, config)) {
+            if (drogue_collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, config)) {
                 break;
             }
             narrow(&band, &outline->support, &ellipse, config);
@@ -369,7 +316,7 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
         status = best_outline(out, candidates, all_candidates(candidates, &c), &c);
         out->fitted = out->ellipse;
         if (out->ellipse.b_px_q16 > 0) {
-            undo_blur(&out->ellipse, config);
+            drogue_undo_blur(&out->ellipse, config);
         }
     }
     return status;
@@ -421,40 +368,6 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
     }
     *out = best;
     out->fitted = out->ellipse;
-    undo_blur(&out->ellipse, config);
+    drogue_undo_blur(&out->ellipse, config);
     return 1;
-}
-
-drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outline *outline,
-                                         const drogue_workspace *workspace, const drogue_edge_list *list,
-                                         const drogue_setup *setup, int32_t x_px, int32_t y_px)
-{
-    const drogue_band band = drogue_band_of(outline->band_px_q16, setup->config->refit_cos_q16);
-    drogue_support support = outline->support;
-    drogue_ellipse_frame frame;
-    drogue_ellipse centre = outline->fitted;
-    drogue_collection c;
-    drogue_status status;
-    drogue_region_lens l;
-    memset(out, 0, sizeof *out);
-    l.camera = setup->camera;
-    l.x_px_q16 = drogue_q16_from_int(x_px);
-    l.y_px_q16 = drogue_q16_from_int(y_px);
-    centre.xc_px_q16 = drogue_q16_add(centre.xc_px_q16, l.x_px_q16);
-    centre.yc_px_q16 = drogue_q16_add(centre.yc_px_q16, l.y_px_q16);
-    if (drogue_ellipse_frame_of(&frame, &outline->fitted) != DROGUE_OK ||
-        drogue_undistort_point(&centre.xc_px_q16, &centre.yc_px_q16, setup->camera) != DROGUE_OK) {
-        return DROGUE_E_DEGENERATE;
-    }
-    collection_begin(&c, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
-    drogue_collect_edges(&c, &support, &frame, &band, workspace->edges, list->edge_count, &l);
-    status = collection_fit(out, &c);
-    if (status == DROGUE_OK && (c.moments.n * 4 < (int64_t)(support.points - outline->support.points) * 3 ||
-                                !round_enough(out, setup->config) || out->b_px_q16 < DROGUE_Q16_ONE)) {
-        status = DROGUE_E_DEGENERATE; /* most of the outline lies beyond what the lens model can undo */
-    }
-    if (status == DROGUE_OK) {
-        undo_blur(out, setup->config);
-    }
-    return status;
 }

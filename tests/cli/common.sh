@@ -13,6 +13,7 @@ cd "$work" || exit 1
 checks=0
 failed=0
 camera=--camera=800,800,159.5,119.5
+far_camera=--camera=800,800,2241,119.5 # of a drogue that is far to the right
 roi=--roi=60,18,200,200
 
 fail() {

@@ -3,12 +3,9 @@
 #include "decisions.h"
 
 #define drogue_outline_find decisions_outline_find
-#define drogue_outline_undistorted decisions_outline_undistorted
 #define drogue_outline_enlarge decisions_outline_enlarge
 drogue_status decisions_outline_find(drogue_outline *, const drogue_workspace *, const drogue_edge_list *,
                                      const drogue_mask *, const drogue_config *);
-drogue_status decisions_outline_undistorted(drogue_ellipse *, const drogue_outline *, const drogue_workspace *,
-                                            const drogue_edge_list *, const drogue_setup *, int32_t, int32_t);
 int decisions_outline_enlarge(drogue_outline *, const drogue_workspace *, const drogue_edge_list *, const drogue_mask *,
                               const drogue_config *);
 #include "../../../src/outline/outline.c"
@@ -32,7 +29,7 @@ static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, cons
         }
         drogue_support_judge(&o->support, &o->ellipse, x->config->polarity, 1);
         if (o->support.bright_bins == bright_bins) {
-            if (collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, x->config)) {
+            if (drogue_collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, x->config)) {
                 break;
             }
             narrow(&band, &o->support, &ellipse, x->config);

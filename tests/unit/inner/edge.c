@@ -179,5 +179,5 @@ START_TEST(noise_of_an_image)
 }
 END_TEST
 
-SUITE_MAIN("edge", place_and_size, noise_shows_in_the_standard_deviation, what_touches_it_costs_rays_alone, nothing_there,
-           rays_of_either_sign, noise_of_an_image)
+SUITE_MAIN("edge", place_and_size, noise_shows_in_the_standard_deviation, what_touches_it_costs_rays_alone,
+           nothing_there, rays_of_either_sign, noise_of_an_image)

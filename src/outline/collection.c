@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Collected edge points: the unit of their moments, their fit, and what blur took from it. */
+#include "collection.h"
+
+void drogue_collection_begin(drogue_collection *c, const drogue_ellipse *e, int64_t reach_px_q16)
+{
+    drogue_moments_clear(&c->moments);
+    c->x_px_q16 = drogue_q16_from_int((int32_t)drogue_shr_round_s64(e->xc_px_q16, 16));
+    c->y_px_q16 = drogue_q16_from_int((int32_t)drogue_shr_round_s64(e->yc_px_q16, 16));
+    c->frac_bits = 10;
+    /* bound: 10 */
+    while (c->frac_bits > 0 && reach_px_q16 >> (16 - c->frac_bits) > INT16_MAX) {
+        c->frac_bits--;
+    }
+}
+
+drogue_status drogue_collection_fit(drogue_ellipse *out, const drogue_collection *c)
+{
+    drogue_status status = drogue_ellipse_fit(out, &c->moments, c->frac_bits);
+    out->xc_px_q16 = drogue_q16_add(out->xc_px_q16, c->x_px_q16);
+    out->yc_px_q16 = drogue_q16_add(out->yc_px_q16, c->y_px_q16);
+    return status;
+}
+
+void drogue_undo_blur(drogue_ellipse *e, const drogue_config *config)
+{
+    drogue_real own;
+    drogue_real half;
+    drogue_real axis[2];
+    drogue_real grown[2];
+    int k;
+    drogue_real_set_q16(&own, config->smooth ? DROGUE_Q16(82, 100) : DROGUE_Q16(32, 100));
+    drogue_real_set_q16(&half, config->optics_blur_px_q16);
+    drogue_real_product(&half, &half, &half);
+    drogue_real_shift(&half, -1);
+    drogue_real_sum(&half, &own, &half);
+    drogue_real_set_q16(&axis[0], e->a_px_q16);
+    drogue_real_set_q16(&axis[1], e->b_px_q16);
+    for (k = 0; k < 2; k++) {
+        drogue_real_product(&own, &axis[1 - k], &axis[1 - k]);
+        drogue_real_product(&grown[k], &half, &axis[k]);
+        drogue_real_quotient(&grown[k], &grown[k], &own);
+        drogue_real_sum(&grown[k], &axis[k], &grown[k]);
+    }
+    e->a_px_q16 = drogue_real_to_q16(grown[0]);
+    e->b_px_q16 = drogue_real_to_q16(grown[1]);
+}
