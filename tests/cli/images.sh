@@ -104,11 +104,11 @@ for image in widest tallest; do
 done
 run 1 measure widest.png $camera --roi 100,0,100,1
 run 1 track widest.png $camera --roi 100,0,100,1
-run 0 measure scene_large.png $camera --drogue 0.35,0.175,0.02 --json --overlay over.png
+run 0 measure scene_large.png --camera=800,800,2239.5,119.5 --drogue 0.35,0.175,0.02 --json --overlay over.png
 near "$(json ellipse.xc)" 2241.25 0.02
 near "$(json ellipse.yc)" 118.5 0.02
 [ "$(png_side over.png 16)" -lt 1600 ] || fail 'the overlay of a large image is not cropped about what was found'
-run 0 track scene_large.png $camera --drogue 0.35,0.175,0.02 --overlay over.png
+run 0 track scene_large.png --camera=800,800,2239.5,119.5 --drogue 0.35,0.175,0.02 --overlay over.png
 
 # The same colours in another kind of file give the same answer.
 run 0 measure scene.png $camera $roi --drogue 0.35,0.175,0.02 --json

@@ -73,7 +73,7 @@ for wide in 1,0,318,238 20,0,270,238; do
         [ ! -s err ] || fail "--roi $wide: $(cat err)"
     fi
 done
-"$drogue" measure scene_large.png $camera --roi 1900,0,600,240 $model --json >out 2>err || fail "a wide region: $(cat err)"
+"$drogue" measure scene_large.png --camera=800,800,2239.5,119.5 --roi 1900,0,600,240 $model --json >out 2>err || fail "a wide region: $(cat err)"
 same "$(json searched)" true
 says 'found by a search within --roi'
 near "$(json ellipse.xc)" 2241.25 0.05
