@@ -25,7 +25,7 @@ class Library:
 
     def __init__(self, folder):
         self.archive = folder / 'library' / 'libdrogue.a'
-        self.image = folder / 'images' / 'measure'
+        self.linked = folder / 'linked'
         self.flash, self.exported, self.calls, self.frames = {}, {}, {}, {}
         self.stage_flash, self.stage_ram = {}, {}
         self.read_sections()
@@ -91,9 +91,11 @@ class Library:
         self.read_helpers({c for called in self.calls.values() for c in called if c[0] == ''})
 
     def read_helpers(self, wanted):
-        """Frames and calls of functions outside the library, from the image: pushes, subtractions, pre-decrements."""
+        """Frames and calls of functions outside the library, from all of it linked: pushes, subtractions, pre-decrements."""
         bodies, name = {}, None
-        for line in tool('objdump', '-d', '--no-show-raw-insn', self.image).splitlines():
+        tool('gcc', '-mcpu=cortex-m7', '-mthumb', '-nostartfiles', '-Wl,-e,0,--whole-archive', self.archive,
+             '-Wl,--no-whole-archive', '-o', self.linked)
+        for line in tool('objdump', '-d', '--no-show-raw-insn', self.linked).splitlines():
             if match := re.match(r'[0-9a-f]+ <(\S+)>:', line):
                 name = match[1]
                 bodies[name] = []
@@ -104,7 +106,7 @@ class Library:
             if key in self.frames:
                 continue
             if key[1] not in bodies:
-                sys.exit(f'sizes: {key[1]} is not in the image')
+                sys.exit(f'sizes: {key[1]} is nowhere')
             size, calls = 0, set()
             for line in bodies[key[1]]:
                 if match := re.search(r'\t(?:push|stmdb\tsp!,|stmfd\tsp!,)\s*\{(.*)\}', line):
