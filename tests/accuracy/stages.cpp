@@ -26,6 +26,7 @@ RegionEdges::RegionEdges(const cv::Mat &image, const cv::Rect &region)
         throw std::runtime_error("workspace refused");
     }
     drogue_config_default(&config);
+    view = image(seen).clone();
     origin_px = seen.tl();
     mask = drogue_mask_of_size(region.width, region.height);
     mask.centre2_x += 2 * (region.x - seen.x);
@@ -104,10 +105,14 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
     if (result.status != DROGUE_OK) {
         return;
     }
-    drogue_inner_expect(&expected, &result.ellipse, evidence.poses, &setup, 0, 0);
-    if (expected.count > 0 && result.has_inner != 0) {
-        const drogue_q16 share = drogue_q16_mul(edges.config.inner_std_share_q16, expected.disc[0].a_px_q16);
-        inner.std_px_q16 = to_q16(std::hypot(from_q16(share), from_q16(edges.config.inner_std_px_q16)));
+    drogue_inner_expect(&expected, &ellipse, evidence.poses, &setup, edges.origin_px.x, edges.origin_px.y);
+    if (expected.count > 0 && result.has_inner != 0) { /* its place stands, the standard deviation is the edge's */
+        const drogue_image view = {edges.view.data, edges.view.cols, edges.view.rows,
+                                   static_cast<int32_t>(edges.view.step)};
+        drogue_inner_edge edge;
+        if (drogue_inner_edge_find(&edge, &view, &expected, &ellipse, &edges.config) == DROGUE_OK) {
+            inner.std_px_q16 = drogue_inner_std(&edge, &expected.disc[edge.which], &ellipse, &edges.config);
+        }
     }
     if (result.has_inner != 0) {
         result.status = drogue_choose_pose(&choice, evidence.poses, inner.x_px_q16, inner.y_px_q16,

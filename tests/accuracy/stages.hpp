@@ -20,7 +20,8 @@ struct RegionEdges {
     drogue_status status; /* of the front end */
     drogue_config config;
     drogue_mask mask;
-    cv::Point origin_px; /* of the region's part inside the image */
+    cv::Mat view;        /* the region's part inside the image */
+    cv::Point origin_px; /* of that */
     drogue_workspace workspace;
     drogue_edge_list list = {0, 0};
 
