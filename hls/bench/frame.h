@@ -192,12 +192,13 @@ static inline void frame_find_inner(int32_t words[DROGUE_HLS_EDGE_WORDS], const 
                                              drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5)},
                                             (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT],
                                             f->p.config.min_inner_area_px};
+    drogue_ray rays[DROGUE_RAYS];
     drogue_inner_edge edge;
     memset(&edge, 0, sizeof edge);
     words[DROGUE_HLS_E_STATUS] = DROGUE_E_ARGUMENT;
     if (f->words[DROGUE_HLS_O_STATUS] == DROGUE_OK) {
         words[DROGUE_HLS_E_STATUS] =
-            (int32_t)drogue_inner_edge_find(&edge, &f->view, &expected, &f->outline.ellipse, &f->p.config);
+            (int32_t)drogue_inner_edge_find(&edge, rays, &f->view, &expected, &f->outline.ellipse, &f->p.config);
     }
     drogue_hls_pack_edge_words(words, &edge);
 }

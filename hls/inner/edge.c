@@ -21,6 +21,7 @@ void drogue_hls_edge(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
     drogue_hls_parameters p;
     drogue_inner_expected expected;
     drogue_inner_edge found;
+    static drogue_ray rays[DROGUE_RAYS];
     drogue_image view;
     drogue_status status = DROGUE_E_ARGUMENT;
     drogue_hls_unpack_parameters(&p, parameters);
@@ -35,7 +36,7 @@ void drogue_hls_edge(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
     view.stride = width_px;
     if (width_px >= 1 && width_px <= DROGUE_HLS_WIDTH && height_px >= 1 && height_px <= DROGUE_HLS_HEIGHT &&
         expected.count <= 2 && outline[DROGUE_HLS_O_STATUS] == DROGUE_OK) {
-        status = drogue_inner_edge_find(&found, &view, &expected, &ellipse, &p.config);
+        status = drogue_inner_edge_find(&found, rays, &view, &expected, &ellipse, &p.config);
     }
     edge[DROGUE_HLS_E_STATUS] = (int32_t)status;
     drogue_hls_pack_edge_words(edge, &found);

@@ -36,7 +36,7 @@ typedef struct drogue_capacity {
 
 #define DROGUE_HALF(width_px) (((size_t)(width_px) + 7u) / 8u * 4u) /* half of a row, rounded up to four pixels */
 
-/* Bytes of the row buffers. What the outline needs after them lies in the same place: constraints.h and outline.h check
+/* Bytes of the row buffers. What the outline needs after them lies in the same place: constraints.h, outline.h and inner.h check
  * that it fits. */
 #define DROGUE_ROWS_BYTES(width_px)                      \
     ((size_t)(width_px) * (sizeof(drogue_merge) + 16u) + \
@@ -54,6 +54,7 @@ typedef struct drogue_capacity {
 
 struct drogue_point;     /* constraints.h */
 struct drogue_candidate; /* cluster.h */
+struct drogue_ray;       /* rays.h */
 
 /* Line buffers, tables and lists in the caller's memory; set by drogue_workspace_init(). After a frame
  * 'edges' and 'arcs' hold its edge points and arcs; everything else is scratch. */
@@ -68,6 +69,7 @@ typedef struct drogue_workspace {
     uint32_t *histogram;                 /* 256 */
     struct drogue_point *hull;           /* DROGUE_HULL_MAX, in the place of the rows below */
     struct drogue_candidate *candidates; /* DROGUE_MAX_CANDIDATES, in the place of the hull when that has served */
+    struct drogue_ray *rays;             /* DROGUE_RAYS, there when the candidates have served */
     drogue_merge *merges;                /* width */
     uint32_t *component_rows;            /* 2 x width */
     uint32_t *arc_rows;                  /* 2 x width */

@@ -80,6 +80,8 @@ void drogue_inner_expect(drogue_inner_expected *expected, const drogue_ellipse *
 /* Where to look: a disc about the outline's centre of 5/6 of its semi-minor axis. */
 drogue_mask drogue_inner_disc(const drogue_ellipse *outline);
 
+typedef char drogue_assume_rays_fit[DROGUE_RAYS * sizeof(drogue_ray) <= DROGUE_SCRATCH_BYTES ? 1 : -1];
+
 /* The inner disc as its own edge shows it. */
 typedef struct drogue_inner_edge {
     drogue_q16 x_px_q16; /* centre, region coordinates */
@@ -97,11 +99,12 @@ typedef struct drogue_inner_edge {
  * of place and size to the rays that agree. Ribs, a wall or a probe that touch the disc cost rays, not place.
  *
  *  out      the expected disc whose rays agree with the steepest edges; zero on failure
+ *  rays     work area; the workspace has one
  *  image    the region's pixels
  *  outline  region coordinates; the centre may lie from the expected one as far as the configured gate
  *  return   DROGUE_OK; DROGUE_E_NO_INNER_PART when fewer than eight rays agree
  */
-drogue_status drogue_inner_edge_find(drogue_inner_edge *out, const drogue_image *image,
+drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[DROGUE_RAYS], const drogue_image *image,
                                      const drogue_inner_expected *expected, const drogue_ellipse *outline,
                                      const drogue_config *config);
 

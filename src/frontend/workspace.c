@@ -48,6 +48,7 @@ drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, s
     at += 256 * sizeof(uint32_t);
     workspace->hull = (struct drogue_point *)(void *)at; /* the rows have served when it comes */
     workspace->candidates = (struct drogue_candidate *)(void *)at;
+    workspace->rays = (struct drogue_ray *)(void *)at;
     workspace->merges = (drogue_merge *)(void *)at;
     at += width * sizeof(drogue_merge);
     workspace->component_rows = (uint32_t *)(void *)at;

@@ -198,13 +198,12 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     return DROGUE_OK;
 }
 
-drogue_status drogue_inner_edge_find(drogue_inner_edge *out, const drogue_image *image,
+drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
                                      const drogue_inner_expected *expected, const drogue_ellipse *outline,
                                      const drogue_config *config)
 {
     const drogue_q16 gate_px_q16 =
         drogue_q16_add(config->inner_gate_px_q16, drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16));
-    drogue_ray rays[RAYS];
     drogue_q16 best[3] = {0, 0, 0};
     int64_t steepest = 0;
     uint32_t which = 0;

@@ -324,10 +324,23 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
 
 #define RINGS 14 /* about the outline, each larger than the one before by a fortieth: to 1.4 times its size */
 
+/* Cover of a ring by every so many edge points; negative when it is no plausible ellipse. */
+static drogue_q16 ring_cover(drogue_support *support, const drogue_ellipse *ring, const context *c)
+{
+    const uint32_t stride = c->list->edge_count / LOOKS + 1;
+    const drogue_band band = band_about(ring, c->config->search_band_q16, c->config);
+    drogue_ellipse_frame frame;
+    if (!plausible(ring, c->mask, c->config) || drogue_ellipse_frame_of(&frame, ring) != DROGUE_OK) {
+        return -1;
+    }
+    drogue_support_count(support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);
+    drogue_support_judge(support, ring, c->config->polarity, stride);
+    return drogue_support_cover(support);
+}
+
 int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                            const drogue_mask *mask, const drogue_config *config)
 {
-    const uint32_t stride = list->edge_count / LOOKS + 1;
     drogue_ellipse ring = out->fitted;
     drogue_outline best;
     context c;
@@ -340,23 +353,18 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
     best = *out;
     best.cover_q16 = 0;
     for (k = 0; k < RINGS; k++) {
-        drogue_ellipse_frame frame;
-        drogue_support support;
-        drogue_band band;
         drogue_outline trial = *out;
+        drogue_q16 cover_q16;
         ring.a_px_q16 += ring.a_px_q16 / 40;
         ring.b_px_q16 += ring.b_px_q16 / 40;
-        band = band_about(&ring, config->search_band_q16, config);
-        if (!plausible(&ring, mask, config) || drogue_ellipse_frame_of(&frame, &ring) != DROGUE_OK) {
+        cover_q16 = ring_cover(&trial.support, &ring, &c);
+        if (cover_q16 < 0) {
             break;
         }
-        drogue_support_count(&support, &frame, &band, workspace->edges, list->edge_count, stride);
-        drogue_support_judge(&support, &ring, config->polarity, stride);
-        if (drogue_support_cover(&support) < config->min_cover_q16) {
+        if (cover_q16 < config->min_cover_q16) {
             continue;
         }
         trial.ellipse = ring;
-        trial.support.bright_bins = support.bright_bins;
         refit(&trial, &c);
         if (trial.cover_q16 >= best.cover_q16 && trial.cover_q16 >= config->min_cover_q16 &&
             (int64_t)trial.ellipse.b_px_q16 * 50 > (int64_t)out->fitted.b_px_q16 * 51) {

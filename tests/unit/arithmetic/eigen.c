@@ -175,9 +175,9 @@ START_TEST(graded_matrices_keep_their_small_values)
     int i, k;
     for (i = 0; i < 20000; i++) {
         const double grade = exp(rng_real(&rng, log(1e-9), log(1e-2))), shape = rng_real(&rng, 0.1, 1);
-        const quad b[3][2] = {{rng_normal(&rng), rng_normal(&rng)},
-                              {rng_normal(&rng), rng_normal(&rng)},
-                              {rng_normal(&rng), rng_normal(&rng)}};
+        const quad b[3][2] = {{(quad)rng_normal(&rng), (quad)rng_normal(&rng)},
+                              {(quad)rng_normal(&rng), (quad)rng_normal(&rng)},
+                              {(quad)rng_normal(&rng), (quad)rng_normal(&rng)}};
         drogue_real m[6];
         drogue_eigen3 e;
         quad matrix[3][3], value[3], vector[3][3];

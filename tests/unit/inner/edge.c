@@ -47,12 +47,13 @@ static drogue_status find(drogue_inner_edge *out, const drogue_ellipse *discs, u
 {
     const drogue_ellipse outline = circle(100, 100, 90);
     drogue_inner_expected expected;
+    drogue_ray rays[DROGUE_RAYS];
     drogue_config config;
     drogue_config_default(&config);
     memset(&expected, 0, sizeof expected);
     memcpy(expected.disc, discs, count * sizeof *discs);
     expected.count = count;
-    return drogue_inner_edge_find(out, &image, &expected, &outline, &config);
+    return drogue_inner_edge_find(out, rays, &image, &expected, &outline, &config);
 }
 
 START_TEST(place_and_size)
