@@ -211,7 +211,7 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
     drogue_ellipse at;
     drogue_status status;
     memset(out, 0, sizeof *out);
-    for (i = 0; i < expected->count; i++) {
+    for (i = 0; i < expected->count; i++) { /* bound: 2 */
         const drogue_ellipse *e = &expected->disc[i];
         const drogue_q16 reach = drogue_q16_add(gate_px_q16, drogue_q16_add(e->a_px_q16 / 16, DROGUE_Q16(2, 1)));
         drogue_q16 v[3];

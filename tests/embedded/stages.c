@@ -73,8 +73,9 @@ WRAP(OUTLINE, drogue_status, drogue_outline_find, (drogue_outline *a, const drog
 WRAP(OUTLINE, drogue_status, drogue_outline_undistorted, (drogue_ellipse *a, const drogue_outline *b,
      const drogue_workspace *c, const drogue_edge_list *d, const drogue_setup *e, int32_t f, int32_t g),
      (a, b, c, d, e, f, g))
-WRAP(INNER, drogue_status, drogue_inner_find, (drogue_inner_part *a, uint32_t *b, drogue_workspace *c,
-     const drogue_image *d, const drogue_mask *e, const drogue_inner_expected *f), (a, b, c, d, e, f))
+WRAP(INNER, drogue_status, drogue_inner_edge_find, (drogue_inner_edge *a, drogue_ray b[DROGUE_RAYS],
+     const drogue_image *c, const drogue_inner_expected *d, const drogue_ellipse *e, const drogue_config *f),
+     (a, b, c, d, e, f))
 WRAP(POSE, drogue_status, drogue_pose_from_ellipse, (drogue_pose a[2], const drogue_ellipse *b, const drogue_camera *c,
      drogue_q16 d), (a, b, c, d))
 WRAP(POSE, drogue_status, drogue_choose_pose, (drogue_choice *a, const drogue_pose b[2], drogue_q16 c, drogue_q16 d,

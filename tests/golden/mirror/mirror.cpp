@@ -329,7 +329,7 @@ Real judge(Result &out, Features &from, const Frame &f, const Task &task, const 
             from.placed = reference::undistort(camera, from.inner.at);
             from.trusted = from.trusted && from.placed;
         }
-        doubt = from.trusted ? std::fabs(out.part.grown) / expected.a : 1;
+        doubt = !from.trusted ? 1 : std::fabs(out.part.grown) <= 0.5L ? 0 : std::fabs(out.part.grown) / expected.a;
     }
     finish(out, task, from, library);
     return doubt;
