@@ -62,7 +62,7 @@ typedef struct drogue_result {
     uint32_t refit_points;          /* points in the final fit */
     drogue_q16 cover_q16;           /* edge points that belong to the outline over its circumference, at most 1 */
     int32_t has_inner;       /* 1: an inner part was found and believed: of its size, in its place, with contrast */
-    drogue_inner_part inner; /* its centroid, as seen; meaningful when has_inner */
+    drogue_inner_part inner; /* its centre, as seen; meaningful when has_inner */
     drogue_pose pose;        /* the pose chosen; unresolved: the one nearer to what is dark inside, unproved */
     drogue_pose alternative; /* the other one that the outline allows */
     int32_t orientation_resolved; /* 1: the inner part decided between the two */
@@ -86,7 +86,7 @@ typedef struct drogue_result {
  *             image, then the part inside is used and the masks stay where they were
  *  return     DROGUE_OK, or why there is no pose: DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE,
  *             DROGUE_E_LABELS_FULL, DROGUE_E_EDGES_FULL, DROGUE_E_ARCS_FULL, DROGUE_E_NO_EDGES, DROGUE_E_NO_ARCS,
- *             DROGUE_E_NO_ELLIPSE, DROGUE_E_DOMAIN, DROGUE_E_BEHIND_CAMERA
+ *             DROGUE_E_NO_ELLIPSE, DROGUE_E_DOMAIN
  */
 drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
                              const drogue_image *image, const drogue_region *region);

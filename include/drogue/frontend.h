@@ -148,7 +148,7 @@ drogue_status drogue_frontend_end(drogue_edge_list *list, drogue_frontend *front
  * the second differences along the rows gives.
  *
  *  histogram  work area, 256 counts
- *  return     L1 Sobel magnitude, grey levels * 8
+ *  return     L1 Sobel magnitude, grey levels * 8; 0 where a quarter of the differences is 0
  */
 int32_t drogue_noise_threshold(uint32_t *histogram, const drogue_image *image);
 

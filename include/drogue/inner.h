@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The inner part: disc mask, Otsu's threshold, 3x3 opening, dark components, centroid (paper (17)); where a pose expects
- * it, and how far what was found is to be believed. */
+/* The inner part: where a pose expects it, its edge by rays, and how far what was found is to be believed.
+ *
+ * The way of the paper (17), disc mask, Otsu's threshold, 3x3 opening, dark components and their centroid, is here as a
+ * stage of its own for who wants it, drogue_inner_find(); drogue_measure() goes by the edge. */
 #ifndef DROGUE_INNER_H
 #define DROGUE_INNER_H
 
@@ -22,14 +24,17 @@ extern "C" {
  */
 uint8_t drogue_otsu(const uint32_t *histogram);
 
-/* The inner part as found in the image. */
+/* The inner part as found in the image. In brackets what a result of drogue_measure() holds. */
 typedef struct drogue_inner_part {
-    drogue_q16 x_px_q16; /* centroid, region coordinates */
+    drogue_q16 x_px_q16; /* centroid, region coordinates [centre of the edge, px of the whole image] */
     drogue_q16 y_px_q16;
-    uint32_t area_px;         /* pixels; drogue_inner_find(): sum of darkness */
-    drogue_q16 spread_px_q16; /* drogue_inner_find(): between the centroids at a lower and a higher threshold */
-    uint8_t threshold;        /* Otsu's of the disc, or of drogue_inner_find()'s window about the part; grey level */
-    uint8_t contrast;         /* drogue_inner_find(): between the means of what is above and below it, grey levels */
+    uint32_t area_px;         /* pixels; drogue_inner_find(): sum of darkness [of the ellipse] */
+    drogue_q16 spread_px_q16; /* drogue_inner_find(): between the centroids at a lower and a higher threshold [root mean
+                                 square of the rays' residuals] */
+    uint8_t
+        threshold; /* Otsu's of the disc, or of drogue_inner_find()'s window about the part; grey level [at the edge] */
+    uint8_t
+        contrast; /* drogue_inner_find(): between the means of what is above and below it, grey levels [across the edge] */
 } drogue_inner_part;
 
 /* Find the largest dark component inside a disc.

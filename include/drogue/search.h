@@ -34,8 +34,9 @@ typedef struct drogue_sighting {
 /* A search in progress; set by drogue_search_init(). */
 typedef struct drogue_search {
     uint8_t *memory;
-    int32_t capacity_px;  /* widest frame */
-    int32_t min_contrast; /* 6 grey levels: least contrast of inner part and canopy; the caller may change it */
+    int32_t capacity_px; /* widest frame */
+    int32_t
+        min_contrast; /* 6 grey levels: least contrast of inner part and canopy, [0, 255]; the caller may change it */
     int32_t width_px;
     int32_t rows_in;
     int32_t count;
@@ -51,7 +52,8 @@ typedef struct drogue_search {
  */
 drogue_status drogue_search_init(drogue_search *search, void *memory, size_t bytes, int32_t width_px);
 
-/* Begin a frame; DROGUE_E_WORKSPACE when it is wider than the memory, DROGUE_E_ARGUMENT when width_px < 1. */
+/* Begin a frame; DROGUE_E_WORKSPACE when it is wider than the memory, DROGUE_E_ARGUMENT when width_px < 1 or
+ * min_contrast is out of range. */
 drogue_status drogue_search_begin(drogue_search *search, int32_t width_px);
 
 /* Feed the next row, width_px grey levels; the row is copied. */

@@ -21,7 +21,7 @@ int32_t drogue_noise_threshold(uint32_t *histogram, const drogue_image *image)
             count++;
         }
     }
-    if (count == 0) {
+    if (count == 0 || 4 * histogram[0] >= count) { /* the quartile is within half a level of 0 */
         return 0;
     }
     /* bound: 256. The lower quartile: edges are above it */

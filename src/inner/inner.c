@@ -17,7 +17,7 @@ void drogue_inner_expect(drogue_inner_expected *expected, const drogue_ellipse *
     for (i = 0; i < 2; i++) {
         drogue_ellipse *e = &expected->disc[expected->count];
         if (drogue_inner_disc_image(e, &poses[i], setup->camera, setup->model) == DROGUE_OK &&
-            e->a_px_q16 >= DROGUE_Q16_ONE &&
+            e->b_px_q16 >= DROGUE_Q16_ONE &&
             drogue_distort_point(&e->xc_px_q16, &e->yc_px_q16, setup->camera) == DROGUE_OK) {
             e->xc_px_q16 = drogue_q16_sub(e->xc_px_q16, drogue_q16_from_int(x_px));
             e->yc_px_q16 = drogue_q16_sub(e->yc_px_q16, drogue_q16_from_int(y_px));
@@ -76,12 +76,19 @@ drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse 
         drogue_isqrt_u64(drogue_square_sum(share, config->inner_std_px_q16) + drogue_square_sum(edge->std_px_q16, 0)));
 }
 
+/* A semi-axis made larger; 0 where that leaves nothing. */
+static drogue_q16 grown(drogue_q16 axis_px_q16, drogue_q16 by_px_q16)
+{
+    const drogue_q16 sum = drogue_q16_add(axis_px_q16, by_px_q16);
+    return sum > 0 ? sum : 0;
+}
+
 /* The disc as what a result says of the inner part, px of the whole image. */
 static void describe(drogue_inner_part *part, const drogue_inner_edge *edge, const drogue_ellipse *expected,
                      const drogue_region *region)
 {
-    const int64_t a = drogue_q16_add(expected->a_px_q16, edge->grown_px_q16);
-    const int64_t b = drogue_q16_add(expected->b_px_q16, edge->grown_px_q16);
+    const int64_t a = grown(expected->a_px_q16, edge->grown_px_q16);
+    const int64_t b = grown(expected->b_px_q16, edge->grown_px_q16);
     memset(part, 0, sizeof *part);
     part->x_px_q16 = drogue_q16_add(edge->x_px_q16, drogue_q16_from_int(region->x_px));
     part->y_px_q16 = drogue_q16_add(edge->y_px_q16, drogue_q16_from_int(region->y_px));

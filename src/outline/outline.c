@@ -289,7 +289,7 @@ static drogue_status best_outline(drogue_outline *out, drogue_candidate candidat
         }
         count = kept;
     }
-    return out->cover_q16 >= c->config->min_cover_q16 ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
+    return out->ellipse.b_px_q16 > 0 && out->cover_q16 >= c->config->min_cover_q16 ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
 }
 
 drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
@@ -355,8 +355,8 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
     for (k = 0; k < RINGS; k++) {
         drogue_outline trial = *out;
         drogue_q16 cover_q16;
-        ring.a_px_q16 += ring.a_px_q16 / 40;
-        ring.b_px_q16 += ring.b_px_q16 / 40;
+        ring.a_px_q16 = drogue_q16_add(ring.a_px_q16, ring.a_px_q16 / 40);
+        ring.b_px_q16 = drogue_q16_add(ring.b_px_q16, ring.b_px_q16 / 40);
         cover_q16 = ring_cover(&trial.support, &ring, &c);
         if (cover_q16 < 0) {
             break;

@@ -26,10 +26,10 @@ static int32_t grey_q8(const drogue_image *image, drogue_q16 x_px_q16, drogue_q1
     const int32_t fx = (x >> 8) & 255;
     const int32_t fy = (y >> 8) & 255;
     const int32_t right = fx > 0;
-    const int32_t at = (y >> 16) * image->stride + (x >> 16);
-    const int32_t below = at + (fy > 0 ? image->stride : 0);
-    const int32_t upper = image->data[at] * (256 - fx) + image->data[at + right] * fx;
-    const int32_t lower = image->data[below] * (256 - fx) + image->data[below + right] * fx;
+    const uint8_t *at = drogue_image_row(image, y >> 16) + (x >> 16);
+    const uint8_t *below = at + (fy > 0 ? image->stride : 0);
+    const int32_t upper = at[0] * (256 - fx) + at[right] * fx;
+    const int32_t lower = below[0] * (256 - fx) + below[right] * fx;
     return (upper * (256 - fy) + lower * fy + 128) >> 8;
 }
 

@@ -33,7 +33,7 @@ drogue_status drogue_search_begin(drogue_search *search, int32_t width_px)
 {
     uint8_t *next;
     int k;
-    if (width_px < 1 || search->memory == NULL) {
+    if (width_px < 1 || search->memory == NULL || search->min_contrast < 0 || search->min_contrast > 255) {
         return DROGUE_E_ARGUMENT;
     }
     if (width_px > search->capacity_px) {

@@ -109,8 +109,9 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
     if (expected.count > 0 && result.has_inner != 0) { /* its place stands, the standard deviation is the edge's */
         const drogue_image view = {edges.view.data, edges.view.cols, edges.view.rows,
                                    static_cast<int32_t>(edges.view.step)};
+        drogue_ray rays[DROGUE_RAYS];
         drogue_inner_edge edge;
-        if (drogue_inner_edge_find(&edge, &view, &expected, &ellipse, &edges.config) == DROGUE_OK) {
+        if (drogue_inner_edge_find(&edge, rays, &view, &expected, &ellipse, &edges.config) == DROGUE_OK) {
             inner.std_px_q16 = drogue_inner_std(&edge, &expected.disc[edge.which], &ellipse, &edges.config);
         }
     }

@@ -191,7 +191,7 @@ START_TEST(graded_matrices_keep_their_small_values)
         }
         quad_eigen3(value, vector, (const quad(*)[3])matrix);
         (void)drogue_eigen_sym3(&e, m);
-        if (value[1] > 0.01L * value[0]) {
+        if (value[1] > value[0] / 100) {
             for (k = 0; k < 3; k++) {
                 MUST(quad_abs(quad_of(e.value[k]) - value[k]) <=
                          quad_abs(value[k]) * (quad)0x1p-27L * (k == 1 ? 100 : 1),
