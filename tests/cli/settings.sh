@@ -30,7 +30,7 @@ done <defaults
 run 1 measure scene.png $camera $roi --json --set min_axis_ratio=0.9 --set min_size=0.7
 same "$(json status)" '"no_ellipse"'
 run 0 track frame00.png $camera $roi --set canny_low=10 --set canny_high=20
-run 1 track frame00.png $camera $roi --set canny_low=9000 --set canny_high=9000
+run 1 track frame00.png $camera $roi --set canny_low=9000 --set canny_high=9000 --set canny_least=9000
 for bad in min_cover min_cover= =1 nonsense=1 min_cover=1.1 refit_rounds=17 refit_rounds=1.5 polarity=3 min_cover=0,5 canny_low=x; do
     run 2 measure scene.png $camera --set "$bad"
 done

@@ -26,7 +26,9 @@ for target in "${targets[@]}"; do
     case $target in
     stages) for f in "$root"/tests/conformance/stages*.c; do sources+=("$f"); done ;;
     program)
-        sources+=("$root"/src/cli/{cli,decimal,options,png_io}.c)
+        for f in "$root"/src/cli/*.c; do
+            [ "${f##*/}" = main.c ] || sources+=("$f")
+        done
         read -ra png <<<"$(pkg-config --cflags --libs libpng)"
         libraries+=("${png[@]}" -lz)
         ;;

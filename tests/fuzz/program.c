@@ -12,6 +12,7 @@
 
 #include "cli.h"
 #include "decimal.h"
+#include "images.h"
 #include "options.h"
 #include "png_io.h"
 

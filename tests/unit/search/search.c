@@ -238,6 +238,12 @@ START_TEST(refusals)
     ck_assert_int_eq(drogue_search_begin(&s, 101), DROGUE_E_WORKSPACE);
     ck_assert_int_eq(drogue_search_begin(&s, 0), DROGUE_E_ARGUMENT);
     ck_assert_int_eq(drogue_search_begin(&s, 100), DROGUE_OK);
+    s.min_contrast = -1;
+    ck_assert_int_eq(drogue_search_begin(&s, 100), DROGUE_E_ARGUMENT);
+    s.min_contrast = 256;
+    ck_assert_int_eq(drogue_search_begin(&s, 100), DROGUE_E_ARGUMENT);
+    s.min_contrast = 255;
+    ck_assert_int_eq(drogue_search_begin(&s, 100), DROGUE_OK);
     ck_assert_int_eq(drogue_search_end(&s), 0);
 }
 END_TEST
