@@ -54,7 +54,7 @@ const threshold thresholds[] = {
     REAL("inner_size", inner_size_q16, 0, INT32_MAX, "of its semi-axis: the same"),
     REAL("outline_shading", outline_shading_q16, 1, 1024 * ONE, "px grey * 8: error of the outline by uneven light"),
     REAL("optics_blur_std_px2", optics_blur_std_px2_q16, 0, 16 * ONE, "px^2: uncertainty of half the blur's variance"),
-    REAL("inner_std_px", inner_std_px_q16, 1, 16 * ONE, "px: standard deviation of the inner centroid"),
+    REAL("inner_std_px", inner_std_px_q16, 1, 16 * ONE, "px: standard deviation of the inner disc's centre"),
     REAL("inner_std_share", inner_std_share_q16, 0, ONE, "of the disc's semi-axis: what its size adds"),
     REAL("max_chi2", max_chi2_q16, 0, INT32_MAX, "outline and inner part contradict each other above this"),
     REAL("min_chi2_gap", min_chi2_gap_q16, 0, INT32_MAX, "the orientation is resolved when the twin is worse by this"),

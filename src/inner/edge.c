@@ -7,6 +7,7 @@
 #include "drogue/cholesky.h"
 
 #define RAYS DROGUE_RAYS
+#define BINS (RAYS / 4)
 #define FEWEST 8 /* rays that determine place and size with something to spare */
 
 static int32_t clamped(int32_t v, int32_t most) { return v < 0 ? 0 : v > most ? most : v; }
@@ -45,16 +46,14 @@ typedef struct sums {
     int64_t slopes_q8;
     int64_t levels_q8;
     uint32_t rays;
-    drogue_real scatter; /* squared sum of the weighted residuals of four neighbours over their weight */
-    int32_t bins;
+    int64_t bin_q16[BINS]; /* weighted residuals of four neighbours, of all phases together: they see one edge */
+    int64_t bin_weight[BINS];
 } sums;
 
 /* Add the rays that agree with an offset. */
 static void add_rays(sums *s, const drogue_ray rays[RAYS], const drogue_q16 v_px_q16[3], drogue_q16 within_px_q16,
                      int by_slope)
 {
-    int64_t bin_q16 = 0;
-    int64_t bin_weight = 0;
     int32_t k;
     int i;
     int j;
@@ -77,22 +76,31 @@ static void add_rays(sums *s, const drogue_ray rays[RAYS], const drogue_q16 v_px
             s->slopes_q8 += e->slope_q8;
             s->levels_q8 += e->level_q8;
             s->rays++;
-            bin_q16 += weight * off;
-            bin_weight += weight;
-        }
-        if (k % 4 == 3 && bin_weight > 0) {
-            drogue_real square;
-            drogue_real weight;
-            drogue_real_set(&square, bin_q16, -16);
-            drogue_real_product(&square, &square, &square);
-            drogue_real_set(&weight, bin_weight, 0);
-            drogue_real_quotient(&square, &square, &weight);
-            drogue_real_sum(&s->scatter, &s->scatter, &square);
-            s->bins++;
-            bin_q16 = 0;
-            bin_weight = 0;
+            s->bin_q16[k / 4] += weight * off;
+            s->bin_weight[k / 4] += weight;
         }
     }
+}
+
+/* Squared residuals of the bins over their weights; the number of bins that hold rays. */
+static int32_t scatter_of(drogue_real *scatter, const sums *s)
+{
+    int32_t bins = 0;
+    int32_t k;
+    drogue_real_set(scatter, 0, 0);
+    for (k = 0; k < BINS; k++) {
+        if (s->bin_weight[k] > 0) {
+            drogue_real square;
+            drogue_real weight;
+            drogue_real_set(&square, s->bin_q16[k], -16);
+            drogue_real_product(&square, &square, &square);
+            drogue_real_set(&weight, s->bin_weight[k], 0);
+            drogue_real_quotient(&square, &square, &weight);
+            drogue_real_sum(scatter, scatter, &square);
+            bins++;
+        }
+    }
+    return bins;
 }
 
 /* Solve for the offset: 'size' 0 leaves the size as it is. 'normal' becomes the root of the normal equations. 0 when there
@@ -153,11 +161,13 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
 {
     drogue_real normal[6];
     drogue_real inverse[6];
+    drogue_real scatter;
     drogue_real t;
     drogue_q16 within = DROGUE_Q16(3, 2);
     drogue_q16 v[3] = {0, 0, 0};
     sums s;
     int32_t phases = e->a_px_q16 / DROGUE_Q16(10, 1); /* 2 pi a over 64 */
+    int32_t bins;
     int32_t k;
     int round;
     phases = phases < 1 ? 1 : phases > 8 ? 8 : phases;
@@ -177,14 +187,15 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
         drogue_rays_cast(rays, image, e, 0, (8 * k + 4) / phases % 8, 0, least);
         add_rays(&s, rays, v, within, 1);
     }
-    if (!solve(v, normal, &s, 1) || s.bins < 5) {
+    bins = scatter_of(&scatter, &s);
+    if (!solve(v, normal, &s, 1) || bins < 5) {
         return DROGUE_E_NO_INNER_PART;
     }
     drogue_cholesky_invert(inverse, normal, 3);
     k = drogue_real_order(&inverse[DROGUE_PACKED(0, 0)], &inverse[DROGUE_PACKED(1, 1)]) > 0 ? 0 : 1;
-    drogue_real_product(&s.scatter, &s.scatter, &inverse[DROGUE_PACKED(k, k)]);
-    drogue_real_set(&t, s.bins - 3, 0);
-    drogue_real_quotient(&t, &s.scatter, &t);
+    drogue_real_product(&scatter, &scatter, &inverse[DROGUE_PACKED(k, k)]);
+    drogue_real_set(&t, bins - 3, 0);
+    drogue_real_quotient(&t, &scatter, &t);
     drogue_real_root(&t, &t);
     out->std_px_q16 = drogue_real_to_q16(t);
     out->rms_px_q16 = rms_of(&s);

@@ -17,13 +17,13 @@ Real real(int64_t q16) { return static_cast<Real>(q16) / 65536; }
 struct Sums {
     cv::Matx33d normal = cv::Matx33d::zeros();
     cv::Vec3d right = {0, 0, 0};
-    Real squares = 0, slopes = 0, levels = 0, scatter = 0;
-    int rays = 0, bins = 0;
+    Real squares = 0, slopes = 0, levels = 0;
+    std::array<Real, DROGUE_RAYS / 4> bin{}, bin_weight{};
+    int rays = 0;
 };
 
 void add_rays(Sums &s, const Rays &rays, const Offset &v, Real within, bool by_slope)
 {
-    Real bin = 0, bin_weight = 0;
     for (size_t k = 0; k < rays.size(); k++) {
         const drogue_ray &r = rays[k];
         const cv::Vec3d row(r.nx_q14 / 16384.0, r.ny_q14 / 16384.0, 1);
@@ -48,13 +48,8 @@ void add_rays(Sums &s, const Rays &rays, const Offset &v, Real within, bool by_s
             s.slopes += best->slope_q8;
             s.levels += best->level_q8;
             s.rays++;
-            bin += weight * off;
-            bin_weight += weight;
-        }
-        if (k % 4 == 3 && bin_weight > 0) {
-            s.scatter += bin * bin / bin_weight;
-            s.bins++;
-            bin = bin_weight = 0;
+            s.bin[k / 4] += weight * off;
+            s.bin_weight[k / 4] += weight;
         }
     }
 }
@@ -142,12 +137,20 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     for (int k = 0; k < phases; k++) {
         add_rays(s, cast(view, at, 0, (8 * k + 4) / phases % 8, least), v, within, true);
     }
-    if (!solve(v, s, true) || s.bins < 5) {
+    Real scatter = 0;
+    int bins = 0;
+    for (size_t k = 0; k < s.bin.size(); k++) {
+        if (s.bin_weight[k] > 0) {
+            scatter += s.bin[k] * s.bin[k] / s.bin_weight[k];
+            bins++;
+        }
+    }
+    if (!solve(v, s, true) || bins < 5) {
         return out;
     }
     const cv::Matx33d inverse = s.normal.inv(cv::DECOMP_CHOLESKY);
     out.found = true;
-    out.std = std::sqrt(s.scatter / (s.bins - 3) * std::max(inverse(0, 0), inverse(1, 1)));
+    out.std = std::sqrt(scatter / (bins - 3) * std::max(inverse(0, 0), inverse(1, 1)));
     out.rms = rms_of(s);
     out.x = real(at.xc_px_q16) + v[0];
     out.y = real(at.yc_px_q16) + v[1];

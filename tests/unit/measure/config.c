@@ -46,8 +46,8 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.inner_size_q16, q16_of(0.125));
     ck_assert_int_eq(c.outline_shading_q16, q16_of(3.8));
     ck_assert_int_eq(c.optics_blur_std_px2_q16, q16_of(0.12));
-    ck_assert_int_eq(c.inner_std_px_q16, q16_of(0.03));
-    ck_assert_int_eq(c.inner_std_share_q16, q16_of(0.002));
+    ck_assert_int_eq(c.inner_std_px_q16, q16_of(0.05));
+    ck_assert_int_eq(c.inner_std_share_q16, q16_of(0.005));
     ck_assert_int_eq(c.max_chi2_q16, q16_of(16));
     ck_assert_int_eq(c.min_chi2_gap_q16, q16_of(9));
     ck_assert(drogue_config_valid(&c));
