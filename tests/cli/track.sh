@@ -37,7 +37,7 @@ near "$(json filtered.pitch_deg)" 0 1
 near "$(json filtered.position_std_m.0)" 0.0005 0.0005
 near "$(json filtered.position_std_m.1)" 0.0005 0.0005
 near "$(json filtered.position_std_m.2)" 0.003 0.003
-near "$(json filtered.axis_std_deg)" 1 1
+near "$(json filtered.axis_std_deg)" 2.2 1
 near "$(json filtered.axis_std_deg) ^ 2" "$(json filtered.yaw_std_deg) ^ 2 + $(json filtered.pitch_std_deg) ^ 2" 0.001
 same "$(json gated)" false
 same "$(json filtered.orientation_resolved)" true
