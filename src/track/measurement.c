@@ -94,7 +94,7 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
  * circumference, by third parts, is off beside its own noise, in semi-axes sideways, in distances along the axis and in rad. */
 static void doubt_if_cut(drogue_measurement *m, const drogue_result *result, drogue_q16 rim_radius_m_q16)
 {
-    const drogue_q16 lacking_q16 = (DROGUE_Q16_ONE - result->cover_q16) / 3;
+    const drogue_q16 lacking_q16 = drogue_q16_sub(DROGUE_Q16_ONE, result->cover_q16) / 3;
     int p;
     if (result->second_look <= DROGUE_SECOND_BETTER) {
         return;
