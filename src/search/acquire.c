@@ -74,22 +74,11 @@ static int settles(const drogue_result *r, const drogue_model *model)
 }
 
 /* Sightings in a part of the image, in coordinates of the image. */
-static drogue_status search_part(drogue_search *search, const drogue_image *image, const drogue_region *region)
+static drogue_status search_part(drogue_search *search, const drogue_image *image, const drogue_region *part)
 {
-    drogue_region r = *region;
-    const drogue_region *part = &r;
     int32_t y;
     int32_t i;
-    drogue_status status;
-    if (r.width_px < 1 || r.height_px < 1) {
-        return DROGUE_E_REGION;
-    }
-    drogue_clip(&r.x_px, &r.width_px, image->width_px);
-    drogue_clip(&r.y_px, &r.height_px, image->height_px);
-    if (r.width_px < 1 || r.height_px < 1) {
-        return DROGUE_E_REGION;
-    }
-    status = drogue_search_begin(search, part->width_px);
+    drogue_status status = drogue_search_begin(search, part->width_px);
     if (status != DROGUE_OK) {
         return status;
     }
@@ -107,17 +96,15 @@ static drogue_status search_part(drogue_search *search, const drogue_image *imag
 }
 
 /* Is the part itself measured when nothing sighted decides? */
-static int measures_whole(const drogue_region *region, const drogue_image *image, const drogue_model *model)
+static int measures_whole(const drogue_region *part, const drogue_model *model)
 {
-    drogue_region part = *region;
-    drogue_clip(&part.x_px, &part.width_px, image->width_px);
-    drogue_clip(&part.y_px, &part.height_px, image->height_px);
-    return model->inner_radius_m_q16 == 0 || (part.width_px <= MOST_WHOLE_PX && part.height_px <= MOST_WHOLE_PX);
+    return model->inner_radius_m_q16 == 0 || (part->width_px <= MOST_WHOLE_PX && part->height_px <= MOST_WHOLE_PX);
 }
 
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region)
 {
+    drogue_region part;
     drogue_region whole;
     drogue_status status;
     int32_t most = 0;
@@ -134,14 +121,19 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         out->status = DROGUE_E_ARGUMENT;
         return out->status;
     }
-    status = search_part(search, image, &whole);
+    part = whole;
+    if (part.width_px >= 1 && part.height_px >= 1) {
+        drogue_clip(&part.x_px, &part.width_px, image->width_px);
+        drogue_clip(&part.y_px, &part.height_px, image->height_px);
+    }
+    status = part.width_px >= 1 && part.height_px >= 1 ? search_part(search, image, &part) : DROGUE_E_REGION;
     if (status != DROGUE_OK) {
         out->status = status;
         return status;
     }
     out->status = DROGUE_E_NO_INNER_PART;
     for (i = 0; i <= search->count; i++) {
-        if (i == search->count && (most > 2 * DROGUE_Q16_ONE || !measures_whole(&whole, image, setup->model))) {
+        if (i == search->count && (most > 2 * DROGUE_Q16_ONE || !measures_whole(&part, setup->model))) {
             break;
         }
         (void)drogue_measure(out, workspace, setup, image, i < search->count ? &search->best[i].region : &whole);
