@@ -209,7 +209,7 @@ static void find_inner(drogue_evidence *evidence, frame *f)
     drogue_inner_expected expected;
     drogue_inner_edge edge;
     memset(&inner, 0, sizeof inner);
-    drogue_inner_expect(&expected, outline, evidence->poses, f->setup, out->region.x_px, out->region.y_px);
+    drogue_inner_expect(&expected, evidence->poses, f->setup, out->region.x_px, out->region.y_px);
     if (drogue_inner_edge_find(&edge, f->workspace->rays, &f->view, &expected, outline, f->setup->config) ==
         DROGUE_OK) {
         drogue_inner_weigh(&inner, &edge, &out->region, &expected, outline, evidence->poses, f->setup);

@@ -72,7 +72,7 @@ static drogue_status find(frame *f, const drogue_workspace *workspace, const dro
         if (!drogue_mask_valid(&f->disc)) {
             memset(&f->disc, 0, sizeof f->disc);
         }
-        drogue_inner_expect(&f->expected, &f->outline.ellipse, f->poses, &setup, p->x_px, p->y_px);
+        drogue_inner_expect(&f->expected, f->poses, &setup, p->x_px, p->y_px);
     }
     return status;
 }

@@ -85,6 +85,14 @@ int drogue_moments_scatter(drogue_scatter *out, const drogue_moments *m);
  */
 drogue_status drogue_conic_ellipse(drogue_ellipse *out, const drogue_real q[6], const int32_t centre[2], int frac_bits);
 
+/* Ellipse about the origin of the points S^(1/2) (cos t, sin t): its squared semi-axes are the eigenvalues of S.
+ *
+ *  out     zero on failure
+ *  shape   entries xx, xy, yy of S, px^2
+ *  return  DROGUE_OK, DROGUE_E_DEGENERATE (S is not positive, or a semi-axis leaves Q16)
+ */
+drogue_status drogue_shape_ellipse(drogue_ellipse *out, const drogue_real shape[3]);
+
 /* Fit an ellipse to summed moments.
  *
  *  out        centre, semi-axes, angle of the major axis; 0 for the angle of a circle

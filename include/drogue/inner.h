@@ -73,14 +73,13 @@ drogue_status drogue_inner_find(drogue_inner_part *out, uint32_t *which, drogue_
 /* Area of an inner part over that of an expected disc, Q16, saturated. */
 drogue_q16 drogue_inner_fill(const drogue_inner_part *part, const drogue_ellipse *expected);
 
-/* Images of the inner disc for both poses, as seen: a pose whose disc is behind the camera, edge-on or under a pixel has
- * none.
+/* Images of the inner disc for both poses, through the lens: a pose whose disc is behind the camera, edge-on or under a
+ * pixel has none.
  *
  *  expected  out, coordinates of the region whose pixel (0, 0) is pixel (x_px, y_px) of the image
- *  outline   as seen: the disc's major axis lies as its does
  */
-void drogue_inner_expect(drogue_inner_expected *expected, const drogue_ellipse *outline, const drogue_pose poses[2],
-                         const drogue_setup *setup, int32_t x_px, int32_t y_px);
+void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose poses[2], const drogue_setup *setup,
+                         int32_t x_px, int32_t y_px);
 
 /* Where to look: a disc about the outline's centre of 5/6 of its semi-minor axis. */
 drogue_mask drogue_inner_disc(const drogue_ellipse *outline);

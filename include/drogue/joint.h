@@ -66,8 +66,9 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
 
 /* Image of the inner disc of a pose.
  *
- *  out     ellipse in ideal pixels: centre exact (it is not the image of the disc's centre), semi-axes to first order
- *  return  DROGUE_OK; DROGUE_E_BEHIND_CAMERA; DROGUE_E_DOMAIN when it is seen edge-on
+ *  out     ellipse in ideal pixels, that of the perspective: its centre is not the image of the disc's centre, and off the
+ *          optical axis it is longer than it would be there; zero on failure
+ *  return  DROGUE_OK; DROGUE_E_BEHIND_CAMERA; DROGUE_E_DOMAIN when it is seen edge-on or from behind
  */
 drogue_status drogue_inner_disc_image(drogue_ellipse *out, const drogue_pose *pose, const drogue_camera *camera,
                                       const drogue_model *model);

@@ -137,7 +137,7 @@ drogue_inner_expected expect(const Result &out, const Frame &f, const std::array
              drogue_outline_undistorted(&ideal, &f.decided, &f.front->workspace, &f.front->list, &setup, out.region.x,
                                         out.region.y) == DROGUE_OK) &&
             drogue_pose_from_ellipse(poses, &ideal, &camera, model.rim_radius_m_q16) == DROGUE_OK) {
-            drogue_inner_expect(&expected, &rim, poses, &setup, out.region.x, out.region.y);
+            drogue_inner_expect(&expected, poses, &setup, out.region.x, out.region.y);
         }
         return expected;
     }

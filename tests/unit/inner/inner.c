@@ -48,7 +48,7 @@ START_TEST(expected_where_the_poses_show_it)
             ck_assert(field_inner(&truth[k], &f, &p));
         }
         drogue_config_default(&config);
-        drogue_inner_expect(&got, &outline, poses, &(drogue_setup){&f.camera, &f.model, &config}, x_px, y_px);
+        drogue_inner_expect(&got, poses, &(drogue_setup){&f.camera, &f.model, &config}, x_px, y_px);
         MUST(got.count == 2 && got.min_area_px == config.min_inner_area_px, "case %d: not both", i);
         for (k = 0; k < 2; k++) {
             drogue_q16 u = q16_of(truth[k].xc), v = q16_of(truth[k].yc);
@@ -75,18 +75,18 @@ START_TEST(poses_that_show_none)
     drogue_inner_expected one, got;
     drogue_config_default(&config);
     poses[0] = poses[1] = pose_of(&good);
-    drogue_inner_expect(&one, &outline, poses, &setup, 0, 0);
+    drogue_inner_expect(&one, poses, &setup, 0, 0);
     ck_assert_uint_eq(one.count, 2);
     poses[0] = pose_of(&far); /* 0.9 px */
-    drogue_inner_expect(&got, &outline, poses, &setup, 0, 0);
+    drogue_inner_expect(&got, poses, &setup, 0, 0);
     ck_assert_uint_eq(got.count, 1);
     ck_assert_int_eq(memcmp(&got.disc[0], &one.disc[0], sizeof got.disc[0]), 0); /* the other one comes first */
     poses[1] = pose_of(&far);
-    drogue_inner_expect(&got, &outline, poses, &setup, 0, 0);
+    drogue_inner_expect(&got, poses, &setup, 0, 0);
     ck_assert_uint_eq(got.count, 0);
     f.model.inner_depth_m_q16 = q16_of(-7);
     poses[0] = poses[1] = pose_of(&behind);
-    drogue_inner_expect(&got, &outline, poses, &setup, 0, 0);
+    drogue_inner_expect(&got, poses, &setup, 0, 0);
     ck_assert_uint_eq(got.count, 0);
 }
 END_TEST
