@@ -176,8 +176,8 @@ static inline void frame_find_outline(frame *f)
         if (!drogue_mask_valid(&disc)) {
             memset(&disc, 0, sizeof disc);
         }
-        drogue_inner_expect(&expected, poses,
-                            &(drogue_setup){&f->p.camera, &f->p.model, &f->p.config}, f->p.x_px, f->p.y_px);
+        drogue_inner_expect(&expected, poses, &(drogue_setup){&f->p.camera, &f->p.model, &f->p.config}, f->p.x_px,
+                            f->p.y_px);
         f->words[DROGUE_HLS_O_EXPECTED_COUNT] = (int32_t)expected.count;
     }
     f->words[DROGUE_HLS_O_STATUS] = (int32_t)status;

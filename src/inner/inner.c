@@ -70,8 +70,7 @@ void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose pose
     for (i = 0; i < 2; i++) {
         drogue_ellipse *e = &expected->disc[expected->count];
         if (drogue_inner_disc_image(e, &poses[i], setup->camera, setup->model) == DROGUE_OK &&
-            e->b_px_q16 >= DROGUE_Q16_ONE &&
-            distort_ellipse(e, setup->camera) == DROGUE_OK) {
+            e->b_px_q16 >= DROGUE_Q16_ONE && distort_ellipse(e, setup->camera) == DROGUE_OK) {
             e->xc_px_q16 = drogue_q16_sub(e->xc_px_q16, drogue_q16_from_int(x_px));
             e->yc_px_q16 = drogue_q16_sub(e->yc_px_q16, drogue_q16_from_int(y_px));
             expected->count++;

@@ -143,14 +143,10 @@ drogue_inner_expected expect(const Result &out, const Frame &f, const std::array
     }
     for (const Pose &pose : pair) {
         Ellipse e;
-        Point at;
-        if (reference::disc_image(e, pose, task.camera, task.model) != reference::Solved::ok || e.a < 1) {
-            continue;
-        }
-        at = {e.xc, e.yc};
-        if (reference::distort(task.camera, at)) {
+        if (reference::disc_image(e, pose, task.camera, task.model) == reference::Solved::ok && e.b >= 1 &&
+            reference::distort(task.camera, e)) {
             expected.disc[expected.count++] =
-                rounded_ellipse({at.x - out.region.x, at.y - out.region.y, e.a, e.b, out.outline.ellipse.angle, true});
+                rounded_ellipse({e.xc - out.region.x, e.yc - out.region.y, e.a, e.b, e.angle, true});
         }
     }
     return expected;
