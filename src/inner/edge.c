@@ -206,18 +206,17 @@ static int32_t median_of(int32_t *v, uint32_t count)
 }
 
 /* Grey of the disc along its edge as a plane, of the rays that fit it; a change across it must stand out of the noise. */
-static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const int32_t dark_q8[RAYS], int32_t median_q8)
+static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const int32_t dark_q8[RAYS])
 {
     drogue_real normal[6];
-    drogue_q16 within = 4 * STILL;
+    drogue_q16 within = DROGUE_Q16(256, 1);
     int64_t change2;
     int64_t noise2;
     sums s;
     int round;
     int i;
-    plane_q16[0] = plane_q16[1] = 0;
-    plane_q16[2] = median_q8 * 256;
-    for (round = 0; round < 3; round++) {
+    memset(plane_q16, 0, 3 * sizeof plane_q16[0]);
+    for (round = 0; round < 4; round++) {
         int32_t k;
         memset(&s, 0, sizeof s);
         for (k = 0; k < RAYS; k++) {
@@ -229,7 +228,7 @@ static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const 
         if (!solve(plane_q16, normal, &s, 1)) {
             return 0;
         }
-        within = larger(STILL, 3 * rms_of(&s));
+        within = larger(STILL, 2 * rms_of(&s));
     }
     change2 = (int64_t)drogue_square_sum(plane_q16[0], plane_q16[1]) >> 16;
     noise2 = drogue_div_round_s64(s.squares_q16 * SIGNIFICANT, (int64_t)s.rays * s.rays);
@@ -262,13 +261,12 @@ static int find_shade(shade *out, const drogue_ray rays[RAYS], const drogue_imag
             }
             dark_q8[k] /= DARK;
             beyond_q8[k] = grey_q8[PROFILE - 1];
-            sorted[count++] = dark_q8[k];
         }
     }
-    if (count < FEWEST || !fit_dark(out->dark_q16, rays, dark_q8, median_of(sorted, count))) {
+    if (!fit_dark(out->dark_q16, rays, dark_q8)) {
         return 0;
     }
-    for (k = 0, count = 0; k < RAYS; k++) {
+    for (k = 0; k < RAYS; k++) {
         if (dark_q8[k] >= 0) {
             sorted[count++] = beyond_q8[k] - (along(&rays[k], out->dark_q16) >> 8);
         }
@@ -327,8 +325,6 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     out->contrast =
         (uint8_t)drogue_clamp_s32((int32_t)drogue_div_round_s64(s.slopes_q8, (int64_t)s.rays * DROGUE_RAY_WEIGHT * 256), 0, 255);
     out->level = (uint8_t)drogue_clamp_s32((int32_t)drogue_div_round_s64(s.levels_q8, (int64_t)s.rays * 256), 0, 255);
-    out->rms_px_q16 = rms_of(&s);
-    out->rays = s.rays;
     out->grown_px_q16 = v[2];
     cross(rays, image, &grey, v);
     within = DROGUE_Q16(3, 2);
@@ -354,6 +350,8 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     drogue_real_quotient(&t, &scatter, &t);
     drogue_real_root(&t, &t);
     out->std_px_q16 = drogue_real_to_q16(t);
+    out->rms_px_q16 = rms_of(&s);
+    out->rays = (s.rays + (uint32_t)phases / 2) / (uint32_t)phases;
     out->x_px_q16 = drogue_q16_add(e->xc_px_q16, v[0]);
     out->y_px_q16 = drogue_q16_add(e->yc_px_q16, v[1]);
     return DROGUE_OK;
