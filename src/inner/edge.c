@@ -183,6 +183,7 @@ static int narrow(sums *s, drogue_q16 v_px_q16[3], drogue_q16 *within_px_q16, co
 #define DARK 4                     /* of them within the disc */
 #define FIRST 3                    /* may be the last one below the level, */
 #define LAST 9                     /* up to this one; the last of all is beyond the edge */
+#define INWARD DROGUE_Q16(45, 100) /* px: a quarter of a blurred step is this far within its middle */
 #define STILL DROGUE_Q16(2, 1)     /* grey levels by which the disc may differ from itself */
 #define SIGNIFICANT 50             /* variances of a change of grey across the disc */
 
@@ -325,7 +326,6 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     out->contrast =
         (uint8_t)drogue_clamp_s32((int32_t)drogue_div_round_s64(s.slopes_q8, (int64_t)s.rays * DROGUE_RAY_WEIGHT * 256), 0, 255);
     out->level = (uint8_t)drogue_clamp_s32((int32_t)drogue_div_round_s64(s.levels_q8, (int64_t)s.rays * 256), 0, 255);
-    out->grown_px_q16 = v[2];
     cross(rays, image, &grey, v);
     within = DROGUE_Q16(3, 2);
     size = v[2];
@@ -352,6 +352,7 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     out->std_px_q16 = drogue_real_to_q16(t);
     out->rms_px_q16 = rms_of(&s);
     out->rays = (s.rays + (uint32_t)phases / 2) / (uint32_t)phases;
+    out->grown_px_q16 = drogue_q16_add(v[2], INWARD);
     out->x_px_q16 = drogue_q16_add(e->xc_px_q16, v[0]);
     out->y_px_q16 = drogue_q16_add(e->yc_px_q16, v[1]);
     return DROGUE_OK;
