@@ -178,7 +178,7 @@ static int narrow(sums *s, drogue_q16 v_px_q16[3], drogue_q16 *within_px_q16, co
 /* The disc is dark all over, what surrounds it need not be of one grey: light, ribs and a ring about it move the steepest
  * place of a blurred edge, and hardly the one where the grey begins to rise. So the edge is looked for where the grey is
  * a quarter of the usual step above the disc's own. */
-#define PROFILE 12                 /* samples along a ray, half a pixel apart, */
+#define PROFILE 13                 /* samples along a ray, half a pixel apart, */
 #define FROM DROGUE_Q16(-35, 10)   /* px from the edge outwards */
 #define DARK 4                     /* of them within the disc */
 #define FIRST 3                    /* may be the last one below the level, */
@@ -187,9 +187,22 @@ static int narrow(sums *s, drogue_q16 v_px_q16[3], drogue_q16 *within_px_q16, co
 #define STILL DROGUE_Q16(2, 1)     /* grey levels by which the disc may differ from itself */
 #define SIGNIFICANT 50             /* variances of a change of grey across the disc */
 
+/* Where a profile about an edge begins: at a multiple of the distance of its samples, so that it does not tremble with the
+ * edge's last bits. */
+static drogue_q16 begin_of(drogue_q16 at_px_q16)
+{
+    return drogue_q16_add(at_px_q16, FROM) & ~(DROGUE_Q16_ONE / 2 - 1);
+}
+
+/* Grey between two samples, Q16; 'part' Q15. */
+static int32_t between_q16(int32_t a_q8, int32_t b_q8, int32_t part_q15)
+{
+    return a_q8 * 256 + (int32_t)drogue_shr_round_s64((int64_t)(b_q8 - a_q8) * part_q15, 7);
+}
+
 typedef struct shade {
     drogue_q16 dark_q16[3]; /* grey of the disc at its edge: change along x and y, mean */
-    int32_t rise_q8;        /* to the level looked for */
+    int32_t rise_q16;       /* to the level looked for */
 } shade;
 
 static int32_t median_of(int32_t *v, uint32_t count)
@@ -207,7 +220,7 @@ static int32_t median_of(int32_t *v, uint32_t count)
 }
 
 /* Grey of the disc along its edge as a plane, of the rays that fit it; a change across it must stand out of the noise. */
-static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const int32_t dark_q8[RAYS])
+static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const int32_t dark_q16[RAYS])
 {
     drogue_real normal[6];
     drogue_q16 within = DROGUE_Q16(256, 1);
@@ -221,8 +234,8 @@ static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const 
         int32_t k;
         memset(&s, 0, sizeof s);
         for (k = 0; k < RAYS; k++) {
-            const int64_t off = (int64_t)dark_q8[k] * 256 - along(&rays[k], plane_q16);
-            if (dark_q8[k] >= 0 && off <= within && off >= -within) {
+            const int64_t off = (int64_t)dark_q16[k] - along(&rays[k], plane_q16);
+            if (dark_q16[k] >= 0 && off <= within && off >= -within) {
                 add_ray(&s, &rays[k], 1, off);
             }
         }
@@ -234,7 +247,7 @@ static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const 
     change2 = (int64_t)drogue_square_sum(plane_q16[0], plane_q16[1]) >> 16;
     noise2 = drogue_div_round_s64(s.squares_q16 * SIGNIFICANT, (int64_t)s.rays * s.rays);
     for (i = 0; i < 2 && change2 + noise2 > 0; i++) {
-        const drogue_q16 kept = (drogue_q16)drogue_div_round_s64((plane_q16[i] >> 4) * (change2 >> 4), (change2 + noise2) >> 8);
+        const drogue_q16 kept = (drogue_q16)drogue_div_round_s64(plane_q16[i] * change2, change2 + noise2);
         plane_q16[i] = kept;
     }
     return 1;
@@ -244,36 +257,36 @@ static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const 
 static int find_shade(shade *out, const drogue_ray rays[RAYS], const drogue_image *image, const drogue_q16 v_px_q16[3],
                       drogue_q16 within_px_q16)
 {
-    int32_t dark_q8[RAYS];
-    int32_t beyond_q8[RAYS];
+    int32_t dark_q16[RAYS];
+    int32_t beyond_q16[RAYS];
     int32_t sorted[RAYS];
     uint32_t count = 0;
     int32_t k;
     for (k = 0; k < RAYS; k++) {
         const drogue_q16 at = along(&rays[k], v_px_q16);
-        dark_q8[k] = -1;
+        dark_q16[k] = -1;
         if (chosen(&rays[k], at, within_px_q16) >= 0) {
+            const int32_t part_q15 = drogue_q16_sub(drogue_q16_add(at, FROM), begin_of(at));
             int32_t grey_q8[PROFILE];
             int32_t i;
-            drogue_ray_read(grey_q8, &rays[k], image, drogue_q16_add(at, FROM), PROFILE);
-            dark_q8[k] = 0;
-            for (i = 0; i < DARK; i++) {
-                dark_q8[k] += grey_q8[i];
+            drogue_ray_read(grey_q8, &rays[k], image, begin_of(at), PROFILE);
+            dark_q16[k] = between_q16(grey_q8[0], grey_q8[DARK], part_q15) / DARK;
+            for (i = 1; i < DARK; i++) {
+                dark_q16[k] += grey_q8[i] * (256 / DARK);
             }
-            dark_q8[k] /= DARK;
-            beyond_q8[k] = grey_q8[PROFILE - 1];
+            beyond_q16[k] = between_q16(grey_q8[PROFILE - 2], grey_q8[PROFILE - 1], part_q15);
         }
     }
-    if (!fit_dark(out->dark_q16, rays, dark_q8)) {
+    if (!fit_dark(out->dark_q16, rays, dark_q16)) {
         return 0;
     }
     for (k = 0; k < RAYS; k++) {
-        if (dark_q8[k] >= 0) {
-            sorted[count++] = beyond_q8[k] - (along(&rays[k], out->dark_q16) >> 8);
+        if (dark_q16[k] >= 0) {
+            sorted[count++] = beyond_q16[k] - along(&rays[k], out->dark_q16);
         }
     }
-    out->rise_q8 = median_of(sorted, count) / 4;
-    return out->rise_q8 > 0;
+    out->rise_q16 = median_of(sorted, count) / 4;
+    return out->rise_q16 > 0;
 }
 
 /* Where the grey passes the level, as the rays' edges. */
@@ -282,20 +295,21 @@ static void cross(drogue_ray rays[RAYS], const drogue_image *image, const shade 
     int32_t k;
     for (k = 0; k < RAYS; k++) {
         drogue_ray *r = &rays[k];
-        const drogue_q16 at = along(r, v_px_q16);
-        const int32_t level_q8 = (along(r, grey->dark_q16) >> 8) + grey->rise_q8;
+        const drogue_q16 from = begin_of(along(r, v_px_q16));
+        const int32_t level_q16 = along(r, grey->dark_q16) + grey->rise_q16;
         int32_t grey_q8[PROFILE];
         int32_t i;
-        drogue_ray_read(grey_q8, r, image, drogue_q16_add(at, FROM), PROFILE);
+        drogue_ray_read(grey_q8, r, image, from, PROFILE);
         r->count = 0;
         for (i = FIRST; i <= LAST; i++) {
-            if (grey_q8[i] < level_q8 && grey_q8[i + 1] >= level_q8 && r->count < DROGUE_RAY_EDGES) {
+            const int32_t below_q16 = level_q16 - grey_q8[i] * 256;
+            if (below_q16 > 0 && grey_q8[i + 1] * 256 >= level_q16 && r->count < DROGUE_RAY_EDGES) {
                 drogue_ray_edge *e = &r->edges[r->count++];
                 const int32_t step_q8 = grey_q8[i + 1] - grey_q8[i];
-                const int32_t part_q16 = (int32_t)drogue_div_round_s64((int64_t)(level_q8 - grey_q8[i]) * 32768, step_q8);
-                e->at_px_q16 = drogue_q16_add(drogue_q16_add(at, FROM + 32768 * i), part_q16);
+                const int32_t part_q16 = (int32_t)drogue_div_round_s64((int64_t)below_q16 * 128, step_q8);
+                e->at_px_q16 = drogue_q16_add(drogue_q16_add(from, 32768 * i), part_q16);
                 e->slope_q8 = DROGUE_RAY_WEIGHT * 2 * step_q8;
-                e->level_q8 = level_q8;
+                e->level_q8 = grey_q8[i];
             }
         }
     }
@@ -358,6 +372,9 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     return DROGUE_OK;
 }
 
+/* Rounded to 1/256 px, in which rays read the image: a first place's last bits need not move them. */
+static drogue_q16 whole(drogue_q16 v_px_q16) { return drogue_q16_add(v_px_q16, 128) & ~255; }
+
 drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
                                      const drogue_inner_expected *expected, const drogue_ellipse *outline,
                                      const drogue_config *config)
@@ -387,9 +404,12 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
     if (steepest == 0) {
         return DROGUE_E_NO_INNER_PART;
     }
+    best[0] = whole(drogue_q16_add(expected->disc[which].xc_px_q16, best[0]));
+    best[1] = whole(drogue_q16_add(expected->disc[which].yc_px_q16, best[1]));
+    best[2] = whole(best[2]);
     at = expected->disc[which];
-    at.xc_px_q16 = drogue_q16_add(at.xc_px_q16, best[0]);
-    at.yc_px_q16 = drogue_q16_add(at.yc_px_q16, best[1]);
+    at.xc_px_q16 = best[0];
+    at.yc_px_q16 = best[1];
     at.a_px_q16 = drogue_q16_add(at.a_px_q16, best[2]);
     at.b_px_q16 = drogue_q16_add(at.b_px_q16, best[2]);
     if (at.b_px_q16 < DROGUE_Q16_ONE) {
