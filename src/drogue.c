@@ -328,7 +328,8 @@ static int lower_thresholds(frame *f)
     return high < config->canny_high;
 }
 
-#define SURE_Q16 DROGUE_Q16(4, 100) /* the inner disc is of its size to this */
+#define SURE_Q16 DROGUE_Q16(4, 100)   /* the inner disc is of its size to this */
+#define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 
 /* Take back what was measured. */
 static void refuse(drogue_result *out)
@@ -368,7 +369,7 @@ static drogue_status measure(frame *f, const drogue_region *region)
             status != DROGUE_E_NO_ARCS) {
             return status;
         }
-        if (f->doubt_q16 < least_q16) {
+        if (f->doubt_q16 < least_q16 - CLEARLY_Q16) {
             least_q16 = f->doubt_q16;
             best = what;
         }

@@ -402,7 +402,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
                 return best;
             }
         }
-        if (doubt < least) {
+        if (doubt < least - 1 / 256.0L) {
             least = doubt;
             best = out;
             if (features != nullptr) {
