@@ -90,6 +90,9 @@ static void put_support(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const drogue_su
     words[DROGUE_HLS_O_POINTS] = (int32_t)support->points;
     words[DROGUE_HLS_O_BRIGHT_BINS] = (int32_t)support->bright_bins;
     words[DROGUE_HLS_O_COVERED] = (int32_t)support->covered;
+    for (k = 0; k < 5; k++) {
+        words[DROGUE_HLS_O_PULL + k] = support->pull_q24[k];
+    }
 }
 
 static void put(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const frame *f)

@@ -37,6 +37,11 @@ typedef char drogue_assume_wrapping_conversion_64[(int64_t)UINT64_C(0xFFFFFFFFFF
 typedef char drogue_assume_int_32[sizeof(int) >= 4 ? 1 : -1];
 
 /* Saturate to 32 bits. */
+static inline int32_t drogue_clamp_s32(int32_t v, int32_t least, int32_t most)
+{
+    return v < least ? least : v > most ? most : v;
+}
+
 static inline int32_t drogue_sat_s32(int64_t v)
 {
     return v > INT32_MAX ? INT32_MAX : v < INT32_MIN ? INT32_MIN : (int32_t)v;

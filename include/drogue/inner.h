@@ -116,7 +116,7 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[DRO
  *
  *  expected, outline  region coordinates
  *  return             px Q16; 0 when it is not to be believed: of another size, in another place, cut by the rim, or too
- *                     few rays agree
+ *                     few rays agree; -1 when it is too large, and nothing else speaks against it
  */
 drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse *expected,
                             const drogue_ellipse *outline, const drogue_config *config);
@@ -127,6 +127,7 @@ typedef struct drogue_inner_evidence {
     drogue_joint_inner weighed; /* its centroid without distortion; std 0 when it is not believed */
     drogue_q16
         ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 when not believed */
+    int32_t too_large; /* 1: a disc is seen that would be believed but for its size, which is too large for the outline */
     uint32_t nearer;   /* index of the pose whose projected inner centre is nearer, believed or not */
 } drogue_inner_evidence;
 

@@ -25,6 +25,8 @@ typedef struct drogue_support {
     uint64_t gradient;    /* sum of |gx| + |gy| over them, grey levels * 8 */
     uint32_t points;      /* in these sums */
     uint32_t bright_bins; /* bit k: bin k is brighter inside; all 0 or all 1 for an outline of one polarity */
+    int32_t pull_q24[5];  /* by how much opposite edges nearby moved the outline: coefficients of 1, cos t, sin t, cos 2t,
+                             sin 2t over the eccentric angle t, in semi-axes */
     uint32_t covered;     /* bins that hold enough points, less the changes of polarity round the outline beyond none */
 } drogue_support;
 
@@ -55,6 +57,9 @@ static inline drogue_q16 drogue_support_cover(const drogue_support *support)
 {
     return (drogue_q16)(support->covered * (DROGUE_Q16_ONE / DROGUE_SUPPORT_BINS));
 }
+
+/* 1, cos t, sin t, cos 2t, sin 2t in the middle of a bin. */
+void drogue_support_basis(int64_t basis_q30[5], uint32_t k);
 
 /* Index of the bin of a direction; (0, 0) is in bin 0. */
 uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24);

@@ -119,9 +119,12 @@ drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse 
     const drogue_q16 share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
     if (edge->contrast < config->min_inner_contrast ||
         (int64_t)edge->rays * DROGUE_Q16_ONE < (int64_t)config->min_inner_cover_q16 * DROGUE_RAYS ||
-        edge->rms_px_q16 > config->inner_rms_px_q16 || edge->grown_px_q16 > room || edge->grown_px_q16 < -room ||
+        edge->rms_px_q16 > config->inner_rms_px_q16 || edge->grown_px_q16 < -room ||
         away2_q32 > drogue_square_sum(gate, 0) || !within_outline(edge, expected, outline)) {
         return 0;
+    }
+    if (edge->grown_px_q16 > room) {
+        return -1;
     }
     return drogue_sat_s32(
         drogue_isqrt_u64(drogue_square_sum(share, config->inner_std_px_q16) + drogue_square_sum(edge->std_px_q16, 0)));
@@ -158,13 +161,16 @@ void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge
     drogue_choice choice;
     describe(&evidence->part, edge, disc, region);
     weighed->std_px_q16 = drogue_inner_std(edge, disc, outline, setup->config);
+    evidence->too_large = weighed->std_px_q16 < 0;
+    weighed->std_px_q16 = evidence->too_large ? 0 : weighed->std_px_q16;
     weighed->x_px_q16 = evidence->part.x_px_q16;
     weighed->y_px_q16 = evidence->part.y_px_q16;
     if (evidence->part.area_px < setup->config->min_inner_area_px ||
         drogue_undistort_point(&weighed->x_px_q16, &weighed->y_px_q16, setup->camera) != DROGUE_OK ||
         drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, setup->model->inner_depth_m_q16,
                            setup->camera) != DROGUE_OK) {
-        weighed->std_px_q16 = 0; /* too small, beyond the lens model, or behind the camera for one of the poses */
+        weighed->std_px_q16 = 0;
+        evidence->too_large = 0; /* too small, beyond the lens model, or behind the camera for one of the poses */
         choice.index = 0;
     }
     evidence->nearer = choice.index;

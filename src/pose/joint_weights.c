@@ -6,25 +6,6 @@
 
 typedef drogue_real real;
 
-/* 1, cos t, sin t, cos 2t, sin 2t at the middle of bin k, Q30. */
-static void basis_of(int64_t basis_q30[DROGUE_JOINT_FIT], uint32_t k)
-{
-    /* cos of 5.625 + 11.25 i degrees */
-    static const int32_t quarter_q30[8] = {1068571464, 1027506862, 946955747, 830013654,
-                                           681174602,  506158392,  311690799, 105245103};
-    const uint32_t i = k & 7u;
-    const uint32_t quadrant = k >> 3;
-    int64_t c = quarter_q30[quadrant & 1u ? 7 - i : i];
-    int64_t s = quarter_q30[quadrant & 1u ? i : 7 - i];
-    c = quadrant == 1 || quadrant == 2 ? -c : c;
-    s = quadrant >= 2 ? -s : s;
-    basis_q30[0] = INT64_C(1) << 30;
-    basis_q30[1] = c;
-    basis_q30[2] = s;
-    basis_q30[3] = drogue_shr_round_s64(c * c - s * s, 30);
-    basis_q30[4] = drogue_shr_round_s64(c * s, 29);
-}
-
 /* Normal equations of the fit, points times products of the basis functions; 'scatter' is the squared residual of the
  * bins' means. Returns the number of bins that hold points. */
 static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, const drogue_support *support)
@@ -51,7 +32,7 @@ static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, cons
         drogue_real_set(&points, n, 0);
         drogue_real_quotient(&square, &square, &points);
         drogue_real_sum(scatter, scatter, &square);
-        basis_of(basis_q30, k);
+        drogue_support_basis(basis_q30, k);
         for (i = 0; i < DROGUE_JOINT_FIT; i++) {
             for (j = 0; j <= i; j++) {
                 sum_q30[DROGUE_PACKED(i, j)] += n * drogue_shr_round_s64(basis_q30[i] * basis_q30[j], 30);
@@ -112,6 +93,12 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
     drogue_real_product(&t, &a, &t);
     square_ratio(&variance, &variance, &t);
     drogue_real_sum(&covariance[0], &covariance[0], &variance);
+    for (i = 0; i < DROGUE_JOINT_FIT; i++) { /* of what opposite edges nearby did, half remains */
+        real *own = &covariance[DROGUE_PACKED(i, i)];
+        drogue_real_set(&variance, support->pull_q24[i], -25);
+        drogue_real_product(&variance, &variance, &variance);
+        drogue_real_sum(own, own, &variance);
+    }
     return DROGUE_OK;
 }
 

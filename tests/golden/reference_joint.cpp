@@ -285,6 +285,10 @@ bool outline_covariance(Covariance &out, const Ellipse &e, const Support &s, Rea
     out = static_cast<double>(scatter / (bins - PARAMETERS)) * information.inv(cv::DECOMP_CHOLESKY) +
           static_cast<double>(shade * shade) * Covariance::eye();
     out(0, 0) += static_cast<double>(blurred * blurred);
+    for (int i = 0; i < PARAMETERS; i++) {
+        const Real left = s.pull[static_cast<size_t>(i)] / 2;
+        out(i, i) += static_cast<double>(left * left);
+    }
     return true;
 }
 

@@ -190,16 +190,19 @@ START_TEST(reasons_not_to_believe)
     finding f = usual_finding();
     int k;
     ck_assert(std_of(&f) > 0);
-    for (k = -1; k <= 1; k += 2) { /* an eighth and a pixel larger or smaller */
-        f.edge.grown_px_q16 = k * q16_of(4.74);
+    for (k = -1; k <= 1; k += 2) { /* a tenth and a pixel larger or smaller */
+        f.edge.grown_px_q16 = k * q16_of(3.99);
         ck_assert(std_of(&f) > 0);
-        f.edge.grown_px_q16 = k * q16_of(4.76);
-        ck_assert(std_of(&f) == 0);
+        f.edge.grown_px_q16 = k * q16_of(4.01);
+        ck_assert_int_eq(drogue_inner_std(&f.edge, &f.expected, &f.outline, &f.config), k > 0 ? -1 : 0);
     }
+    f.edge.grown_px_q16 = q16_of(4.01);
+    f.edge.rays = 25; /* too large, and too little of it: no disc */
+    ck_assert(std_of(&f) == 0);
     f = usual_finding();
-    f.edge.rays = 26;
+    f.edge.rays = 32;
     ck_assert(std_of(&f) > 0);
-    f.edge.rays = 25; /* of 64: less than 0.4 */
+    f.edge.rays = 31; /* of 64: less than a half */
     ck_assert(std_of(&f) == 0);
     f = usual_finding();
     f.edge.rms_px_q16 = q16_of(0.649);
