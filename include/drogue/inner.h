@@ -94,7 +94,7 @@ typedef struct drogue_inner_edge {
     drogue_q16 std_px_q16;   /* standard deviation of either coordinate, from the rays' residuals */
     drogue_q16 rms_px_q16;   /* of the residuals */
     uint32_t rays;           /* that agree */
-    uint32_t which;          /* of the expected discs */
+    uint32_t which;          /* of the expected discs: the nearer one */
     uint8_t level;           /* mean grey at the edge */
     uint8_t contrast;        /* mean step of grey across the edge */
 } drogue_inner_edge;
@@ -127,8 +127,9 @@ typedef struct drogue_inner_evidence {
     drogue_joint_inner weighed; /* its centroid without distortion; std 0 when it is not believed */
     drogue_q16
         ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 when not believed */
-    int32_t too_large; /* 1: a disc is seen that would be believed but for its size, which is too large for the outline */
-    uint32_t nearer;   /* index of the pose whose projected inner centre is nearer, believed or not */
+    int32_t
+        too_large;   /* 1: a disc is seen that would be believed but for its size, which is too large for the outline */
+    uint32_t nearer; /* index of the pose whose projected inner centre is nearer, believed or not */
 } drogue_inner_evidence;
 
 /* Weigh the disc, and see which pose it is nearer to.

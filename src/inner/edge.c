@@ -37,8 +37,8 @@ static int32_t chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogue_q1
 
 /* Sums of least squares over rays, each weighted by its squared slope, as noise asks for. */
 typedef struct sums {
-    int64_t normal[6]; /* Q28 */
-    int64_t right[3];  /* Q30 */
+    int64_t normal[6];   /* Q28 */
+    int64_t right[3];    /* Q30 */
     int64_t squares_q16; /* of the residuals, not weighted */
     int64_t slopes_q8;
     int64_t levels_q8;
@@ -189,10 +189,7 @@ static int narrow(sums *s, drogue_q16 v_px_q16[3], drogue_q16 *within_px_q16, co
 
 /* Where a profile about an edge begins: at a multiple of the distance of its samples, so that it does not tremble with the
  * edge's last bits. */
-static drogue_q16 begin_of(drogue_q16 at_px_q16)
-{
-    return drogue_q16_add(at_px_q16, FROM) & ~(DROGUE_Q16_ONE / 2 - 1);
-}
+static drogue_q16 begin_of(drogue_q16 at_px_q16) { return drogue_q16_add(at_px_q16, FROM) & ~(DROGUE_Q16_ONE / 2 - 1); }
 
 /* Grey between two samples, Q16; 'part' Q15. */
 static int32_t between_q16(int32_t a_q8, int32_t b_q8, int32_t part_q15)
@@ -337,8 +334,8 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     if (!narrow(&s, v, &within, rays) || !find_shade(&grey, rays, image, v, within)) {
         return DROGUE_E_NO_INNER_PART;
     }
-    out->contrast =
-        (uint8_t)drogue_clamp_s32((int32_t)drogue_div_round_s64(s.slopes_q8, (int64_t)s.rays * DROGUE_RAY_WEIGHT * 256), 0, 255);
+    out->contrast = (uint8_t)drogue_clamp_s32(
+        (int32_t)drogue_div_round_s64(s.slopes_q8, (int64_t)s.rays * DROGUE_RAY_WEIGHT * 256), 0, 255);
     out->level = (uint8_t)drogue_clamp_s32((int32_t)drogue_div_round_s64(s.levels_q8, (int64_t)s.rays * 256), 0, 255);
     cross(rays, image, &grey, v);
     within = DROGUE_Q16(3, 2);
@@ -370,6 +367,27 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     out->x_px_q16 = drogue_q16_add(e->xc_px_q16, v[0]);
     out->y_px_q16 = drogue_q16_add(e->yc_px_q16, v[1]);
     return DROGUE_OK;
+}
+
+static uint64_t away2_q32(const drogue_inner_edge *edge, const drogue_ellipse *e)
+{
+    return drogue_square_sum(drogue_q16_sub(edge->x_px_q16, e->xc_px_q16),
+                             drogue_q16_sub(edge->y_px_q16, e->yc_px_q16));
+}
+
+/* An edge may be reached from both expected discs: the nearer one is what it is compared with. */
+static void name_nearer(drogue_inner_edge *edge, const drogue_inner_expected *expected)
+{
+    const drogue_ellipse *was = &expected->disc[edge->which];
+    uint32_t i;
+    for (i = 0; i < expected->count; i++) { /* bound: 2 */
+        const drogue_ellipse *e = &expected->disc[i];
+        if (away2_q32(edge, e) < away2_q32(edge, &expected->disc[edge->which])) {
+            edge->which = i;
+        }
+    }
+    edge->grown_px_q16 =
+        drogue_q16_add(edge->grown_px_q16, drogue_q16_sub(was->a_px_q16, expected->disc[edge->which].a_px_q16));
 }
 
 /* Rounded to 1/256 px, in which rays read the image: a first place's last bits need not move them. */
@@ -420,7 +438,8 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
         memset(out, 0, sizeof *out);
         return status;
     }
-    out->which = which;
     out->grown_px_q16 = drogue_q16_add(out->grown_px_q16, best[2]);
+    out->which = which;
+    name_nearer(out, expected);
     return DROGUE_OK;
 }

@@ -7,7 +7,7 @@
 #define REACH 4    /* samples on either side that a slope is made of */
 #define SAMPLES 65 /* most slopes along a ray */
 #define HALF DROGUE_Q16(1, 2)
-#define NEAREST DROGUE_Q16(2, 1)    /* px: reach */
+#define NEAREST DROGUE_Q16(2, 1) /* px: reach */
 #define FARTHEST DROGUE_Q16(512, 1)
 
 /* A place as far out as 2^14 px, where every image has ended. */

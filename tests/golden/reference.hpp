@@ -140,7 +140,7 @@ struct Support {
     Real squares = 0, gradient = 0;
     int points = 0;
     std::array<Real, 5> pull = {}; /* by edges of the other sense nearby: harmonics, in semi-axes */
-    uint32_t bright = 0; /* bit set of the bins that are brighter inside */
+    uint32_t bright = 0;           /* bit set of the bins that are brighter inside */
     int covered = 0;
 };
 /* Count a point; add it to the sums when its polarity is that of its bin. */

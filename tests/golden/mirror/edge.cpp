@@ -24,7 +24,10 @@ struct Sums {
     int rays = 0;
 };
 
-Real along(const drogue_ray &r, const Offset &v) { return r.nx_q14 / 16384.0L * v[0] + r.ny_q14 / 16384.0L * v[1] + v[2]; }
+Real along(const drogue_ray &r, const Offset &v)
+{
+    return r.nx_q14 / 16384.0L * v[0] + r.ny_q14 / 16384.0L * v[1] + v[2];
+}
 
 /* The edge that an offset is about; NULL when there is none. */
 const drogue_ray_edge *chosen(const drogue_ray &r, Real at, Real within)
@@ -276,6 +279,14 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     out.x = real(at.xc_px_q16) + v[0];
     out.y = real(at.yc_px_q16) + v[1];
     out.grown = real(whole(first[2])) + v[2] + 0.45L;
+    const auto away = [&](const drogue_ellipse &e) {
+        return std::hypot(out.x - real(e.xc_px_q16), out.y - real(e.yc_px_q16));
+    };
+    const drogue_ellipse &reached = expected.disc[out.which], &other = expected.disc[1 - out.which];
+    if (expected.count == 2 && away(other) < away(reached)) {
+        out.which = 1 - out.which;
+        out.grown += real(reached.a_px_q16) - real(other.a_px_q16);
+    }
     out.rays = (s.rays + phases / 2) / phases;
     return out;
 }

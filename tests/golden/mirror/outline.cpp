@@ -425,15 +425,16 @@ Real moved(Real half, Real blur)
 void find_pull(Outline &o, const FrontEnd &front, const drogue_config &config, const Follow &follow)
 {
     struct Side {
-        Real off = 0, form = 0, gradient = 0;
-        int count = 0;
+        Real px = 0, off = 0, gradient = 0;
+        int points = 0;
     };
+    enum { inside, outside, mine };
     const Real optics = real(config.optics_blur_px_q16);
     const Real blur = std::sqrt(optics * optics + (config.smooth ? 363 : 107) / 256.0L);
     const Real width = std::min<Real>(8, blur * 4);
     Support &s = o.support;
     decisions_round library = {};
-    std::array<std::array<Side, 2>, reference::SUPPORT_BINS> sides;
+    std::array<std::array<Side, 3>, reference::SUPPORT_BINS> sides;
     s.pull = {};
     if (s.points == 0) {
         return;
@@ -442,32 +443,39 @@ void find_pull(Outline &o, const FrontEnd &front, const drogue_config &config, c
         library.ellipse = follow.library->fitted;
         library.band = drogue_band_of(reference::q16(width), config.refit_cos_q16);
     }
-    const std::vector<BandPoint> points = collect(o.fitted, {width, real(config.refit_cos_q16)}, front,
-                                                  follow.library != nullptr ? &library : nullptr);
-    for (size_t i = 0; i < points.size(); i++) {
+    const std::vector<BandPoint> points =
+        collect(o.fitted, {width, real(config.refit_cos_q16)}, front, follow.library != nullptr ? &library : nullptr);
+    const size_t stride = points.size() / 1024 + 1;
+    for (size_t i = 0; i < points.size(); i += stride) {
         const BandPoint &p = points[i];
-        const Real off = p.past_width + width;
-        if (p.held && static_cast<int>(s.bright >> p.bin & 1) != p.polarity && off >= blur * 14 / 8) {
-            Side &side = sides[static_cast<size_t>(p.bin)][p.f > 0];
+        if (!p.held || p.f == 0) {
+            continue;
+        }
+        const bool own = static_cast<int>(s.bright >> p.bin & 1) == p.polarity;
+        const Real r = std::sqrt(1 + p.f), off = std::fabs(1 - r);
+        const Real px = off * r * 2 * (p.past_width + width) / std::fabs(p.f); /* |f| / 2n is the distance in px */
+        Side &side = sides[static_cast<size_t>(p.bin)][own ? mine : p.f > 0 ? outside : inside];
+        if (own != (px >= blur * 14 / 8)) {
+            side.px += px;
             side.off += off;
-            side.form += std::fabs(p.f);
             side.gradient += std::fabs(front.edges[i].gx) + std::fabs(front.edges[i].gy);
-            side.count++;
+            side.points++;
         }
     }
     for (int k = 0; k < reference::SUPPORT_BINS; k++) {
-        const int own = s.count[static_cast<size_t>(k)][s.bright >> k & 1];
+        const auto &at = sides[static_cast<size_t>(k)];
+        const Side &own = at[mine];
         const auto push = [&](const Side &side) {
-            if (side.count == 0) {
+            if (side.points == 0 || own.points == 0) {
                 return Real(0);
             }
-            const Real ratio = std::min<Real>(1.5, side.gradient / side.count / (s.gradient / s.points));
-            return moved(side.off / side.count / 2, blur) * ratio * std::min(side.count, own) / own * side.form / 2 /
-                   side.off;
+            const Real ratio = std::min<Real>(1.5, side.gradient / side.points / (own.gradient / own.points));
+            const Real share = static_cast<Real>(std::min(side.points, own.points)) / own.points;
+            return moved(side.px / side.points / 2, blur) * ratio * share * side.off / side.px;
         };
-        if (own > 0) {
-            const auto &at = sides[static_cast<size_t>(k)];
-            const Real by = push(at[0]) - push(at[1]), t = (k + 0.5L) * 2 * std::acos(Real(-1)) / reference::SUPPORT_BINS;
+        {
+            const Real by = push(at[inside]) - push(at[outside]),
+                       t = (k + 0.5L) * 2 * std::acos(Real(-1)) / reference::SUPPORT_BINS;
             const Real basis[5] = {0.5L, std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)};
             for (size_t i = 0; i < 5; i++) {
                 s.pull[i] += by * basis[i] / (reference::SUPPORT_BINS / 2);

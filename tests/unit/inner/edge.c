@@ -125,6 +125,45 @@ START_TEST(what_touches_it_costs_rays_alone)
 }
 END_TEST
 
+/* A black disc within a grey ring that light does not reach and a canopy that is lit from one side, blurred. */
+static void draw_ringed(double xc, double yc, double ring_px, double light, double glare)
+{
+    int x, y, i, j;
+    for (y = 0; y < SIDE; y++) {
+        for (x = 0; x < SIDE; x++) {
+            double sum = 0, weights = 0;
+            for (i = -12; i <= 12; i++) {
+                for (j = -12; j <= 12; j++) { /* a quarter of a pixel apart */
+                    const double u = x + i / 4.0 - xc, v = y + j / 4.0 - yc, r = hypot(u, v);
+                    const double weight = exp(-(i * i + j * j) / 16.0 / (2 * 0.8 * 0.8));
+                    const double grey = r < 12 ? 14 : r < 12 + ring_px ? 110 : 170 + light * u / r;
+                    sum += weight * grey;
+                    weights += weight;
+                }
+            }
+            pixels[y * SIDE + x] = (uint8_t)lround(fmin(255, sum / weights + glare * (x - xc + 12)));
+        }
+    }
+}
+
+START_TEST(neither_light_nor_a_ring_moves_it)
+{
+    const double rings[3] = {1.2, 2, 3};
+    const drogue_ellipse disc = circle(100, 100, 12);
+    drogue_inner_edge e;
+    int k;
+    for (k = 0; k < 3; k++) {
+        draw_ringed(100.3, 99.8, rings[k], 40, 0);
+        ck_assert_int_eq(find(&e, &disc, 1), DROGUE_OK);
+        MUST(hypot(real_of_q16(e.x_px_q16) - 100.3, real_of_q16(e.y_px_q16) - 99.8) < 0.05, "ring of %g px: off by %g",
+             rings[k], hypot(real_of_q16(e.x_px_q16) - 100.3, real_of_q16(e.y_px_q16) - 99.8));
+    }
+    draw_ringed(100.3, 99.8, 2, 0, 1.5); /* light over the disc, too */
+    ck_assert_int_eq(find(&e, &disc, 1), DROGUE_OK);
+    ck_assert(hypot(real_of_q16(e.x_px_q16) - 100.3, real_of_q16(e.y_px_q16) - 99.8) < 0.1);
+}
+END_TEST
+
 START_TEST(nothing_there)
 {
     const drogue_ellipse disc = circle(100, 100, 24);
@@ -181,4 +220,4 @@ START_TEST(noise_of_an_image)
 END_TEST
 
 SUITE_MAIN("edge", place_and_size, noise_shows_in_the_standard_deviation, what_touches_it_costs_rays_alone,
-           nothing_there, rays_meet_the_edge, noise_of_an_image)
+           neither_light_nor_a_ring_moves_it, nothing_there, rays_meet_the_edge, noise_of_an_image)
