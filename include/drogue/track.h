@@ -42,18 +42,19 @@ const char *drogue_track_state_name(drogue_track_state state);
 
 /* Thresholds of tracking; drogue_track_config_default() fills in the defaults given here. */
 typedef struct drogue_track_config {
-    uint32_t max_missed;          /* 10 frames: after more in a row, missed or refused, the track is lost */
-    uint32_t agree_frames;        /* 4: so many refused measurements that agree are believed, frames without one between
+    uint32_t max_missed;        /* 10 frames: after more in a row, missed or refused, the track is lost */
+    uint32_t agree_frames;      /* 4: so many refused measurements that agree are believed, frames without one between
                                         them not counted; at least 1 */
-    uint32_t reconsider_frames;   /* 50 frames: after so many in a row whose inner part, known to the model, does not
+    uint32_t reconsider_frames; /* 50 frames: after so many in a row whose inner part, known to the model, does not
                                    decide, drogue_track_frame() searches the whole frame for one that does; 0: never */
-    drogue_q16 gate_q16;          /* 20.515: chi-square of 5 degrees of freedom at 0.1 % */
-    drogue_q16 position_gate_q16; /* 16.266: the same of 3, where the angles are not compared */
-    drogue_q16 region_scale_q16;  /* 2.5: side of the next region in predicted major semi-axes */
-    drogue_q16 region_sigmas_q16; /* 3: standard deviations that region and search allow for */
-    int32_t min_region_px;        /* 32 px */
-    int32_t max_region_px;        /* DROGUE_MAX_SIDE; what the workspace holds */
-    drogue_q16 lateral_std_q16;   /* 0.0005: standard deviation of x and y, share of the distance; this and the */
+    drogue_q16 min_reliability_q16; /* 0, [0, 1]: a measurement of less reliability counts as missed */
+    drogue_q16 gate_q16;            /* 20.515: chi-square of 5 degrees of freedom at 0.1 % */
+    drogue_q16 position_gate_q16;   /* 16.266: the same of 3, where the angles are not compared */
+    drogue_q16 region_scale_q16;    /* 2.5: side of the next region in predicted major semi-axes */
+    drogue_q16 region_sigmas_q16;   /* 3: standard deviations that region and search allow for */
+    int32_t min_region_px;          /* 32 px */
+    int32_t max_region_px;          /* DROGUE_MAX_SIDE; what the workspace holds */
+    drogue_q16 lateral_std_q16;     /* 0.0005: standard deviation of x and y, share of the distance; this and the */
     drogue_q16 depth_std_q16;     /* 0.002: of z, share of the distance; next two where a result has no covariance; the
                                      gate allows for it, too */
     drogue_q16 angle_std_rad_q16; /* 0.02 rad: of pitch and yaw */
@@ -76,7 +77,7 @@ typedef struct drogue_track_config {
 /* Fill in the defaults given above. */
 void drogue_track_config_default(drogue_track_config *config);
 
-/* 1 when agree_frames and region_scale_q16 are above 0, process_step is at least 1, lasting_share at most 1, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and
+/* 1 when agree_frames and region_scale_q16 are above 0, process_step is at least 1, lasting_share and min_reliability at most 1, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and
  * nothing else is negative. */
 int drogue_track_config_valid(const drogue_track_config *config);
 
