@@ -23,7 +23,7 @@ matrix_packages=("${matrix_ci_packages[@]}" gcc-aarch64-linux-gnu libc6-dev-arm6
     libc6-dev-armhf-cross gcc-riscv64-linux-gnu libc6-dev-riscv64-cross)
 test_packages=("${matrix_ci_packages[@]}" "${packaging_packages[@]}" "${python_packages[@]}" "${dpi_packages[@]}" "${site_packages[@]}"
     libopencv-contrib-dev gnuplot-nox clang-format-14 valgrind gcc-arm-linux-gnueabihf libc6-dev-armhf-cross
-    python3-jsonschema llvm tcl libclang-rt-dev zlib1g-dev)
+    python3-jsonschema man-db llvm tcl libclang-rt-dev zlib1g-dev)
 
 most_s=900 # to wait for another apt-get
 
