@@ -14,7 +14,7 @@ packaging_packages=(python3 python3-venv python3-kconfiglib python3-lxml)
 site_packages=(doxygen python3)
 dpi_packages=(g++ make python3 verilator)
 python_packages=(g++ python3-dev python3-venv iverilog chromium)
-study_packages=("${accuracy_packages[@]}" libopencv-contrib-dev gnuplot-nox)
+study_packages=("${accuracy_packages[@]}" libopencv-contrib-dev gnuplot-nox libapriltag-dev)
 # gcc-multilib proper conflicts with every cross compiler; the one of the compiler's version does not
 multilib() { echo "gcc-$(gcc -dumpversion 2>/dev/null || echo 12)-multilib"; }
 matrix_ci_packages=("${accuracy_packages[@]}" binutils clang "$(multilib)" gcc-s390x-linux-gnu libc6-dev-s390x-cross
@@ -22,7 +22,7 @@ matrix_ci_packages=("${accuracy_packages[@]}" binutils clang "$(multilib)" gcc-s
 matrix_packages=("${matrix_ci_packages[@]}" gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-arm-linux-gnueabihf
     libc6-dev-armhf-cross gcc-riscv64-linux-gnu libc6-dev-riscv64-cross)
 test_packages=("${matrix_ci_packages[@]}" "${packaging_packages[@]}" "${python_packages[@]}" "${dpi_packages[@]}" "${site_packages[@]}"
-    libopencv-contrib-dev gnuplot-nox clang-format-14 valgrind gcc-arm-linux-gnueabihf libc6-dev-armhf-cross
+    libopencv-contrib-dev libapriltag-dev gnuplot-nox clang-format-14 valgrind gcc-arm-linux-gnueabihf libc6-dev-armhf-cross
     python3-jsonschema man-db llvm tcl libclang-rt-dev zlib1g-dev)
 
 most_s=900 # to wait for another apt-get
