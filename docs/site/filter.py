@@ -4,7 +4,8 @@
 
 A header's comment describes what begins on the line after it, or what stands before it on its line. In the list of a function's
 comment a name is a parameter's, with or without its unit and format ('x' for x_px_q16), 'return', or one of TOPICS; any
-other is written as a warning of Doxygen's, which is an error. A page's links to files that are no pages become their names.
+other makes Doxygen warn, which is an error, and so does a status whose errors the comment does not name. A page's links to files
+that are no pages become their names.
 usage: filter.py FILE, from the top folder
 """
 import os
@@ -64,6 +65,9 @@ def comment(lines, code):
             text = ' *' + (' @endcode' if closes else '') + escaped(body[2:])
             example = example and not closes
         out.append(text.rstrip() + (' @endcode' if last and example else '') + (' */' if last else ''))
+    status = re.match(r'(?:static inline )?drogue_status\s+(\w+)', code)
+    if status and not re.search(r'\breturn\b|DROGUE_E_', ' '.join(lines)):
+        out[-1] = out[-1][:-2] + f'@ref errors_of_{status.group(1)} */'  # nowhere: Doxygen says so
     return out
 
 
@@ -136,7 +140,12 @@ def page(text, name):
             return f'@ref {to}'  # nowhere: Doxygen says so
         return text if to == text.strip('`') else f'{text} (`{to}`)'
 
-    out, code = [], False
+    def emphasis(_):
+        nonlocal bold
+        bold = not bold
+        return '<b>' if bold else '</b>'
+
+    out, code, bold = [], False, False
     for line in text.split('\n'):
         code ^= line.startswith('```')
         heading = re.match(r'(#+) (.*)$', line)
@@ -146,7 +155,8 @@ def page(text, name):
             label = known[name] + ('' if len(heading.group(1)) == 1 else '-' + slug(heading.group(2)))
             out.append(f'{line} {{#{label}}}')
         else:
-            out.append(re.sub(r'(?<!!)\[([^]]+)\]\(([^)]+)\)', link, line))
+            line = re.sub(r'(?<!!)\[([^]]+)\]\(([^)]+)\)', link, line)
+            out.append(re.sub(r'\*\*', emphasis, line))  # Doxygen's own ends with the line
     return '\n'.join(out)
 
 
