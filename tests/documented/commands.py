@@ -110,6 +110,7 @@ def run():
         # nothing outside the folder is written; a film of the demo's picture in place of flight.mp4
         stand_in(work / 'tools/sudo', 'exec "$@"\n')
         stand_in(work / 'tools/ffmpeg', f'exec /usr/bin/python3 {ROOT}/tests/documented/film.py "$@"\n')
+        (work / 'home/.gitconfig').write_text('[safe]\n\tdirectory = *\n')  # whoever owns the tree here
         subprocess.run(['/usr/bin/python3', '-m', 'venv', work / 'venv'], check=True)
         build = work / 'here/drogue/build/release/src/cli'
         path = f'{work}/tools:{work}/venv/bin:{build}:{os.environ["PATH"]}'
