@@ -72,6 +72,7 @@ typedef struct drogue_config {
     drogue_q16 min_chi2_gap_q16;        /* 9: the orientation is resolved when the other pose is worse by so much */
 } drogue_config;
 
+/* Fill in the defaults given above. */
 void drogue_config_default(drogue_config *config);
 
 /* 1 when every threshold is within its range: counts and lengths not negative, fit_error to 1024 px, low <= high, shares of a
@@ -81,9 +82,9 @@ int drogue_config_valid(const drogue_config *config);
 
 /* What stays the same from frame to frame, made once and passed from stage to stage. */
 typedef struct drogue_setup {
-    const drogue_camera *camera;
-    const drogue_model *model;
-    const drogue_config *config;
+    const drogue_camera *camera; /* whose images these are */
+    const drogue_model *model;   /* of the drogue looked for */
+    const drogue_config *config; /* thresholds */
 } drogue_setup;
 
 #ifdef __cplusplus

@@ -14,9 +14,9 @@ extern "C" {
 
 typedef int32_t drogue_q16; /* value * 2^16, range [-32768, 32768) */
 
-#define DROGUE_Q16_ONE 65536
-#define DROGUE_Q16_MAX INT32_MAX
-#define DROGUE_Q16_MIN INT32_MIN
+#define DROGUE_Q16_ONE 65536      /* 1.0 */
+#define DROGUE_Q16_MAX INT32_MAX  /* what overflow saturates to */
+#define DROGUE_Q16_MIN INT32_MIN  /* the same below 0 */
 #define DROGUE_Q16_PI 205887      /* pi, rad Q16 */
 #define DROGUE_Q16_HALF_PI 102944 /* pi / 2, rad Q16 */
 
@@ -63,7 +63,7 @@ int drogue_clz_u64(uint64_t v);
 /* 2^62 / d for 2^30 <= d < 2^31, from below, to 2^-29 of it: one 32-bit division and two products. */
 uint32_t drogue_reciprocal_u32(uint32_t d);
 
-/* Saturated. */
+/* Whole number, sum, difference and rounded product as Q16; all saturate. */
 drogue_q16 drogue_q16_from_int(int32_t v);
 drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b);
 drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b);

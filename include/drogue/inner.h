@@ -26,8 +26,8 @@ uint8_t drogue_otsu(const uint32_t *histogram);
 
 /* The inner part as found in the image. In brackets what a result of drogue_measure() holds. */
 typedef struct drogue_inner_part {
-    drogue_q16 x_px_q16; /* centroid, region coordinates [centre of the edge, px of the whole image] */
-    drogue_q16 y_px_q16;
+    drogue_q16 x_px_q16;      /* centroid, region coordinates [centre of the edge, px of the whole image] */
+    drogue_q16 y_px_q16;      /* downward */
     uint32_t area_px;         /* pixels; drogue_inner_find(): sum of darkness [of the ellipse] */
     drogue_q16 spread_px_q16; /* drogue_inner_find(): between the centroids at a lower and a higher threshold [root mean
                                  square of the rays' residuals] */
@@ -88,8 +88,8 @@ typedef char drogue_assume_rays_fit[DROGUE_RAYS * sizeof(drogue_ray) <= DROGUE_S
 
 /* The inner disc as its own edge shows it. */
 typedef struct drogue_inner_edge {
-    drogue_q16 x_px_q16; /* centre, region coordinates */
-    drogue_q16 y_px_q16;
+    drogue_q16 x_px_q16;     /* centre, region coordinates */
+    drogue_q16 y_px_q16;     /* downward */
     drogue_q16 grown_px_q16; /* by how much its semi-axes are larger than expected */
     drogue_q16 std_px_q16;   /* standard deviation of either coordinate, from the rays' residuals */
     drogue_q16 rms_px_q16;   /* of the residuals */

@@ -23,13 +23,14 @@ typedef struct drogue_joint_outline {
 
 /* The inner part as a measurement. */
 typedef struct drogue_joint_inner {
-    drogue_q16 x_px_q16; /* centroid of the inner disc, undistorted, px of the whole image */
-    drogue_q16 y_px_q16;
+    drogue_q16 x_px_q16;   /* centroid of the inner disc, undistorted, px of the whole image */
+    drogue_q16 y_px_q16;   /* downward */
     drogue_q16 std_px_q16; /* of either coordinate; 0: there is none */
 } drogue_joint_inner;
 
+/* Pose from outline and inner part. */
 typedef struct drogue_joint {
-    drogue_pose pose;
+    drogue_pose pose;                          /* that both agree with best */
     drogue_real covariance[DROGUE_PACKED_MAX]; /* of x, y, z (m), yaw, pitch (rad), packed */
     drogue_real chi2;                          /* squared residuals over their variances: 2 degrees of freedom */
 } drogue_joint;

@@ -18,6 +18,7 @@ extern "C" {
 typedef char
     drogue_assume_candidates_fit[DROGUE_MAX_CANDIDATES * sizeof(drogue_candidate) <= DROGUE_SCRATCH_BYTES ? 1 : -1];
 
+/* The outline of the end plane and what speaks for it. */
 typedef struct drogue_outline {
     drogue_ellipse ellipse;   /* region coordinates, as seen, what blur took put back */
     drogue_ellipse fitted;    /* the same before the blur was put back: what edge points lie about */

@@ -11,17 +11,17 @@ extern "C" {
 
 /* The ellipse in the form that points are tested with; c, s are cosine and sine of its angle. */
 typedef struct drogue_ellipse_frame {
-    drogue_q16 xc_px_q16;
-    drogue_q16 yc_px_q16;
-    drogue_q16 b_px_q16;
+    drogue_q16 xc_px_q16;   /* centre */
+    drogue_q16 yc_px_q16;   /* centre, downward */
+    drogue_q16 b_px_q16;    /* semi-minor axis */
     int32_t cos_over_a_q30; /* 1/px */
-    int32_t sin_over_a_q30;
-    int32_t cos_over_b_q30;
-    int32_t sin_over_b_q30;
-    int32_t cos_q14;
-    int32_t sin_q14;
-    int32_t cos_ratio_q14; /* c * b / a */
-    int32_t sin_ratio_q14; /* s * b / a */
+    int32_t sin_over_a_q30; /* 1/px */
+    int32_t cos_over_b_q30; /* 1/px */
+    int32_t sin_over_b_q30; /* 1/px */
+    int32_t cos_q14;        /* c */
+    int32_t sin_q14;        /* s */
+    int32_t cos_ratio_q14;  /* c * b / a */
+    int32_t sin_ratio_q14;  /* s * b / a */
 } drogue_ellipse_frame;
 
 /* Prepare an ellipse for point tests.
@@ -49,8 +49,8 @@ drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16);
 
 /* An edge point in an ellipse's frame. */
 typedef struct drogue_band_point {
-    int32_t u_q24;
-    int32_t v_q24;
+    int32_t u_q24;            /* along the major axis, in semi-axes */
+    int32_t v_q24;            /* along the minor axis, in semi-axes */
     int32_t f_q24;            /* u^2 + v^2 - 1 */
     drogue_polarity polarity; /* DARK: the gradient points outward; BRIGHT: inward */
 } drogue_band_point;
@@ -69,6 +69,7 @@ drogue_q16 drogue_ellipse_circumference(const drogue_ellipse *ellipse);
 /* Points over circumference (12), Q16, at most 1. A whole outline of 8-connected pixels gives about 0.9. */
 drogue_q16 drogue_length_ratio(uint32_t points, const drogue_ellipse *ellipse);
 
+/* Scores of a fit. */
 typedef struct drogue_quality {
     drogue_q16 fit_ratio_q16;    /* phi (11), [0, 1] */
     drogue_q16 length_ratio_q16; /* l_r (12), clamped to [0, 1] */

@@ -19,16 +19,17 @@ typedef struct drogue_ray_edge {
     int32_t level_q8;     /* grey on it */
 } drogue_ray_edge;
 
-#define DROGUE_RAY_WEIGHT 12
+#define DROGUE_RAY_WEIGHT 12 /* a slope over the step of grey that it stands for */
 
+/* A ray and the edges on it. */
 typedef struct drogue_ray {
-    drogue_q16 x_px_q16; /* on the ellipse */
-    drogue_q16 y_px_q16;
-    int32_t nx_q14; /* outward normal */
-    int32_t ny_q14;
-    drogue_q16 step_px_q16; /* between samples */
-    drogue_ray_edge edges[DROGUE_RAY_EDGES];
-    uint32_t count;
+    drogue_q16 x_px_q16;                     /* on the ellipse */
+    drogue_q16 y_px_q16;                     /* downward */
+    int32_t nx_q14;                          /* outward normal */
+    int32_t ny_q14;                          /* downward */
+    drogue_q16 step_px_q16;                  /* between samples */
+    drogue_ray_edge edges[DROGUE_RAY_EDGES]; /* in the order of the ray */
+    uint32_t count;                          /* of edges */
 } drogue_ray;
 
 /* Place rays, half a pixel between their samples, without edges.

@@ -19,11 +19,12 @@ typedef struct drogue_support_bin {
     int32_t sum_q16;   /* of (u^2 + v^2 - 1) / 2 over those of the bin's own polarity: radial offsets in semi-axes */
 } drogue_support_bin;
 
+/* The edge points about an ellipse, by bins. */
 typedef struct drogue_support {
-    drogue_support_bin bin[DROGUE_SUPPORT_BINS];
-    int64_t squares_q32;  /* of the same offsets, over all bins */
-    uint64_t gradient;    /* sum of |gx| + |gy| over them, grey levels * 8 */
-    uint32_t points;      /* in these sums */
+    drogue_support_bin bin[DROGUE_SUPPORT_BINS]; /* round the outline */
+    int64_t squares_q32;                         /* of the same offsets, over all bins */
+    uint64_t gradient;                           /* sum of |gx| + |gy| over them, grey levels * 8 */
+    uint32_t points;                             /* in these sums */
     uint32_t bright_bins; /* bit k: bin k is brighter inside; all 0 or all 1 for an outline of one polarity */
     int32_t
         pull_q24[5];  /* by how much opposite edges nearby moved the outline: coefficients of 1, cos t, sin t, cos 2t,
