@@ -4,7 +4,7 @@
 
 #include "../../../src/outline/collection.h"
 
-enum { ROUND = 400 };
+enum { ROUND = 800 }; /* points round the outline, more than are looked at; each with its opposite one beside it */
 
 static drogue_edge edges[2 * ROUND];
 
