@@ -94,17 +94,18 @@ int stage_search(stage_run *r)
     for (y = 0; out[0] == (int32_t)DROGUE_OK && y < image.height_px; y++) {
         drogue_search_row(&search, drogue_image_row(&image, y));
     }
-    if (out[0] == (int32_t)DROGUE_OK) {
-        out[1] = drogue_search_end(&search);
+    if (out[0] != (int32_t)DROGUE_OK) {
+        return 0;
     }
+    out[1] = drogue_search_end(&search);
     out += 2;
-    for (i = 0; i < out[-1]; i++, out += 7) {
+    for (i = 0; i < search.count; i++) {
         const drogue_sighting *c = &search.best[i];
         out[0] = c->x_px;
         out[1] = c->y_px;
         out[2] = c->radius_px;
         out[3] = (int32_t)c->score;
-        out = put_region(out + 4, &c->region) - 7;
+        out = put_region(out + 4, &c->region);
     }
     return 0;
 }
@@ -166,8 +167,9 @@ int stage_decide(stage_run *r)
     config.max_chi2_q16 = p[25];
     config.min_chi2_gap_q16 = p[26];
     if (!drogue_config_valid(&config) || !stage_support_of_words(&support, stage_input32(r, 2), p[27]) || p[22] < 0 ||
-        camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 || p[0] <= 0 || p[1] < 0 || !stage_angle_valid(&evidence.ideal) ||
-        evidence.ideal.b_px_q16 < DROGUE_Q16_ONE || evidence.ideal.a_px_q16 < evidence.ideal.b_px_q16) {
+        camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 || p[0] <= 0 || p[1] < 0 ||
+        !stage_angle_valid(&evidence.ideal) || evidence.ideal.b_px_q16 < DROGUE_Q16_ONE ||
+        evidence.ideal.a_px_q16 < evidence.ideal.b_px_q16) {
         return CONF_E_MALFORMED;
     }
     out[0] = (int32_t)drogue_decide(&decision, &evidence, &(drogue_setup){&camera, &model, &config});
@@ -314,11 +316,12 @@ int stage_track(stage_run *r)
     const drogue_camera camera = stage_camera(s);
     const drogue_model model = model_of(s + 9);
     const drogue_region first = region_of(s + 12);
-    int32_t *out = stage_output32(r, "states", 1 + 18 * count);
+    int32_t *out = stage_output32(r, "states", 19 * count);
     int32_t *estimate = stage_output32(r, "estimates", 12 * count);
     int64_t *std = (int64_t *)stage_output(r, "std", 64, 6 * count);
     drogue_track_config config;
     drogue_track track;
+    drogue_status status;
     size_t i;
     if (out == NULL || estimate == NULL || std == NULL) {
         return CONF_E_MEMORY;
@@ -327,9 +330,12 @@ int stage_track(stage_run *r)
         return CONF_E_MALFORMED;
     }
     read_track_config(&config, stage_input32(r, 1));
-    *out++ = (int32_t)drogue_track_init(&track, &config, &camera, &model, first.width_px > 0 ? &first : NULL);
     memset(std, 0, 6 * count * sizeof *std);
-    for (i = 0; out[-1] != (int32_t)DROGUE_E_ARGUMENT && i < count; i++, frame += 16, covariance += 15) {
+    status = drogue_track_init(&track, &config, &camera, &model, first.width_px > 0 ? &first : NULL);
+    for (i = 0; status != DROGUE_OK && i < count; i++) {
+        out[19 * i] = (int32_t)status;
+    }
+    for (i = 0; status == DROGUE_OK && i < count; i++, frame += 16, covariance += 15) {
         drogue_region region;
         drogue_result result;
         drogue_track_estimate e;
@@ -338,6 +344,7 @@ int stage_track(stage_run *r)
         }
         read_result(&result, frame, covariance);
         drogue_track_begin(&region, &track, (uint32_t)frame[0]);
+        *out++ = (int32_t)status;
         out = put_region(out, &region);
         *out++ = track.search;
         out = put_region(out, &track.reach);

@@ -54,8 +54,9 @@ struct Ask {
 
 void add_ask(Set &set, const std::string &name, Tier tier, const Flags &flags, const Picture &p, const Ask &a)
 {
-    set.add(name, tier, flags,
-            inputs_of(p, {a.part, a.region[0], a.region[1], a.region[2], a.region[3], a.search, a.workspace, a.contrast}));
+    set.add(
+        name, tier, flags,
+        inputs_of(p, {a.part, a.region[0], a.region[1], a.region[2], a.region[3], a.search, a.workspace, a.contrast}));
 }
 
 } // namespace
@@ -82,24 +83,26 @@ void add_acquire(Set &set)
                                                                        {"no-width", {0, 0, 0, 64}},
                                                                        {"negative", {0, 0, 64, -1}},
                                                                        {"to-the-border", {-64, 0, 64, 64}},
-                                                                       {"beside", {150, 0, 64, 64}}};
+                                                                       {"beside", {64, 0, 64, 64}}};
+    Picture blank;
+    blank.image = constant(64, 64, 210);
     for (const auto &[name, region] : hostile) {
         ask.region = region;
-        add_ask(set, std::string("region-") + name, Tier::must_reject, {"argument", "saturation"}, p, ask);
+        add_ask(set, std::string("region-") + name, Tier::must_reject, {"argument", "saturation"}, blank, ask);
     }
     ask.region = {low, low, high, high};
-    add_ask(set, "region-largest", Tier::must_reject, {"saturation"}, p, ask);
+    add_ask(set, "region-largest", Tier::must_reject, {"saturation"}, blank, ask);
     ask.region = {-1000000, -1000000, 2000000, 2000000};
     add_ask(set, "region-all", Tier::boundary, {"saturation"}, p, ask);
     ask = Ask();
-    ask.search = 149;
-    add_ask(set, "search-too-narrow", Tier::must_reject, {"table-full"}, p, ask);
+    ask.search = 63;
+    add_ask(set, "search-too-narrow", Tier::must_reject, {"table-full"}, blank, ask);
     ask.search = 150;
     ask.workspace = 60;
     add_ask(set, "workspace-too-narrow", Tier::must_reject, {"table-full"}, p, ask);
     ask = Ask();
     ask.contrast = 256;
-    add_ask(set, "contrast-too-large", Tier::must_reject, {"argument"}, p, ask);
+    add_ask(set, "contrast-too-large", Tier::must_reject, {"argument"}, blank, ask);
     ask.contrast = 255; /* nothing is sighted: the image itself is measured, the drogue not in its middle */
     add_ask(set, "nothing-sighted", Tier::stress, {}, p, ask);
     ask = Ask();
@@ -153,11 +156,11 @@ void add_look(Set &set)
     Picture p;
     p.camera = {400, 400, 63.5, 63.5};
     p.inner_radius = 0;
-    p.image = image_from(128, 128, [](int x, int y) {
-        return (x - 76) * (x - 76) + (y - 60) * (y - 60) <= 40 * 40 ? 60 : 200;
-    });
+    p.image = image_from(128, 128,
+                         [](int x, int y) { return (x - 76) * (x - 76) + (y - 60) * (y - 60) <= 40 * 40 ? 60 : 200; });
     Look l = {{0, 0, 128, 128}};
-    for (const int edges : {100, 140, 180, 220, 260, 280, 400}) { /* the list fills in the first look, in the second, never */
+    for (const int edges :
+         {100, 140, 180, 220, 260, 280, 400}) { /* the list fills in the first look, in the second, never */
         l.edges = edges;
         add_one(set, "edges-" + std::to_string(edges), Tier::stress, {"table-full", "arc"}, p, l);
     }
@@ -177,7 +180,7 @@ void add_look(Set &set)
         add_one(set, "arcs-" + std::to_string(arcs), Tier::stress, {"table-full"}, p, l);
     }
     p = picture(71, 130, 120, 0.2, -0.1, 4.5, 0.2, -0.2);
-    const int x = 65 + 22, y = 60 - 11; /* where it is, about */
+    const int x = 65 + 22, y = 60 - 11;        /* where it is, about */
     for (const int off : {0, 6, 12, 18, 24}) { /* the region's middle beside it: the ring cuts the outline */
         l = {{x - 49 + off, y - 49, 97, 97}};
         add_one(set, "beside-" + std::to_string(off), Tier::ordinary, {"arc"}, p, l);

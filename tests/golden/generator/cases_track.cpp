@@ -52,8 +52,8 @@ struct Script {
                 const bool together = (i == 2 && j < 2) || (i == 4 && j == 3);
                 const double share = i == j ? 1 : together ? s.with_z : 0;
                 const double apart = s.resolved != 0 || s.std[0] == 0 ? 0 : s.off_twin[i] * s.off_twin[j] / 2;
-                covariance.push_back(static_cast<int64_t>(
-                    std::floor(std::ldexp(share * s.std[i] * s.std[j] + apart, 48) + 0.5)));
+                covariance.push_back(
+                    static_cast<int64_t>(std::floor(std::ldexp(share * s.std[i] * s.std[j] + apart, 48) + 0.5)));
             }
         }
     }
@@ -92,21 +92,10 @@ void add_script(Set &set, const std::string &name, Tier tier, const Flags &flags
     std::vector<int64_t> setup = s.camera;
     setup.insert(setup.end(), {q16(s.rim), q16(s.inner), q16(s.depth)});
     setup.insert(setup.end(), s.first.begin(), s.first.end());
-    std::vector<int64_t> config = {c.max_missed,
-                                   c.agree_frames,
-                                   c.reconsider_frames,
-                                   c.known_frames,
-                                   c.min_region_px,
-                                   c.max_region_px,
-                                   c.gate_q16,
-                                   c.position_gate_q16,
-                                   c.region_scale_q16,
-                                   c.region_sigmas_q16,
-                                   c.lateral_std_q16,
-                                   c.depth_std_q16,
-                                   c.angle_std_rad_q16,
-                                   c.position_floor_m_q16,
-                                   c.angle_floor_rad_q16};
+    std::vector<int64_t> config = {
+        c.max_missed,      c.agree_frames,  c.reconsider_frames, c.known_frames,         c.min_region_px,
+        c.max_region_px,   c.gate_q16,      c.position_gate_q16, c.region_scale_q16,     c.region_sigmas_q16,
+        c.lateral_std_q16, c.depth_std_q16, c.angle_std_rad_q16, c.position_floor_m_q16, c.angle_floor_rad_q16};
     config.insert(config.end(), c.process_std_q16, c.process_std_q16 + 5);
     config.insert(config.end(), {c.process_step_q16, c.lasting_share_q16, c.start_rate_std_q16, c.start_accel_std_q16});
     set.add(name, tier, flags,
@@ -120,28 +109,35 @@ void add_following(Set &set)
 {
     accuracy::Random random = set.random("following");
     Script s;
-    s.follow(random, 40, approach);
+    s.follow(random, 20, approach);
     add_script(set, "approach", Tier::ordinary, {}, s);
     s = Script();
     s.seen.with_z = 0.95;
-    s.follow(random, 30, approach, 1);
+    s.follow(random, 14, approach, 1);
     add_script(set, "errors-go-with-z", Tier::ordinary, {}, s);
     s = Script();
     s.seen.std = {0, 0, 0, 0, 0};
-    s.follow(random, 25, approach);
+    s.follow(random, 8, approach);
     add_script(set, "no-covariance", Tier::ordinary, {}, s);
     s = Script();
-    s.follow(random, 45, [](double t) { /* calm, then a gust */
-        return Five{t < 0.9 ? 0.2 : 0.2 + 2.5 * (t - 0.9) * (t - 0.9), 0.1, 6, t < 1 ? 0.1 : 0.1 + 0.4 * std::sin(9 * (t - 1)), 0};
+    s.follow(random, 34, [](double t) { /* calm, then a gust */
+                                        return Five{t < 0.6 ? 0.2 : 0.2 + 2.5 * (t - 0.6) * (t - 0.6), 0.1, 6,
+                                                    t < 0.7 ? 0.1 : 0.1 + 0.4 * std::sin(9 * (t - 0.7)), 0};
     });
     add_script(set, "gust", Tier::ordinary, {}, s);
     s = Script();
     s.seen.dt_us = 20000;
-    s.follow(random, 20, [](double t) { return Five{0, 0, 7, 3.08 + 0.3 * t, 0.1}; }, 0.2);
+    s.follow(
+        random, 14,
+        [](double t) {
+            return Five{0, 0, 7, 3.1 + 0.3 * t, 0.1};
+        },
+        0.2);
     add_script(set, "angle-wrap", Tier::boundary, {"angle-wrap"}, s);
     s = Script();
-    s.camera = {q16(1200), q16(1195), q16(1023.5), q16(1023.5), q16(-0.32), q16(0.12), q16(0.0008), q16(-0.0005), q16(-0.02)};
-    s.follow(random, 12, [](double t) { return Five{3 + t, 2 - t, 9, 0.1, 0.1}; });
+    s.camera = {q16(1200), q16(1195),   q16(1023.5),  q16(1023.5), q16(-0.32),
+                q16(0.12), q16(0.0008), q16(-0.0005), q16(-0.02)};
+    s.follow(random, 6, [](double t) { return Five{3 + t, 2 - t, 9, 0.1, 0.1}; });
     add_script(set, "lens", Tier::ordinary, {"barrel"}, s);
     s = Script();
     for (const int64_t dt : {40000, 1, 1000, 400000, 40000, 2000000, 40000, 15000000, 40000}) {
@@ -152,19 +148,19 @@ void add_following(Set &set)
     s = Script();
     s.inner = 0;
     s.seen.inner = s.seen.resolved = 0;
-    s.follow(random, 15, approach);
+    s.follow(random, 8, approach);
     add_script(set, "inner-unknown", Tier::ordinary, {"inner-missing"}, s);
     s = Script();
     for (const double share : {0.0, 1.0}) { /* of a measurement's variance that lasts */
         s.config.lasting_share_q16 = static_cast<int32_t>(q16(share));
         s.frames.clear();
         s.covariance.clear();
-        s.stay(8);
+        s.stay(4);
         add_script(set, share > 0 ? "all-lasts" : "nothing-lasts", Tier::boundary, {"threshold-met"}, s);
     }
     s = Script();
     s.config.process_step_q16 = static_cast<int32_t>(q16(1.37));
-    s.follow(random, 20, approach);
+    s.follow(random, 10, approach);
     add_script(set, "small-step", Tier::ordinary, {}, s);
     s = Script();
     s.seen.std = {0.00002, 0.00002, 0.00002, 0.00002, 0.00002}; /* below the floors */
@@ -194,7 +190,12 @@ void add_missing(Set &set)
     s.stay(2);
     add_script(set, "first-region", Tier::boundary, {"missed-frames"}, s);
     s = Script();
-    s.follow(random, 10, [](double t) { return Five{0, 0, 1.5 - 3.5 * t, 0, 0}; }, 0.1);
+    s.follow(
+        random, 10,
+        [](double t) {
+            return Five{0, 0, 1.5 - 3.5 * t, 0, 0};
+        },
+        0.1);
     s.miss(8); /* the prediction passes the camera */
     s.stay(2);
     add_script(set, "past-the-camera", Tier::stress, {"behind-camera", "missed-frames"}, s);
@@ -216,7 +217,9 @@ void add_missing(Set &set)
 void add_gates(Set &set)
 {
     accuracy::Random random = set.random("gates");
-    const auto steady = [&random](Script &s, int count = 12) { s.follow(random, count, [](double) { return Five{0.5, -0.3, 9, 0.2, -0.15}; }); };
+    const auto steady = [&random](Script &s, int count = 6) {
+        s.follow(random, count, [](double) { return Five{0.5, -0.3, 9, 0.2, -0.15}; });
+    };
     const auto jump = [](Script &s, double x, double z) {
         s.seen.pose[0] += x;
         s.seen.pose[2] += z;
@@ -257,7 +260,7 @@ void add_gates(Set &set)
     steady(s);
     jump(s, 0.9, 0);
     s.seen.inner = s.seen.resolved = 0; /* without its inner part it opens no second filter */
-    s.stay(12);
+    s.stay(11);
     add_script(set, "jump-without-inner", Tier::stress, {"inner-missing"}, s);
     for (const double share : {0.04, 0.048, 0.052, 0.07}) { /* of the range: a twentieth is believed */
         s = Script();
@@ -268,7 +271,8 @@ void add_gates(Set &set)
         s.stay(1);
         s.seen.pose[2] = 9 * (1 - share);
         s.stay(1);
-        add_script(set, "range-off-" + std::to_string(static_cast<int>(share * 1000)), Tier::boundary, {"threshold-met"}, s);
+        add_script(set, "range-off-" + std::to_string(static_cast<int>(share * 1000)), Tier::boundary,
+                   {"threshold-met"}, s);
     }
     for (const int shown : {0, 1}) { /* what began with an inner part must show it again within five */
         s = Script();
@@ -279,7 +283,8 @@ void add_gates(Set &set)
         s.stay(1);
         s.seen.inner = 0;
         s.stay(4);
-        add_script(set, shown != 0 ? "trial-passed" : "trial-failed", Tier::boundary, {"inner-missing", "threshold-met"}, s);
+        add_script(set, shown != 0 ? "trial-passed" : "trial-failed", Tier::boundary,
+                   {"inner-missing", "threshold-met"}, s);
     }
     s = Script();
     s.config.agree_frames = 1;
@@ -323,12 +328,19 @@ void add_gates(Set &set)
 void add_twins(Set &set)
 {
     accuracy::Random random = set.random("twins");
-    const auto steady = [&random](Script &s, int count) { s.follow(random, count, [](double) { return Five{0.5, -0.3, 9, 0.2, -0.15}; }, 0.3); };
+    const auto steady = [&random](Script &s, int count) {
+        s.follow(
+            random, count,
+            [](double) {
+                return Five{0.5, -0.3, 9, 0.2, -0.15};
+            },
+            0.3);
+    };
     const auto turn = [](Script &s) { /* the result has chosen the other pose */
-        for (size_t k = 0; k < 5; k++) {
-            s.seen.pose[k] += s.seen.off_twin[k];
-            s.seen.off_twin[k] = -s.seen.off_twin[k];
-        }
+                                      for (size_t k = 0; k < 5; k++) {
+                                          s.seen.pose[k] += s.seen.off_twin[k];
+                                          s.seen.off_twin[k] = -s.seen.off_twin[k];
+                                      }
     };
     Script s;
     steady(s, 8);
@@ -383,7 +395,8 @@ void add_twins(Set &set)
         steady(s, 6);
         s.seen.resolved = 0;
         s.stay(3);
-        add_script(set, "twin-at-" + std::to_string(static_cast<int>(1000 * apart)), Tier::boundary, {"twin-pose", "threshold-met"}, s);
+        add_script(set, "twin-at-" + std::to_string(static_cast<int>(1000 * apart)), Tier::boundary,
+                   {"twin-pose", "threshold-met"}, s);
     }
     s = Script();
     s.seen.with_z = 0.9; /* the twin's own angles are not known to go together, its position is */

@@ -55,6 +55,9 @@ drogue_status outline_in(Result &out, Frame &f, const Task &task, const std::arr
         return DROGUE_E_REGION;
     }
     drogue_capacity capacity = task.capacity;
+    if (static_cast<uint32_t>(out.region.width) > capacity.width_px) {
+        return DROGUE_E_WORKSPACE;
+    }
     capacity.width_px = static_cast<uint32_t>(out.region.width);
     f.view = task.image(out.region).clone();
     f.front = run_front_end(f.view, f.mask, task.config, capacity);

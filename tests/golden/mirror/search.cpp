@@ -108,7 +108,8 @@ bool fit(Rim &rim, const std::array<Taken, RAYS> &taken)
     if (det * n * n < 0x1p24) {
         return false;
     }
-    const double x = std::floor((xz * yy - yz * xy) / (2 * det) + 0.5), y = std::floor((yz * xx - xz * xy) / (2 * det) + 0.5);
+    const double x = std::floor((xz * yy - yz * xy) / (2 * det) + 0.5),
+                 y = std::floor((yz * xx - xz * xy) / (2 * det) + 0.5);
     if (std::max(std::fabs(x), std::fabs(y)) > 1024) {
         return false;
     }
@@ -190,7 +191,7 @@ constexpr Scale SCALES[] = {{2, 1, 1, 36}, {3, 1, 1, 51}, {4, 2, 2, 72}, {5, 2, 
 int contrast_at(const cv::Mat &m, int x, int y, const Scale &s, int least)
 {
     const auto cell = [&](int dx, int dy) -> int { return m.at<uint8_t>(y + dy, x + dx); };
-    std::array<int, 8> ring = {cell(-s.p, -s.q), cell(s.p, s.q), cell(s.q, -s.p), cell(-s.q, s.p),
+    std::array<int, 8> ring = {cell(-s.p, -s.q), cell(s.p, s.q),  cell(s.q, -s.p), cell(-s.q, s.p),
                                cell(-s.q, -s.p), cell(s.p, -s.q), cell(-s.p, s.q), cell(s.q, s.p)};
     if (std::count_if(ring.begin(), ring.begin() + 4, [&](int v) { return v - cell(0, 0) <= least; }) > 1) {
         return 0;
@@ -256,8 +257,8 @@ void keep(std::vector<Sighting> &best, const Sighting &s)
         best.push_back(s);
         return;
     }
-    Sighting &least =
-        *std::min_element(best.begin(), best.end(), [](const Sighting &a, const Sighting &b) { return a.score < b.score; });
+    Sighting &least = *std::min_element(best.begin(), best.end(),
+                                        [](const Sighting &a, const Sighting &b) { return a.score < b.score; });
     least = s.score > least.score ? s : least;
 }
 
@@ -283,7 +284,8 @@ std::vector<Sighting> sightings_in(const cv::Mat &image, int min_contrast)
             for (int x = 0; x < level.cols; x++) {
                 level.at<uint8_t>(y, x) = static_cast<uint8_t>(
                     (above.at<uint8_t>(2 * y, 2 * x) + above.at<uint8_t>(2 * y, 2 * x + 1) +
-                     above.at<uint8_t>(2 * y + 1, 2 * x) + above.at<uint8_t>(2 * y + 1, 2 * x + 1) + 2) / 4);
+                     above.at<uint8_t>(2 * y + 1, 2 * x) + above.at<uint8_t>(2 * y + 1, 2 * x + 1) + 2) /
+                    4);
             }
             const bool reach = y + DROGUE_SEARCH_REACH < level.rows;
             rows.emplace_back(reach ? static_cast<int64_t>(y + DROGUE_SEARCH_REACH + 1) << (k + 1) : INT32_MAX, k, y);
@@ -315,7 +317,13 @@ std::vector<Sighting> sightings_in(const cv::Mat &image, int min_contrast)
             }
         }
     }
-    std::stable_sort(best.begin(), best.end(), [](const Sighting &a, const Sighting &b) { return a.score > b.score; });
+    for (size_t i = 0; i < best.size(); i++) { /* by exchange: the order of equals is the library's */
+        for (size_t k = i + 1; k < best.size(); k++) {
+            if (best[k].score > best[i].score) {
+                std::swap(best[i], best[k]);
+            }
+        }
+    }
     return best;
 }
 

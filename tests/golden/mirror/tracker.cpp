@@ -230,7 +230,8 @@ Measured Tracker::read(const drogue_result &r, bool twin) const
             }
         }
         for (size_t p = 0; p < 5; p++) {
-            const Real floor = at_least_one(real(p < PITCH ? config_.position_floor_m_q16 : config_.angle_floor_rad_q16));
+            const Real floor =
+                at_least_one(real(p < PITCH ? config_.position_floor_m_q16 : config_.angle_floor_rad_q16));
             for (size_t q = 0; q < 5; q++) {
                 const bool known = p == q || !twin || std::max(p, q) <= Z;
                 m.noise[p][q] = known ? entry(p, q) - apart[p] * apart[q] / 2 : 0;
@@ -276,7 +277,8 @@ void Tracker::correct(Filter &f, const Measured &m) const
         Real at = m.value[p], std = m.std[p];
         if (p < Z) {
             const Real k = m.noise[Z][p] / zz;
-            const Real own = std::max(m.noise[p][p] - k * k * zz, squared(at_least_one(real(config_.position_floor_m_q16))));
+            const Real own =
+                std::max(m.noise[p][p] - k * k * zz, squared(at_least_one(real(config_.position_floor_m_q16))));
             at = rounded(at - k * left * (m.value[Z] - f.parameter[Z].state[0]));
             std = at_least_one(rounded(std::sqrt(own + k * k * variance * left)));
         }
