@@ -80,9 +80,11 @@ slot() {
     done
 }
 
+cc=(gcc)
+
 # compile INCLUDE SOURCE OBJECT [FLAG...]: with INCLUDE before the tree's own headers
 compile() {
-    gcc -O1 -std=c99 -fPIC -D_POSIX_C_SOURCE=200809L -I "$1" -I include -I tests/conformance -I tests/unit -I src/frontend \
+    "${cc[@]}" -O1 -std=c99 -fPIC -D_POSIX_C_SOURCE=200809L -I "$1" -I include -I tests/conformance -I tests/unit -I src/frontend \
         -I src/cli -MMD -c "$2" -o "$3" "${@:4}"
 }
 
@@ -106,17 +108,18 @@ program() {
     for object in "$work/$2"/*.o; do
         [ -e "$1/$2/${object##*/}" ] && objects+=("$1/$2/${object##*/}") || objects+=("$object")
     done
-    gcc "${objects[@]}" -o "$1/$3" -L "$1" -ldrogue "${@:4}"
+    gcc "${objects[@]}" -o "$1/$3" -L "$1" -L "$work" -ldrogue "${@:4}"
 }
 
 # unit_program DIR NAME: DIR/NAME of the unit test's object in DIR
-unit_program() { gcc "$1/unit/$2.o" -o "$1/unit/$2" -L "$1" -ldrogue "${unit_libraries[@]}"; }
+unit_program() { gcc "$1/unit/$2.o" -o "$1/unit/$2" -L "$1" -L "$work" -ldrogue "${unit_libraries[@]}"; }
 
 # build_base: objects of the unchanged core and of all that tests it, with their dependencies; runs the vectors
 build_base() {
-    local source begin name
+    local source begin name cc=(gcc)
+    command -v ccache >/dev/null && cc=(ccache gcc)
     rm -rf "$work"
-    mkdir -p "$work"/{core,rest,unit,cli,tools}
+    mkdir -p "$work"/{core,rest,unit,cli,tools,holds}
     tests/matrix/embed.sh "$work/cases" || return 1
     for source in "$work"/cases/*.c; do
         slot
@@ -151,6 +154,11 @@ build_base() {
         unit_program "$work" "$(basename "$source" .o)" &
     done
     wait
+    index_users
+    for source in $(find include src -name '*.h'); do
+        mkdir -p "$work/headers/${source%/*}"
+        cp "$source" "$work/headers/$source"
+    done
     begin=$SECONDS
     LD_LIBRARY_PATH=$work "$work/vectors" >"$work/base.log" || return 1
     most_s=$((10 * (SECONDS - begin) + 60))
@@ -158,22 +166,30 @@ build_base() {
     digest=${digest##*digest=}
 }
 
-# users FILE: 'source object' of those whose object depends on a file of the tree
-users() {
-    local dependencies source
+# index_users: a line 'file source object' for each file of the tree that an object depends on
+index_users() {
+    local dependencies
     for dependencies in "$work"/{core,rest,unit,cli}/*.d; do
-        if tr -s ' \\\n' '\n' <"$dependencies" | grep -qxF "$1"; then
-            source=$(tr -s ' \\\n' '\n' <"$dependencies" | sed -n 2p)
-            dependencies=${dependencies#"$work/"}
-            echo "$source ${dependencies%.d}.o"
-        fi
-    done
+        tr -s ' \\\n' '\n' <"$dependencies" | sed '1d;/^$/d' |
+            awk -v object="${dependencies#"$work/"}" 'NR == 1 { source = $1; sub(/d$/, "o", object) } { print $1, source, object }'
+    done >"$work/users"
 }
+
+# users FILE: 'source object' of those whose object depends on a file of the tree
+users() { awk -v file="$1" '$1 == file { print $2, $3 }' "$work/users"; }
+
+# holds NAME COMMAND...: does what caught a mutant hold for the unchanged core? Asked once.
+holds() {
+    [ -e "$work/holds/$1" ] || { LD_LIBRARY_PATH=$work "${@:2}" >/dev/null 2>&1 && touch "$work/holds/$1"; }
+}
+
+# built DIR PROGRAM: that of the mutant where it has one of its own
+built() { [ -x "$1/$2" ] && echo "$1/$2" || echo "$work/$2"; }
 
 # run_vectors DIR: sets 'verdict', and 'cases' and 'noticed' when caught
 run_vectors() {
     local status=0 last
-    LD_LIBRARY_PATH=$1 timeout "$most_s" "$1/vectors" >"$1/log" 2>&1 || status=$?
+    LD_LIBRARY_PATH=$1 timeout "$most_s" "$(built "$1" vectors)" >"$1/log" 2>&1 || status=$?
     last=$(tail -n 1 "$1/log" | grep -a '^conformance: ')
     if [ $status -eq 124 ]; then
         verdict="caught: does not end"
@@ -192,9 +208,9 @@ run_units() {
     for room in "${@:2}"; do
         for test in "$work/unit/$room"-*.c; do
             name=$(basename "$test" .o)
-            [ -x "$dir/unit/$name" ] && test=$dir/unit/$name || test=$work/unit/$name
-            if ! CK_FORK=no LD_LIBRARY_PATH=$dir timeout "$most_s" "$test" >"$dir/log" 2>&1; then
-                verdict=caught noticed="unit ${name%.c}"
+            if ! CK_FORK=no LD_LIBRARY_PATH=$dir timeout "$most_s" "$(built "$dir" "unit/$name")" >"$dir/log" 2>&1; then
+                holds "$name" env CK_FORK=no "$work/unit/$name" && verdict=caught || verdict="unchanged core fails"
+                noticed="unit ${name%.c}"
                 return
             fi
         done
@@ -203,13 +219,17 @@ run_units() {
 
 # run_program DIR FILE: the tests of the program until one fails; those that are about the file first, the long ones last
 run_program() {
-    local script part
+    local script part test
     part=$(basename "$2" .c)
     for script in "$part" ${cli_first[$part]:-} usage measure track inputs outputs members settings documents camera images edges; do
         [ -e "tests/cli/$script.sh" ] || continue
-        if ! LD_LIBRARY_PATH=$1 timeout "$most_s" sh "tests/cli/$script.sh" "$PWD/$1/drogue" "$tools/make_images" \
-            "$tools/json_check" "$tools/canny_check" "$PWD" >"$1/log" 2>&1; then
-            verdict=caught noticed="cli $script"
+        test=(sh "tests/cli/$script.sh" "$(realpath "$1/drogue")" "$tools/make_images" "$tools/json_check"
+            "$tools/canny_check" "$PWD")
+        if ! LD_LIBRARY_PATH=$(realpath "$work") timeout "$most_s" "${test[@]}" >"$1/log" 2>&1; then
+            test[2]=$(realpath "$work/drogue")
+            holds "$script" env LD_LIBRARY_PATH="$(realpath "$work")" "${test[@]}" && verdict=caught ||
+                verdict="unchanged core fails"
+            noticed="cli $script"
             return
         fi
     done
@@ -239,25 +259,25 @@ rooms() {
 # do_mutant NAME: leaves 'verdict|cases that fail|what notices' in its folder
 do_mutant() {
     local dir=$work/mutants/$1 path=${file[$1]} text source object built=() bad="" verdict=survives cases="" noticed=""
-    mkdir -p "$dir"/{core,rest,unit,cli} "$dir/$(dirname "$path")"
-    for source in $(core_files . '*.h'); do # a header in quotes is looked for beside the file that includes it
-        mkdir -p "$dir/$(dirname "$source")"
-        cp "$source" "$dir/$source"
-    done
-    [[ $path == src/cli/* ]] && cp src/cli/*.h "$dir/src/cli"
+    mkdir -p "$dir"/{core,rest,unit,cli} "$dir/${path%/*}"
+    if [[ $path == *.h ]]; then # in quotes it is looked for beside the file that includes it
+        cp -r "$work/headers/." "$dir"
+    fi
     text=$(<"$path")
     printf '%s\n' "${text%%"${old[$1]}"*}${new[$1]}${text#*"${old[$1]}"}" >"$dir/$path"
     while read -r source object; do
         if [[ $source == src/* ]]; then
-            mkdir -p "$dir/$(dirname "$source")"
+            mkdir -p "$dir/${source%/*}"
             [ "$source" = "$path" ] || cp "$source" "$dir/$source"
             source=$dir/$source
         fi
-        compile "$dir/include" "$source" "$dir/$object" -w "${cli_flags[@]}" || bad=yes
+        compile "$dir/include" "$source" "$dir/$object" -w -iquote "${path%/*}" "${cli_flags[@]}" || bad=yes
         built+=("$object")
     done < <(users "$path") >"$dir/build.log" 2>&1
     {
-        shared "$dir" && program "$dir" rest vectors && program "$dir" cli drogue "${cli_libraries[@]}" || bad=yes
+        [[ " ${built[*]}" != *' core/'* ]] || shared "$dir" || bad=yes
+        [[ " ${built[*]}" != *' rest/'* ]] || program "$dir" rest vectors || bad=yes
+        [[ " ${built[*]}" != *' cli/'* ]] || program "$dir" cli drogue "${cli_libraries[@]}" || bad=yes
         for object in "${built[@]}"; do
             [[ $object != unit/* ]] || unit_program "$dir" "$(basename "$object" .o)" || bad=yes
         done
