@@ -360,6 +360,24 @@ START_TEST(acquire_refuses_hostile_regions)
 }
 END_TEST
 
+/* An inner part larger than numbers hold is not the one that is seen: carelessly multiplied, its size would wrap to it. */
+START_TEST(a_model_beyond_measure_is_not_sure)
+{
+    const drogue_model huge = {1, 2622, 0}; /* an inner part of 2622 rims */
+    drogue_result r;
+    memset(&r, 0, sizeof r);
+    r.status = DROGUE_OK;
+    r.has_inner = r.orientation_resolved = 1;
+    r.cover_q16 = DROGUE_Q16_ONE;
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = 100 * DROGUE_Q16_ONE;
+    r.pose.position_m_q16[2] = 1 << 30;
+    r.inner.area_px = 9852; /* a radius of 56 px */
+    ck_assert_int_eq(drogue_result_sure(&r, &huge), 0);
+    r.pose.position_m_q16[2] = 9 * DROGUE_Q16_ONE;
+    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){6553600, 3670016, 0}), 1);
+}
+END_TEST
+
 /* Wide with a drogue at the far end, tall with one at the bottom, one as large as a region bears, none. */
 START_TEST(frames_larger_than_a_region)
 {
@@ -514,5 +532,6 @@ END_TEST
 
 SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
            any_size_of_frame, refusals, acquire_measures_what_it_finds, clipping_saturates,
-           acquire_refuses_hostile_regions, frames_larger_than_a_region, track_frames, first_region_then_anywhere,
+           acquire_refuses_hostile_regions, a_model_beyond_measure_is_not_sure,
+           frames_larger_than_a_region, track_frames, first_region_then_anywhere,
            what_shows_no_inner_part_is_reconsidered)
