@@ -91,7 +91,7 @@ compile() {
 # The program's flags and libraries, as src/cli/CMakeLists.txt has them.
 cli_flags=(-DHAVE_YAML -DHAVE_EXPAT)
 cli_libraries=(-lpng -lyaml -lexpat -lm)
-unit_libraries=(-lcheck -lsubunit -lrt -pthread -lm)
+read -ra unit_libraries <<<"$(pkg-config --libs check 2>/dev/null) -lm"
 
 # shared DIR: DIR/libdrogue.so of the core's objects, those in DIR instead of the unchanged ones
 shared() {
@@ -241,7 +241,7 @@ declare -A cli_first=([camera_file]=camera [keys]=camera [keys_xml]=camera [keys
     [sequence]=track [overlay]=images [canvas]=images [font]=images [thresholds]=settings [table]=outputs [explain]=outputs)
 
 # What a room's code is tested by beside the room's own tests.
-declare -A also=([track]=search [search]=track [inner]=measure [pose]=measure [outline]=measure [frontend]=measure
+declare -A also=([track]=search [inner]=measure [pose]=measure [outline]=measure [frontend]=measure
     [camera]="pose measure" [arithmetic]="pose outline track")
 
 # rooms OBJECT...: those of the unit tests for these objects

@@ -45,6 +45,65 @@ Picture picture(uint64_t seed, int width, int height, double x, double y, double
     return p;
 }
 
+/* One to three drogues before a plain background, by number: some cut, some with an inner part of another size or none. */
+Picture drawn_drogues(uint64_t number)
+{
+    constexpr int WIDTH = 132, HEIGHT = 64;
+    struct Drogue {
+        double xc, yc, a, ratio, tilt, lean, inner_radius, from, wide;
+        int canopy, inner;
+    };
+    uint64_t state = number * 7919 + 17;
+    const auto draw = [&state](int low, int high) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return low + static_cast<int>((state >> 33) % static_cast<uint64_t>(high - low + 1));
+    };
+    const int count = draw(1, 3), background = draw(150, 240);
+    std::vector<Drogue> drogues;
+    for (int i = 0; i < count; i++) {
+        Drogue d;
+        d.a = draw(130, 230) / 10.0;
+        d.xc = WIDTH * (2 * i + 1) / (2.0 * count) + draw(-20, 20) / 10.0;
+        d.yc = HEIGHT / 2.0 + draw(-80, 80) / 10.0;
+        d.ratio = draw(0, 3) == 0 ? 1 : draw(80, 100) / 100.0;
+        d.tilt = draw(0, 62) / 10.0;
+        const int away = draw(0, 4) == 0 ? 0 : 1;
+        const double size = draw(0, 2) == 0 ? draw(60, 150) / 100.0 : 1, z = 500 * 0.35 / d.a;
+        d.lean = std::sqrt(1 - d.ratio * d.ratio) * away * d.a * 0.25 / 0.35;
+        d.inner_radius = d.a * 0.12 / 0.35 * z / (z + 0.25) * size;
+        d.from = draw(0, 62) / 10.0;
+        d.wide = draw(0, 1) == 0 ? draw(0, 30) / 10.0 : 0;
+        d.canopy = draw(30, 130);
+        d.inner = draw(0, 4) == 0 ? d.canopy : draw(0, d.canopy - 15);
+        drogues.push_back(d);
+    }
+    const auto grey_at = [&](double x, double y) {
+        int grey = background;
+        for (const Drogue &d : drogues) {
+            const double dx = x - d.xc, dy = y - d.yc, c = std::cos(d.tilt), s = std::sin(d.tilt);
+            const double u = dx * c + dy * s, v = (dy * c - dx * s) / d.ratio, inner_v = v - d.lean / d.ratio;
+            double turn = std::atan2(dy, dx) - d.from;
+            turn -= 2 * CV_PI * std::floor(turn / (2 * CV_PI));
+            if (u * u + inner_v * inner_v <= d.inner_radius * d.inner_radius) {
+                grey = d.inner;
+            } else if (u * u + v * v <= d.a * d.a && (turn >= d.wide || u * u + v * v <= d.a * d.a / 2)) {
+                grey = d.canopy;
+            }
+        }
+        return grey;
+    };
+    Picture p;
+    p.camera = {500, 500, 66, 32};
+    p.image = image_from(WIDTH, HEIGHT, [&](int x, int y) {
+        int sum = 8;
+        for (int k = 0; k < 16; k++) {
+            sum += grey_at(x + (2 * (k % 4) - 3) / 8.0, y + (2 * (k / 4) - 3) / 8.0);
+        }
+        return sum / 16;
+    });
+    return p;
+}
+
 /* What is asked of an acquisition. */
 struct Ask {
     bool part = false;
@@ -126,6 +185,15 @@ void add_acquire(Set &set)
     p = picture(65, 120, 100, 0.2, 0.1, 5.5, 0.25, -0.2);
     p.image = 255 - p.image;
     add_ask(set, "negative-picture", Tier::stress, {"polarity"}, p, ask);
+    ask = Ask();
+    for (const int number : {0, 1, 10, 16, 19, 36, 42, 44, 56, 328, 363}) { /* several sighted: which settles, and which is worth more */
+        add_ask(set, "drawn-" + std::to_string(number), Tier::stress, {"tie"}, drawn_drogues(static_cast<uint64_t>(number)), ask);
+    }
+    for (const int number : {14, 19, 48}) {
+        p = drawn_drogues(static_cast<uint64_t>(number));
+        p.inner_radius = 0;
+        add_ask(set, "drawn-inner-unknown-" + std::to_string(number), Tier::stress, {"tie", "inner-missing"}, p, ask);
+    }
     p.image = constant(520, 8, 90);
     ask.search = 520;
     add_ask(set, "too-wide-to-measure-whole", Tier::must_reject, {"threshold-met"}, p, ask);

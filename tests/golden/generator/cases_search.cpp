@@ -51,6 +51,27 @@ void add_frame(Set &set, const std::string &name, Tier tier, const Flags &flags,
 
 } // namespace
 
+namespace {
+
+/* Two drawn circles about the disc with a little noise, by number: some meet limits that others do not. */
+cv::Mat drawn_circles(uint64_t number, bool faint)
+{
+    uint64_t state = number * 7919 + 17;
+    const auto draw = [&state](int low, int high) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return low + static_cast<int>((state >> 33) % static_cast<uint64_t>(high - low + 1));
+    };
+    const int most = faint ? 40 : 255, radius = draw(8, 14), background = draw(0, most), inside = draw(0, most);
+    const int noise = faint ? draw(0, 2) : draw(0, 30), middle = draw(0, most), wide = draw(10, 17);
+    const int ox = draw(-2, 2), oy = draw(-2, 2);
+    return image_from(44, 44, [&](int x, int y) {
+        const int dx = x - 22 - ox, dy = y - 22 - oy, d = dx * dx + dy * dy;
+        return (d < radius * radius ? inside : d < wide * wide ? middle : background) + (noise > 0 ? draw(0, noise) : 0);
+    });
+}
+
+} // namespace
+
 void add_rim(Set &set)
 {
     set.begin("rim");
@@ -111,6 +132,11 @@ void add_rim(Set &set)
               16);
     add_cells(set, "largest-reach", Tier::boundary, {"threshold-met"}, discs(48, 48, 200, {{96, 96, 66, 40}}), 24, 24,
               120);
+    for (const int number : {78, 122, 159, 229, 684, 779}) { /* small steps; a point on the limit of a circle */
+        static const int rings[] = {36, 51, 72, 86};
+        add_cells(set, "drawn-" + std::to_string(number), Tier::boundary, {"threshold-met"},
+                  drawn_circles(static_cast<uint64_t>(number), number < 200), 22, 22, rings[number % 4], 20);
+    }
     for (int i = 0; i < 16; i++) {
         accuracy::Random random = set.random("noise" + std::to_string(i));
         const int w = between(random, 20, 48), h = between(random, 20, 48);
@@ -162,6 +188,11 @@ void add_search(Set &set)
         list.push_back({24 + 44 * (i % 30), 30 + 48 * (i / 30), 10, 100 - i % 37});
     }
     add_frame(set, "many-dots", Tier::stress, {"table-full"}, discs(340, 70, 180, list));
+    list.clear();
+    for (int i = 0; i < 60; i++) { /* the same, all alike */
+        list.push_back({24 + 32 * i, 40, 10, 70});
+    }
+    add_frame(set, "many-equal-dots", Tier::stress, {"table-full", "tie"}, discs(490, 40, 180, list));
     list = drogue(200, 200, 100);
     for (const Disc &d : drogue(420, 210, 100, 64, 14)) {
         list.push_back(d);

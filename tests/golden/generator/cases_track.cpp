@@ -369,6 +369,56 @@ void add_twins(Set &set)
     s.seen.pose[3] += 1;
     s.stay(2);
     add_script(set, "unknown-and-elsewhere", Tier::stress, {"twin-pose"}, s);
+    for (const double off : {3.4, 3.7, 4.0, 4.3, 4.6, 5.0}) { /* unknown: the position's own gate */
+        for (const int z : {0, 1}) {
+            s = Script();
+            s.config.depth_std_q16 = 0;
+            s.seen.std = {0.05, 0.05, 0.05, 0.05, 0.05};
+            s.seen.resolved = 0;
+            s.stay(2);
+            s.seen.resolved = 1;
+            s.seen.pose[z != 0 ? 2 : 0] += 0.075 * off;
+            s.seen.pose[3] += 2;
+            s.stay(1);
+            add_script(set, "position-" + std::to_string(static_cast<int>(10 * off)) + (z != 0 ? "-deep" : ""),
+                       Tier::boundary, {"twin-pose", "threshold-met"}, s);
+        }
+    }
+    s = Script();
+    steady(s, 4);
+    s.seen.pose[0] += 0.9;
+    s.stay(1);
+    s.seen.resolved = 0;
+    s.stay(3); /* refused ones that agree: the first was resolved */
+    add_script(set, "jump-resolved-first", Tier::ordinary, {"twin-pose"}, s);
+    s = Script();
+    s.seen.off_twin = {0.02, 0.01, 0.03, 0.02, 0.01}; /* nearer than the deviations: no part of a resolved covariance */
+    s.seen.std = {0.05, 0.05, 0.08, 0.05, 0.05};
+    s.stay(4);
+    add_script(set, "twin-near-resolved", Tier::boundary, {"twin-pose"}, s);
+    s = Script();
+    s.seen.off_twin = {0, 0, 0, -0.5, 0.42};
+    s.seen.with_z = 0.97;
+    s.seen.std = {0.0015, 0.0015, 0.02, 0.04, 0.04};
+    steady(s, 4);
+    turn(s);
+    s.seen.off_twin[3] += 0.09; /* against the correlation, which the twin's angles do not have */
+    s.seen.off_twin[4] -= 0.09;
+    s.stay(2);
+    add_script(set, "turned-against-correlation", Tier::stress, {"twin-pose"}, s);
+    s = Script();
+    s.stay(3);
+    for (size_t i = 2; i < s.covariance.size(); i += 15) {
+        s.covariance[i] = -s.covariance[i]; /* y: no variance can be so */
+    }
+    add_script(set, "variance-negative", Tier::stress, {"covariance-loss", "domain"}, s);
+    s = Script();
+    s.inner = 0;
+    s.seen.inner = s.seen.resolved = 0;
+    s.stay(3);
+    s.seen.pose[0] += 0.9;
+    s.stay(5); /* no inner part to be shown: it is followed */
+    add_script(set, "jump-inner-unknown", Tier::ordinary, {"inner-missing"}, s);
     s = Script();
     s.config.known_frames = 4;
     steady(s, 6);

@@ -235,6 +235,7 @@ START_TEST(refusals)
     ck_assert_int_eq(drogue_search_init(&s, memory, sizeof memory, 32768), DROGUE_E_ARGUMENT);
     ck_assert_int_eq(drogue_search_init(&s, memory, sizeof memory - 1, 100), DROGUE_E_WORKSPACE);
     ck_assert_int_eq(drogue_search_init(&s, memory, sizeof memory, 100), DROGUE_OK);
+    ck_assert_int_eq(s.min_contrast, 6);
     ck_assert_int_eq(drogue_search_begin(&s, 101), DROGUE_E_WORKSPACE);
     ck_assert_int_eq(drogue_search_begin(&s, 0), DROGUE_E_ARGUMENT);
     ck_assert_int_eq(drogue_search_begin(&s, 100), DROGUE_OK);
@@ -357,6 +358,56 @@ START_TEST(acquire_refuses_hostile_regions)
     }
     free_rig(&r);
     free(f.pixels);
+}
+END_TEST
+
+/* What makes a result sure, each on its limit and an LSB beyond: covers, reliability, size of the inner part. */
+START_TEST(sure_at_its_limits)
+{
+    const drogue_model even = {131072, 65536, 0}, deep = {131072, 65536, 65536}, none = {131072, 0, 0};
+    drogue_result r;
+    memset(&r, 0, sizeof r);
+    r.status = DROGUE_OK;
+    r.has_inner = r.orientation_resolved = 1;
+    r.pose.position_m_q16[2] = DROGUE_Q16_ONE;
+    r.ellipse.a_px_q16 = 200 * DROGUE_Q16_ONE; /* an inner part of 50 px is expected */
+    r.ellipse.b_px_q16 = 50 * DROGUE_Q16_ONE;
+    r.inner.area_px = 7854;
+    r.cover_q16 = DROGUE_Q16(6, 10);
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
+    r.cover_q16--;
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    r.orientation_resolved = 0;
+    r.cover_q16 = DROGUE_Q16(3, 4);
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
+    r.cover_q16--;
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    r.cover_q16 = DROGUE_Q16_ONE;
+    r.has_inner = 0;
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    r.has_inner = 1;
+    r.inner.area_px = 10200; /* 56.98 px: an eighth is 6.25, and 0.6 */
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    r.inner.area_px = 10130; /* 56.78 px */
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
+    r.inner.area_px = 5805; /* 42.98 px */
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    r.inner.area_px = 5890; /* 43.3 px */
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
+    r.inner.area_px = 1963; /* 25 px: as large as a part twice as far away */
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    ck_assert_int_eq(drogue_result_sure(&r, &deep), 1);
+    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){131072, 65536, -65536}), 0);
+    r.pose.position_m_q16[2] = -DROGUE_Q16_ONE;
+    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){131072, 65536, 4 * 65536}), 0);
+    r.quality.reliability_q16 = DROGUE_Q16(9, 10);
+    r.cover_q16 = DROGUE_Q16(3, 4);
+    ck_assert_int_eq(drogue_result_sure(&r, &none), 1);
+    r.cover_q16--;
+    ck_assert_int_eq(drogue_result_sure(&r, &none), 0);
+    r.cover_q16 = DROGUE_Q16(3, 4);
+    r.quality.reliability_q16--;
+    ck_assert_int_eq(drogue_result_sure(&r, &none), 0);
 }
 END_TEST
 
@@ -532,6 +583,7 @@ END_TEST
 
 SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
            any_size_of_frame, refusals, acquire_measures_what_it_finds, clipping_saturates,
-           acquire_refuses_hostile_regions, a_model_beyond_measure_is_not_sure,
+           acquire_refuses_hostile_regions, sure_at_its_limits,
+           a_model_beyond_measure_is_not_sure,
            frames_larger_than_a_region, track_frames, first_region_then_anywhere,
            what_shows_no_inner_part_is_reconsidered)
