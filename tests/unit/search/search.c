@@ -511,6 +511,68 @@ START_TEST(track_frames)
 }
 END_TEST
 
+/* A track that has coasted until the drogue may be anywhere in 'reach': what shows up there is found, also when it is not
+ * in the predicted region, and not what is elsewhere; half an outline without an inner part is not believed. */
+START_TEST(uncertain_searches_within_reach)
+{
+    int shown, k;
+    for (shown = 0; shown < 2; shown++) {
+        const double start[3] = {-1, 0, 5}, other[3] = {1.2, 0.2, 3.5};
+        frame blank = new_frame(640, 480, 210, 1), first = new_frame(640, 480, 210, 2), last = new_frame(640, 480, 210, 3);
+        rig r = new_rig(&blank);
+        drogue_track_config config;
+        drogue_track t;
+        drogue_result result;
+        drogue_region region;
+        drogue_image image = image_of(&first);
+        drogue_track_config_default(&config);
+        config.max_missed = 30;
+        (void)drogue_track_init(&t, &config, &r.camera, &model, NULL);
+        (void)draw_drogue(&first, start, 0.1, 0.1, &all_shades[0]);
+        for (k = 0; k < 8; k++) {
+            ck_assert_int_eq(drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search,
+                                                &r.config, &image, 40000),
+                             DROGUE_TRACKING);
+        }
+        image = image_of(&blank);
+        for (k = 0; k < 30 && (t.search == 0 || t.reach.width_px < 320); k++) { /* 70 px semi-axis */
+            ck_assert_int_eq(drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search,
+                                                &r.config, &image, 40000),
+                             DROGUE_COASTING);
+        }
+        MUST(t.search == 1 && t.reach.width_px >= 320, "reach %d px", (int)t.reach.width_px);
+        image = image_of(&last);
+        if (shown) {
+            const double near[3] = {-1 + 0.4, 0.2, 5};
+            (void)draw_drogue(&last, near, 0.1, 0.1, &all_shades[0]);
+            (void)draw_drogue(&last, other, 0.1, 0.1, &all_shades[0]);
+        } else {
+            const ellipse_real disc = {320 - 200, 240, 70, 69, 0.3};
+            int32_t x, y;
+            draw_ellipse(&last, &disc, 60);
+            for (y = 0; y < last.height; y++) {
+                for (x = 0; x < 110; x++) {
+                    last.pixels[y * last.width + x] = 60;
+                }
+            }
+        }
+        (void)drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search, &r.config, &image,
+                                 40000);
+        if (shown) {
+            MUST(result.status == DROGUE_OK && fabs(real_of_q16(result.pose.position_m_q16[0]) + 0.6) < 0.02,
+                 "%s, x %g", drogue_status_name(result.status), real_of_q16(result.pose.position_m_q16[0]));
+        } else {
+            ck_assert_int_ne(result.status, DROGUE_OK);
+            ck_assert_int_eq(t.state, DROGUE_COASTING);
+        }
+        free_rig(&r);
+        free(blank.pixels);
+        free(first.pixels);
+        free(last.pixels);
+    }
+}
+END_TEST
+
 /* A first region that holds nothing does not keep a lost track from finding the drogue elsewhere; a configuration that was
  * refused does. */
 START_TEST(first_region_then_anywhere)
@@ -585,5 +647,5 @@ SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames
            any_size_of_frame, refusals, acquire_measures_what_it_finds, clipping_saturates,
            acquire_refuses_hostile_regions, sure_at_its_limits,
            a_model_beyond_measure_is_not_sure,
-           frames_larger_than_a_region, track_frames, first_region_then_anywhere,
+           frames_larger_than_a_region, track_frames, uncertain_searches_within_reach, first_region_then_anywhere,
            what_shows_no_inner_part_is_reconsidered)
