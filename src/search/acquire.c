@@ -11,6 +11,7 @@
 #define SURE_RELIABILITY DROGUE_Q16(9, 10)
 #define MOST_OFF_PX DROGUE_Q16(6, 10)   /* and an eighth, of the inner part's radius */
 #define SETTLED_COVER DROGUE_Q16(8, 10) /* of a result after which nothing else is looked at */
+#define MOST_PRODUCT (INT64_MAX / 4)
 #define MOST_WHOLE_PX 512               /* a larger image is not measured itself: a drogue in it shows its inner part */
 
 /* Radii of the inner part, px Q16, as circles of its area: what the model expects in this outline, and by how much it is
@@ -24,6 +25,7 @@ static int sizes(int64_t *expected, int64_t *off, const drogue_result *r, const 
     }
     *expected = (int64_t)drogue_isqrt_u64((uint64_t)((int64_t)r->ellipse.a_px_q16 * r->ellipse.b_px_q16));
     *expected = drogue_div_round_s64(*expected * model->inner_radius_m_q16, model->rim_radius_m_q16);
+    *expected = *expected < MOST_PRODUCT / z ? *expected : MOST_PRODUCT / z; /* of a model that fits no outline */
     *expected = drogue_div_round_s64(*expected * z, end);
     *off = (int64_t)drogue_isqrt_u64((((uint64_t)r->inner.area_px << 32) / (uint64_t)DROGUE_Q16_PI) << 16) - *expected;
     *off = *off < 0 ? -*off : *off;

@@ -6,6 +6,7 @@
 #include "stages.h"
 
 #include "drogue/drogue.h"
+#include "drogue/support.h"
 
 #define STAGE_MAX_BUFFERS 8
 
@@ -47,6 +48,9 @@ int stage_angle_valid(const drogue_ellipse *e);
 /* Mask from centre2_x centre2_y longest; 0 when out of the range that the library is for. */
 int stage_mask(drogue_mask *mask, const int32_t *words);
 
+/* Support with the given counts and sums, all bins dark; 0 when out of range. */
+int stage_support_of_words(drogue_support *support, const int32_t *bins, int32_t gradient);
+
 /* The stages: 0 or CONF_E_*. Names, widths and counts of the inputs are checked before. */
 int stage_smooth(stage_run *r);
 int stage_gradient(stage_run *r);
@@ -67,5 +71,11 @@ int stage_pose(stage_run *r);
 int stage_joint(stage_run *r);
 int stage_kalman(stage_run *r);
 int stage_frame(stage_run *r);
+int stage_rim(stage_run *r);
+int stage_search(stage_run *r);
+int stage_decide(stage_run *r);
+int stage_look(stage_run *r);
+int stage_acquire(stage_run *r);
+int stage_track(stage_run *r);
 
 #endif

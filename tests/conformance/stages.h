@@ -106,6 +106,26 @@ enum {
  *                  fit_ratio length_ratio axis_ratio score reliability, members, cover;
  *                  covariance (64 bits, Q48) as of 'joint'; std (64 bits, Q32): x y z, axis;
  *                  whatever is known for every status
+ *  decide       ellipse; camera; bins as of 'joint'; params: rim_radius inner_radius inner_depth, two poses (position 3,
+ *               axis 3, yaw, pitch), nearer (whole), inner x y std, shading blur max_chi2 min_chi2_gap, gradient (whole)
+ *               -> decision: status, pose 8, alternative 8, resolved; covariance and std as of 'frame'
+ *  look         image; camera; model; params (whole): region x y width height, the workspace's width edges labels arcs
+ *               -> looked: status second_look tried, region used 4, cover, ellipse 5, has_inner resolved
+ *  rim          image: cells, at most 48 high; disc (whole): x y, ring (Q4), contrast
+ *               -> rims: count, then x y radius (Q4) score of each, 0 behind the last of six
+ *  search       image; params: min_contrast (whole)
+ *               -> sightings (whole): status count, then x y radius score and region 4 of each, 0 behind the last of 12
+ *  acquire      image; camera; model; params (whole): 1 when there is a region, that (x y width height), the search's
+ *               width, the workspace's, min_contrast -> found: status, region used 4, has_inner resolved, ellipse 5, pose 8
+ *  track        setup: camera 9, model 3, first region 4 (px; width 0: none); config: max_missed agree_frames
+ *               reconsider_frames known_frames min_region max_region (whole) gate position_gate region_scale region_sigmas
+ *               lateral depth angle (std) position angle (floor) process std 5 process_step lasting_share start std of rate
+ *               and acceleration; frames: dt_us status second_look has_inner resolved (whole) cover, pose (x y z yaw
+ *               pitch), alternative (5); covariance (64 bits, Q48) of each frame as of 'joint'
+ *               -> states (whole): per frame status of drogue_track_init(), region 4 search reach 4 of
+ *                  drogue_track_begin(), state missed gated orientation_known open_frames turned trial agreeing
+ *                  second_known; estimates: per frame position 3 velocity 3 axis 3 yaw pitch resolved; std (64 bits,
+ *                  Q32): per frame x y z yaw pitch axis
  */
 int conf_run_stage(const char *stage, const conf_array *inputs, int input_count, conf_array *outputs,
                    int output_capacity);

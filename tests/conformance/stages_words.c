@@ -45,7 +45,17 @@ static const struct layout {
                {"frame", "frame", ".ppppaiiiib....cc..smmmrrrrrmmmrrrrr.x"},
                {"frame", "detail", "..........qqqqq.."},
                {"frame", "covariance", "|v"},
-               {"frame", "std", "|t"}};
+               {"frame", "std", "|t"},
+               {"decide", "decision", ".mmmrrrrrmmmrrrrr."},
+               {"decide", "covariance", "|v"},
+               {"decide", "std", "|t"},
+               {"look", "looked", "........ppppa.."},
+               {"rim", "rims", ".|ppp."},
+               {"search", "sightings", "|."},
+               {"acquire", "found", ".......ppppammmrrrrr"},
+               {"track", "states", "|."},
+               {"track", "estimates", "|mmmvvvrrrrr."},
+               {"track", "std", "|t"}};
 
 /* clang-format off: a row a measure */
 const conf_measure conf_measures[CONF_MEASURES] = {
@@ -89,6 +99,21 @@ const conf_measure conf_measures[CONF_MEASURES] = {
     {"frame", 'q', "quality", "1", 16, CONF_LSB, 4, 4, NULL},
     {"frame", 'v', "covariance", "scale", 48, CONF_OF_SCALE, 4, 15625, "ill-conditioned"},
     {"frame", 't', "std", "itself", 32, CONF_OF_ITSELF, 4, 7813, "ill-conditioned"},
+    {"decide", 'm', "position", "m", 16, CONF_LSB, 2, 2, NULL},
+    {"decide", 'r', "axis, angles", "rad", 16, CONF_LSB, 2, 2, NULL},
+    {"decide", 'v', "covariance", "scale", 48, CONF_OF_SCALE, 4, 123, NULL},
+    {"decide", 't', "std", "itself", 32, CONF_OF_ITSELF, 4, 123, NULL},
+    {"look", 'p', "outline", "px", 16, CONF_LSB, 4, 4, NULL},
+    {"look", 'a', "its angle", "rad", 16, CONF_LSB, 4, 1024, "circle"},
+    {"rim", 'p', "circle", "cell", 4, CONF_LSB, 1, 1, NULL},
+    {"acquire", 'p', "outline", "px", 16, CONF_LSB, 4, 4, NULL},
+    {"acquire", 'a', "its angle", "rad", 16, CONF_LSB, 4, 1024, "circle"},
+    {"acquire", 'm', "position", "m", 16, CONF_LSB, 4, 512, NULL},
+    {"acquire", 'r', "axis, angles", "rad", 16, CONF_LSB, 4, 656, NULL},
+    {"track", 'm', "position", "m", 16, CONF_LSB, 2, 2, NULL},
+    {"track", 'v', "velocity", "m/s", 16, CONF_LSB, 8, 8, NULL},
+    {"track", 'r', "axis, angles", "rad", 16, CONF_LSB, 2, 2, NULL},
+    {"track", 't', "std", "m, rad", 32, CONF_LSB, 16384, 16384, NULL},
     {NULL, '.', "exact", "", 0, CONF_EXACT, 0, 0, NULL},
     {NULL, '?', "no reference", "", 0, CONF_UNREFERENCED, 0, 0, "no-reference"}};
 /* clang-format on */

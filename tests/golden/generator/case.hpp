@@ -104,5 +104,11 @@ void add_pose(Set &set);
 void add_joint(Set &set);
 void add_kalman(Set &set);
 void add_frame(Set &set, const std::string &scenes_folder);
+void add_decide(Set &set);
+void add_look(Set &set);
+void add_rim(Set &set);
+void add_search(Set &set);
+void add_acquire(Set &set);
+void add_track(Set &set);
 
 } // namespace vectors

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Cases of the joint pose: distances, tilts, with and without the inner part, the twin, few bins, steps. */
+#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -26,6 +27,7 @@ struct Job {
 
 struct Words {
     std::vector<int64_t> ellipse, camera, bins, params;
+    std::array<reference::Pose, 2> pair; /* that the outline allows, the nearer to the truth first */
 };
 
 /* Image of the circle by points on it and the reference's fit. */
@@ -72,6 +74,7 @@ Words words_of(const Job &j, accuracy::Random &random)
     const reference::Pose start = j.start_at_truth ? truth : pair[j.other != 0 ? 1 - nearer : nearer];
     (void)reference::disc_image(disc, truth, c, {j.rim, j.inner, j.depth});
     Words w;
+    w.pair = {pair[nearer], pair[1 - nearer]};
     w.ellipse = {q16(static_cast<double>(e.xc)), q16(static_cast<double>(e.yc)), q16(static_cast<double>(e.a)),
                  q16(static_cast<double>(e.b)), q16(static_cast<double>(e.angle))};
     w.camera = {q16(j.fx), q16(j.fy), q16(j.cx), q16(j.cy), 0, 0, 0, 0, 0};
@@ -265,6 +268,113 @@ void add_joint(Set &set)
     add_weights(set);
     add_cameras(set);
     add_refusals(set);
+}
+
+namespace {
+
+/* What a case of the decision changes of a job's evidence. */
+struct Evidence {
+    int nearer = 0;
+    double off_px = 0; /* of the inner part, to the right */
+    double max_chi2 = 16, gap = 9;
+    int behind = -1; /* pose whose z is negative */
+    bool inner = true;
+};
+
+void add_evidence(Set &set, const std::string &name, Tier tier, const Flags &flags, const Job &j, const Evidence &e)
+{
+    accuracy::Random random = set.random(name);
+    const Words w = words_of(j, random);
+    std::vector<int64_t> params(w.params.begin(), w.params.begin() + 3);
+    for (size_t i = 0; i < 2; i++) {
+        const reference::Pose &p = w.pair[i];
+        for (const reference::Real v :
+             {p.position[0], p.position[1], p.position[2], p.axis[0], p.axis[1], p.axis[2], p.yaw, p.pitch}) {
+            params.push_back(q16(static_cast<double>(v)));
+        }
+        if (e.behind == static_cast<int>(i) || e.behind == 2) {
+            params[params.size() - 6] = q16(-3);
+        }
+    }
+    params.push_back(e.nearer);
+    params.push_back(w.params[8] + q16(e.off_px));
+    params.push_back(w.params[9]);
+    params.push_back(e.inner ? w.params[10] : 0);
+    params.insert(params.end(), {w.params[11], w.params[12], q16(e.max_chi2), q16(e.gap), w.params[13]});
+    set.add(name, tier, flags,
+            {word_array("ellipse", 32, 16, w.ellipse), word_array("camera", 32, 16, w.camera),
+             word_array("bins", 32, 16, w.bins), word_array("params", 32, 16, params)});
+}
+
+} // namespace
+
+void add_decide(Set &set)
+{
+    set.begin("decide");
+    Job j;
+    Evidence e;
+    for (const int z : {3, 9, 20}) {
+        for (const int tilt : {0, 3, 12, 28}) {
+            place(j, 0.1 * z, -0.07 * z, z, tilt * 0.8, -tilt * 0.6);
+            const std::string name = "at-" + std::to_string(z) + "m-tilt-" + std::to_string(tilt);
+            Flags flags;
+            if (tilt == 0) {
+                flags = {"head-on", "near-circle"};
+            }
+            for (e.nearer = 0; e.nearer < 2; e.nearer++) { /* the other one is named nearer: the better wins */
+                add_evidence(set, name + (e.nearer != 0 ? "-twin-nearer" : ""), Tier::ordinary, flags, j, e);
+            }
+        }
+    }
+    e = Evidence();
+    place(j, 0.9, -0.7, 8, 14, -11);
+    e.inner = false;
+    for (e.nearer = 0; e.nearer < 2; e.nearer++) {
+        add_evidence(set, e.nearer != 0 ? "no-inner-second" : "no-inner", Tier::ordinary, {"inner-missing"}, j, e);
+    }
+    e = Evidence();
+    for (const double off : {1.0, 4.0, 60.0}) { /* agrees less and less, then contradicts the outline */
+        e.off_px = off;
+        e.nearer = 0;
+        add_evidence(set, "inner-off-" + std::to_string(static_cast<int>(off)), Tier::stress, {"twin-pose"}, j, e);
+        e.nearer = 1;
+        add_evidence(set, "inner-off-" + std::to_string(static_cast<int>(off)) + "-twin", Tier::stress, {"twin-pose"},
+                     j, e);
+    }
+    e = Evidence();
+    e.off_px = 4;
+    e.max_chi2 = 10000;
+    add_evidence(set, "contradiction-allowed", Tier::stress, {"twin-pose"}, j, e);
+    e = Evidence();
+    e.gap = 30000;
+    add_evidence(set, "gap-never", Tier::boundary, {"threshold-met"}, j, e);
+    e.gap = 0;
+    add_evidence(set, "gap-always", Tier::boundary, {"threshold-met"}, j, e);
+    e = Evidence();
+    for (e.behind = 0; e.behind < 3; e.behind++) { /* one solve fails, or both */
+        for (e.nearer = 0; e.nearer < 2; e.nearer++) {
+            add_evidence(set, "behind-" + std::to_string(e.behind) + "-nearer-" + std::to_string(e.nearer),
+                         e.behind == 2 ? Tier::must_reject : Tier::stress, {"behind-camera"}, j, e);
+        }
+    }
+    e = Evidence();
+    j.bins = 5;
+    add_evidence(set, "too-few-bins", Tier::must_reject, {"arc", "degenerate"}, j, e);
+    j.bins = 10;
+    add_evidence(set, "few-bins", Tier::stress, {"arc"}, j, e);
+    j = Job();
+    place(j, 0.2, 0.1, 6, 2, 1);
+    j.inner_std = 1.5; /* says little: what lies between the poses is in the covariance */
+    add_evidence(set, "vague-inner", Tier::ordinary, {"twin-pose"}, j, e);
+    place(j, 0, 0, 6, 0, 0);
+    j.shift = 0;
+    j.inner_std = 0.05;
+    add_evidence(set, "same-solution", Tier::boundary, {"head-on", "near-circle"}, j, e);
+    j = Job();
+    place(j, 0.4, 0.5, 7, 10, 60); /* the axis's deviation counts yaw by cos^2 pitch */
+    add_evidence(set, "steep-pitch", Tier::stress, {}, j, e);
+    place(j, 0.4, 0.5, 7, 60, 10);
+    add_evidence(set, "steep-yaw", Tier::stress, {}, j, e);
 }
 
 } // namespace vectors

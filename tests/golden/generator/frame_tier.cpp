@@ -7,8 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "mirror.hpp"
-#include "stages.h"
+#include "frame_words.hpp"
 
 namespace vectors {
 
@@ -19,26 +18,9 @@ using reference::Ellipse;
 using reference::q16;
 using reference::Real;
 using Words = std::vector<int64_t>;
+using namespace frame_words;
 
-enum Word {
-    STATUS = 0,
-    SEEN = 1,
-    IDEAL = 6,
-    POLARITY = 11,
-    ARCS,
-    REFIT,
-    HAS_INNER,
-    INNER, /* x y area threshold spread */
-    POSE = 20,
-    OTHER = 28,
-    RESOLVED = 36,
-    AMBIGUITY,
-    WORDS
-};
 constexpr Real ELLIPSE_LSB = 4; /* of a fit, as stages_words.c has it */
-
-/* The three outputs with a reference, one after the other. */
-constexpr size_t COVARIANCE = WORDS, STD = COVARIANCE + 15, ALL = STD + 4;
 
 int64_t rounded(Real v, int frac) { return static_cast<int64_t>(std::floor(std::ldexp(v, frac) + 0.5L)); }
 
@@ -236,15 +218,17 @@ void poses_more(std::vector<Real> &more, const mirror::Task &task, const mirror:
     }
 }
 
-mirror::Task task_of(const std::vector<Array> &in)
+} // namespace
+
+mirror::Task frame_words::task_of(const std::vector<Array> &in, const std::array<int64_t, 4> &g)
 {
-    const Words &c = in[1].words, &m = in[2].words, &g = in[3].words;
+    const Words &c = in[1].words, &m = in[2].words;
     const bool fits = g[2] >= 1 && g[2] <= DROGUE_MAX_SIDE; /* as the stage's workspace */
     mirror::Task t = {
         image_of(in[0]),
         {real(c[0]), real(c[1]), real(c[2]), real(c[3]), real(c[4]), real(c[5]), real(c[6]), real(c[7]), real(c[8])},
         {real(m[0]), real(m[1]), real(m[2])},
-        {g[0], g[1], g[2], g[3]},
+        g,
         {},
         {static_cast<uint32_t>(fits ? g[2] : DROGUE_MAX_SIDE), CONF_MAX_EDGES, CONF_MAX_LABELS, CONF_MAX_ARCS},
         {},
@@ -255,6 +239,8 @@ mirror::Task task_of(const std::vector<Array> &in)
     t.library_model = {q(m[0]), q(m[1]), q(m[2])};
     return t;
 }
+
+namespace {
 
 /* What the mirror follows, from the words of the exact tier. */
 drogue_result library_of(const std::vector<Array> &exact)
@@ -300,19 +286,18 @@ Expected detail_of(const Array &exact, const mirror::Result &r)
 
 } // namespace
 
-std::vector<Expected> frame_tier(const std::vector<Array> &in, const std::vector<Array> &exact)
+FrameWords frame_words::of(const mirror::Task &task, const drogue_result &library)
 {
-    if (exact[0].words.size() != WORDS || exact[2].name != "covariance" || exact[3].name != "std") {
-        throw std::runtime_error("the frame stage's outputs are not those expected");
-    }
-    const mirror::Task task = task_of(in);
-    const drogue_result library = library_of(exact);
     mirror::Features features = {};
-    const mirror::Result r = mirror::measure(task, &library, &features);
-    const Words w = words_of(r);
-    std::vector<Real> more(ALL, EXACTLY); /* what is not known is 0 */
+    FrameWords out;
+    out.result = mirror::measure(task, &library, &features);
+    out.words = words_of(out.result);
+    out.more.assign(ALL, EXACTLY); /* what is not known is 0 */
+    const mirror::Result &r = out.result;
+    std::vector<Real> &more = out.more;
     if (r.found) {
-        const bool lens = std::any_of(in[1].words.begin() + 4, in[1].words.end(), [](int64_t v) { return v != 0; });
+        const reference::Camera &c = task.camera;
+        const bool lens = c.k1 != 0 || c.k2 != 0 || c.p1 != 0 || c.p2 != 0 || c.k3 != 0;
         const std::array<Real, 5> seen = ellipse_more(r.seen, false), ideal = ellipse_more(r.ideal, lens);
         std::copy(seen.begin(), seen.end(), more.begin() + SEEN);
         if (r.ideal.ok) {
@@ -325,14 +310,24 @@ std::vector<Expected> frame_tier(const std::vector<Array> &in, const std::vector
             poses_more(more, task, r, features, ideal, &library);
         }
     }
+    return out;
+}
+
+std::vector<Expected> frame_tier(const std::vector<Array> &in, const std::vector<Array> &exact)
+{
+    if (exact[0].words.size() != WORDS || exact[2].name != "covariance" || exact[3].name != "std") {
+        throw std::runtime_error("the frame stage's outputs are not those expected");
+    }
+    const Words &g = in[3].words;
+    const FrameWords f = frame_words::of(frame_words::task_of(in, {g[0], g[1], g[2], g[3]}), library_of(exact));
     const auto part = [](const auto &all, size_t from, size_t to) {
         return std::decay_t<decltype(all)>(all.begin() + static_cast<long>(from), all.begin() + static_cast<long>(to));
     };
     const auto expected = [&](const Array &array, size_t from, size_t to) {
-        const Array words = like(array, part(w, from, to));
-        return Expected{words, bounds("frame", words, part(more, from, to))};
+        const Array words = like(array, part(f.words, from, to));
+        return Expected{words, bounds("frame", words, part(f.more, from, to))};
     };
-    return {expected(exact[0], 0, COVARIANCE), detail_of(exact[1], r), expected(exact[2], COVARIANCE, STD),
+    return {expected(exact[0], 0, COVARIANCE), detail_of(exact[1], f.result), expected(exact[2], COVARIANCE, STD),
             expected(exact[3], STD, ALL)};
 }
 

@@ -155,6 +155,12 @@ int main(int argc, char **argv)
         add_joint(set);
         add_kalman(set);
         add_frame(set, (folder / "frame").string());
+        add_decide(set);
+        add_look(set);
+        add_rim(set);
+        add_search(set);
+        add_acquire(set);
+        add_track(set);
         const Files files = files_of(set, version_of(folder));
         const bool good = set.report();
         print_sizes(set, files);

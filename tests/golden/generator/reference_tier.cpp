@@ -463,7 +463,9 @@ Tiers reference_of(const std::string &stage, const Arrays &inputs, const Arrays 
         {"centroid", centroid_tier}, {"eigen", eigen_tier},       {"undistort", undistort_tier},
         {"pose", pose_tier},         {"kalman", kalman_tier},     {"frame", frame_tier},
         {"select", select_tier},     {"support", support_tier},   {"disc", disc_tier},
-        {"joint", joint_tier}};
+        {"joint", joint_tier},       {"decide", decide_tier},     {"look", look_tier},
+        {"rim", rim_tier},           {"search", search_tier},     {"acquire", acquire_tier},
+        {"track", track_tier}};
     return tiers.at(stage)(inputs, exact);
 }
 

@@ -74,7 +74,17 @@ int format_of(const std::string &stage, const std::string &output)
                                                        {"frame/frame", 16},
                                                        {"frame/detail", 16},
                                                        {"frame/covariance", 48},
-                                                       {"frame/std", 32}};
+                                                       {"frame/std", 32},
+                                                       {"decide/decision", 16},
+                                                       {"decide/covariance", 48},
+                                                       {"decide/std", 32},
+                                                       {"look/looked", 16},
+                                                       {"rim/rims", 4},
+                                                       {"search/sightings", 0},
+                                                       {"acquire/found", 16},
+                                                       {"track/states", 0},
+                                                       {"track/estimates", 16},
+                                                       {"track/std", 32}};
     const auto found = formats.find(stage + "/" + output);
     if (found == formats.end()) {
         throw std::runtime_error("no format for output " + stage + "/" + output);

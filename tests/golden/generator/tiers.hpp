@@ -34,5 +34,11 @@ Tiers support_tier(const Arrays &inputs, const Arrays &exact);
 Tiers disc_tier(const Arrays &inputs, const Arrays &exact);
 Tiers joint_tier(const Arrays &inputs, const Arrays &exact);
 Tiers frame_tier(const Arrays &inputs, const Arrays &exact);
+Tiers decide_tier(const Arrays &inputs, const Arrays &exact);
+Tiers look_tier(const Arrays &inputs, const Arrays &exact);
+Tiers rim_tier(const Arrays &inputs, const Arrays &exact);
+Tiers search_tier(const Arrays &inputs, const Arrays &exact);
+Tiers acquire_tier(const Arrays &inputs, const Arrays &exact);
+Tiers track_tier(const Arrays &inputs, const Arrays &exact);
 
 } // namespace vectors

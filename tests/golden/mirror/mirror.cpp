@@ -46,6 +46,7 @@ struct Frame {
     Follow follow;
     cv::Rect region; /* of the last outline looked for, and that */
     Outline outline;
+    drogue_second_look second_look = DROGUE_SECOND_NONE;
 };
 
 drogue_status outline_in(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region, bool follow)
@@ -54,6 +55,9 @@ drogue_status outline_in(Result &out, Frame &f, const Task &task, const std::arr
         return DROGUE_E_REGION;
     }
     drogue_capacity capacity = task.capacity;
+    if (static_cast<uint32_t>(out.region.width) > capacity.width_px) {
+        return DROGUE_E_WORKSPACE;
+    }
     capacity.width_px = static_cast<uint32_t>(out.region.width);
     f.view = task.image(out.region).clone();
     f.front = run_front_end(f.view, f.mask, task.config, capacity);
@@ -96,17 +100,25 @@ drogue_status outline_twice(Result &out, Frame &f, const Task &task, const drogu
     }
     const std::array<int64_t, 4> better = region_about(out.outline.ellipse, out.region.tl(), library);
     if (better[2] > static_cast<int64_t>(task.capacity.width_px)) {
+        out.second_look = DROGUE_SECOND_TOO_WIDE;
         return status;
     }
     const Ellipse was = out.outline.ellipse;
     const cv::Point was_at = out.region.tl();
     out.outline = Outline();
-    if (outline_in(out, f, task, better, library != nullptr) == DROGUE_OK && out.outline.cover >= cover) {
+    out.second_look = DROGUE_SECOND_NO_MORE;
+    const drogue_status again = outline_in(out, f, task, better, library != nullptr);
+    if (again == DROGUE_OK && out.outline.cover >= cover) {
         const Ellipse &e = out.outline.ellipse; /* about the same? */
         const Real dx = e.xc - was.xc + out.region.x - was_at.x, dy = e.yc - was.yc + out.region.y - was_at.y;
         if (std::fabs(e.a - was.a) <= was.a / 3 && std::hypot(dx, dy) <= was.a / 3) {
+            out.second_look = DROGUE_SECOND_BETTER;
             return DROGUE_OK;
         }
+    } else if (again == DROGUE_E_LABELS_FULL || again == DROGUE_E_EDGES_FULL || again == DROGUE_E_ARCS_FULL) {
+        out.second_look = DROGUE_SECOND_FULL;
+    } else if (again == DROGUE_E_REGION) {
+        out.second_look = DROGUE_SECOND_REGION;
     }
     out.outline = Outline(); /* what was found first stands */
     return outline_in(out, f, task, task.region, library != nullptr);
@@ -250,8 +262,6 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
 {
     std::array<Pose, 2> pair;
     reference::Choice choice = {0, {0, 0}, 1};
-    reference::Covariance outline;
-    const drogue_config &config = task.config;
     if (!reference::poses(f.ideal, task.camera, task.model.rim_radius, pair)) {
         out.status = DROGUE_E_DOMAIN;
         return;
@@ -259,13 +269,19 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
     const bool placed = f.placed && reference::choose(pair, f.inner.at, task.model.inner_depth, task.camera, choice);
     out.has_inner = f.trusted && placed; /* else something dark: it orders the poses, but is not to be believed */
     out.ambiguity = out.has_inner ? choice.ambiguity : 1;
-    choice.index = placed ? choice.index : 0;
+    decide(out, task, f, pair, placed ? static_cast<size_t>(choice.index) : 0, library);
+}
+
+void decide(Result &out, const Task &task, const Features &f, const std::array<Pose, 2> &pair, size_t nearer,
+            const drogue_result *library)
+{
+    reference::Covariance outline;
+    const drogue_config &config = task.config;
     if (!reference::outline_covariance(outline, f.ideal, f.support, real(config.outline_shading_q16),
                                        real(config.optics_blur_std_px2_q16))) {
         out.status = DROGUE_E_DOMAIN;
         return;
     }
-    const auto nearer = static_cast<size_t>(choice.index);
     Together t = {{}, nearer, false, false};
     if (out.has_inner) {
         t = solve_together(pair, nearer, f, outline, task, library);
@@ -377,6 +393,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         if (larger) {
             out.region = f.region;
             out.outline = f.outline;
+            out.second_look = f.second_look;
             if (f.follow.library != nullptr) {
                 (void)drogue_outline_enlarge(&f.decided, &f.front->workspace, &f.front->list, &f.mask, &task.config);
             }
@@ -386,7 +403,9 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             out.status = outline_twice(out, f, task, library);
             f.region = out.region;
             f.outline = out.outline;
+            f.second_look = out.second_look;
         }
+        out.tried = what;
         if (out.status == DROGUE_OK) {
             doubt = judge(out, from, f, task, library);
         }

@@ -24,6 +24,8 @@ struct Task {
 /* As drogue_result, unrounded. */
 struct Result {
     drogue_status status = DROGUE_OK;
+    drogue_second_look second_look = DROGUE_SECOND_NONE;
+    int tried = 0; /* as drogue_result */
     cv::Rect region;
     bool found = false; /* an outline, whatever came of it */
     Outline outline;    /* in coordinates of the region */
@@ -60,5 +62,9 @@ Result measure(const Task &task, const drogue_result *library = nullptr, Feature
 
 /* The poses, their choice and covariance from the features; 'out' has what comes before. */
 void finish(Result &out, const Task &task, const Features &features, const drogue_result *library = nullptr);
+
+/* The choice between the two poses, the one that is nearer to the inner part given; 'out' has has_inner. */
+void decide(Result &out, const Task &task, const Features &features, const std::array<reference::Pose, 2> &pair,
+            size_t nearer, const drogue_result *library = nullptr);
 
 } // namespace mirror

@@ -235,6 +235,7 @@ START_TEST(refusals)
     ck_assert_int_eq(drogue_search_init(&s, memory, sizeof memory, 32768), DROGUE_E_ARGUMENT);
     ck_assert_int_eq(drogue_search_init(&s, memory, sizeof memory - 1, 100), DROGUE_E_WORKSPACE);
     ck_assert_int_eq(drogue_search_init(&s, memory, sizeof memory, 100), DROGUE_OK);
+    ck_assert_int_eq(s.min_contrast, 6);
     ck_assert_int_eq(drogue_search_begin(&s, 101), DROGUE_E_WORKSPACE);
     ck_assert_int_eq(drogue_search_begin(&s, 0), DROGUE_E_ARGUMENT);
     ck_assert_int_eq(drogue_search_begin(&s, 100), DROGUE_OK);
@@ -360,6 +361,74 @@ START_TEST(acquire_refuses_hostile_regions)
 }
 END_TEST
 
+/* What makes a result sure, each on its limit and an LSB beyond: covers, reliability, size of the inner part. */
+START_TEST(sure_at_its_limits)
+{
+    const drogue_model even = {131072, 65536, 0}, deep = {131072, 65536, 65536}, none = {131072, 0, 0};
+    drogue_result r;
+    memset(&r, 0, sizeof r);
+    r.status = DROGUE_OK;
+    r.has_inner = r.orientation_resolved = 1;
+    r.pose.position_m_q16[2] = DROGUE_Q16_ONE;
+    r.ellipse.a_px_q16 = 200 * DROGUE_Q16_ONE; /* an inner part of 50 px is expected */
+    r.ellipse.b_px_q16 = 50 * DROGUE_Q16_ONE;
+    r.inner.area_px = 7854;
+    r.cover_q16 = DROGUE_Q16(6, 10);
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
+    r.cover_q16--;
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    r.orientation_resolved = 0;
+    r.cover_q16 = DROGUE_Q16(3, 4);
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
+    r.cover_q16--;
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    r.cover_q16 = DROGUE_Q16_ONE;
+    r.has_inner = 0;
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    r.has_inner = 1;
+    r.inner.area_px = 10200; /* 56.98 px: an eighth is 6.25, and 0.6 */
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    r.inner.area_px = 10130; /* 56.78 px */
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
+    r.inner.area_px = 5805; /* 42.98 px */
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    r.inner.area_px = 5890; /* 43.3 px */
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
+    r.inner.area_px = 1963; /* 25 px: as large as a part twice as far away */
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
+    ck_assert_int_eq(drogue_result_sure(&r, &deep), 1);
+    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){131072, 65536, -65536}), 0);
+    r.pose.position_m_q16[2] = -DROGUE_Q16_ONE;
+    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){131072, 65536, 4 * 65536}), 0);
+    r.quality.reliability_q16 = DROGUE_Q16(9, 10);
+    r.cover_q16 = DROGUE_Q16(3, 4);
+    ck_assert_int_eq(drogue_result_sure(&r, &none), 1);
+    r.cover_q16--;
+    ck_assert_int_eq(drogue_result_sure(&r, &none), 0);
+    r.cover_q16 = DROGUE_Q16(3, 4);
+    r.quality.reliability_q16--;
+    ck_assert_int_eq(drogue_result_sure(&r, &none), 0);
+}
+END_TEST
+
+/* An inner part larger than numbers hold is not the one that is seen: carelessly multiplied, its size would wrap to it. */
+START_TEST(a_model_beyond_measure_is_not_sure)
+{
+    const drogue_model huge = {1, 2622, 0}; /* an inner part of 2622 rims */
+    drogue_result r;
+    memset(&r, 0, sizeof r);
+    r.status = DROGUE_OK;
+    r.has_inner = r.orientation_resolved = 1;
+    r.cover_q16 = DROGUE_Q16_ONE;
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = 100 * DROGUE_Q16_ONE;
+    r.pose.position_m_q16[2] = 1 << 30;
+    r.inner.area_px = 9852; /* a radius of 56 px */
+    ck_assert_int_eq(drogue_result_sure(&r, &huge), 0);
+    r.pose.position_m_q16[2] = 9 * DROGUE_Q16_ONE;
+    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){6553600, 3670016, 0}), 1);
+}
+END_TEST
+
 /* Wide with a drogue at the far end, tall with one at the bottom, one as large as a region bears, none. */
 START_TEST(frames_larger_than_a_region)
 {
@@ -442,6 +511,68 @@ START_TEST(track_frames)
 }
 END_TEST
 
+/* A track that has coasted until the drogue may be anywhere in 'reach': what shows up there is found, also when it is not
+ * in the predicted region, and not what is elsewhere; half an outline without an inner part is not believed. */
+START_TEST(uncertain_searches_within_reach)
+{
+    int shown, k;
+    for (shown = 0; shown < 2; shown++) {
+        const double start[3] = {-1, 0, 5}, other[3] = {1.2, 0.2, 3.5};
+        frame blank = new_frame(640, 480, 210, 1), first = new_frame(640, 480, 210, 2), last = new_frame(640, 480, 210, 3);
+        rig r = new_rig(&blank);
+        drogue_track_config config;
+        drogue_track t;
+        drogue_result result;
+        drogue_region region;
+        drogue_image image = image_of(&first);
+        drogue_track_config_default(&config);
+        config.max_missed = 30;
+        (void)drogue_track_init(&t, &config, &r.camera, &model, NULL);
+        (void)draw_drogue(&first, start, 0.1, 0.1, &all_shades[0]);
+        for (k = 0; k < 8; k++) {
+            ck_assert_int_eq(drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search,
+                                                &r.config, &image, 40000),
+                             DROGUE_TRACKING);
+        }
+        image = image_of(&blank);
+        for (k = 0; k < 30 && (t.search == 0 || t.reach.width_px < 320); k++) { /* 70 px semi-axis */
+            ck_assert_int_eq(drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search,
+                                                &r.config, &image, 40000),
+                             DROGUE_COASTING);
+        }
+        MUST(t.search == 1 && t.reach.width_px >= 320, "reach %d px", (int)t.reach.width_px);
+        image = image_of(&last);
+        if (shown) {
+            const double near[3] = {-1 + 0.4, 0.2, 5};
+            (void)draw_drogue(&last, near, 0.1, 0.1, &all_shades[0]);
+            (void)draw_drogue(&last, other, 0.1, 0.1, &all_shades[0]);
+        } else {
+            const ellipse_real disc = {320 - 200, 240, 70, 69, 0.3};
+            int32_t x, y;
+            draw_ellipse(&last, &disc, 60);
+            for (y = 0; y < last.height; y++) {
+                for (x = 0; x < 110; x++) {
+                    last.pixels[y * last.width + x] = 60;
+                }
+            }
+        }
+        (void)drogue_track_frame(&result, &region, &t, &r.workspace.workspace, &r.search.search, &r.config, &image,
+                                 40000);
+        if (shown) {
+            MUST(result.status == DROGUE_OK && fabs(real_of_q16(result.pose.position_m_q16[0]) + 0.6) < 0.02,
+                 "%s, x %g", drogue_status_name(result.status), real_of_q16(result.pose.position_m_q16[0]));
+        } else {
+            ck_assert_int_ne(result.status, DROGUE_OK);
+            ck_assert_int_eq(t.state, DROGUE_COASTING);
+        }
+        free_rig(&r);
+        free(blank.pixels);
+        free(first.pixels);
+        free(last.pixels);
+    }
+}
+END_TEST
+
 /* A first region that holds nothing does not keep a lost track from finding the drogue elsewhere; a configuration that was
  * refused does. */
 START_TEST(first_region_then_anywhere)
@@ -514,5 +645,7 @@ END_TEST
 
 SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
            any_size_of_frame, refusals, acquire_measures_what_it_finds, clipping_saturates,
-           acquire_refuses_hostile_regions, frames_larger_than_a_region, track_frames, first_region_then_anywhere,
+           acquire_refuses_hostile_regions, sure_at_its_limits,
+           a_model_beyond_measure_is_not_sure,
+           frames_larger_than_a_region, track_frames, uncertain_searches_within_reach, first_region_then_anywhere,
            what_shows_no_inner_part_is_reconsidered)

@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Cases of acquisition and of the second look: small rendered scenes, parts of images, workspaces of any size. */
+#include <cmath>
+
+#include "images.hpp"
+#include "scene.hpp"
+
+namespace vectors {
+
+namespace {
+
+int64_t q16(double v) { return static_cast<int64_t>(std::floor(v * 65536 + 0.5)); }
+
+struct Picture {
+    cv::Mat image;
+    accuracy::Camera camera = {500, 500, 0, 0};
+    double radius = 0.35, inner_radius = 0.12, depth = 0.25;
+};
+
+std::vector<Array> inputs_of(const Picture &p, std::vector<int64_t> params)
+{
+    const accuracy::Camera &c = p.camera;
+    return {image_array("image", p.image),
+            word_array("camera", 32, 16,
+                       {q16(c.fx_px), q16(c.fy_px), q16(c.cx_px), q16(c.cy_px), q16(c.k1), q16(c.k2), q16(c.p1),
+                        q16(c.p2), q16(c.k3)}),
+            word_array("model", 32, 16, {q16(p.radius), q16(p.inner_radius), q16(p.depth)}),
+            word_array("params", 32, 0, std::move(params))};
+}
+
+/* A drogue of 500 px focal length before the sky, in a frame of the given size. */
+Picture picture(uint64_t seed, int width, int height, double x, double y, double z, double yaw, double pitch)
+{
+    accuracy::Scene s;
+    Picture p;
+    s.seed = seed;
+    s.camera = {500, 500, 1023.5, 1023.5};
+    s.pose = {{x, y, z}, accuracy::axis_of(yaw, pitch)};
+    s.look = accuracy::Look::dark();
+    s.background = accuracy::Background::sky();
+    s.sensor.noise = 1;
+    const cv::Rect part(1024 - width / 2, 1024 - height / 2, width, height);
+    p.image = accuracy::render(s, part);
+    p.camera = s.camera.cropped(part.tl());
+    return p;
+}
+
+/* One to three drogues before a plain background, by number: some cut, some with an inner part of another size or none. */
+Picture drawn_drogues(uint64_t number)
+{
+    constexpr int WIDTH = 132, HEIGHT = 64;
+    struct Drogue {
+        double xc, yc, a, ratio, tilt, lean, inner_radius, from, wide;
+        int canopy, inner;
+    };
+    uint64_t state = number * 7919 + 17;
+    const auto draw = [&state](int low, int high) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return low + static_cast<int>((state >> 33) % static_cast<uint64_t>(high - low + 1));
+    };
+    const int count = draw(1, 3), background = draw(150, 240);
+    std::vector<Drogue> drogues;
+    for (int i = 0; i < count; i++) {
+        Drogue d;
+        d.a = draw(130, 230) / 10.0;
+        d.xc = WIDTH * (2 * i + 1) / (2.0 * count) + draw(-20, 20) / 10.0;
+        d.yc = HEIGHT / 2.0 + draw(-80, 80) / 10.0;
+        d.ratio = draw(0, 3) == 0 ? 1 : draw(80, 100) / 100.0;
+        d.tilt = draw(0, 62) / 10.0;
+        const int away = draw(0, 4) == 0 ? 0 : 1;
+        const double size = draw(0, 2) == 0 ? draw(60, 150) / 100.0 : 1, z = 500 * 0.35 / d.a;
+        d.lean = std::sqrt(1 - d.ratio * d.ratio) * away * d.a * 0.25 / 0.35;
+        d.inner_radius = d.a * 0.12 / 0.35 * z / (z + 0.25) * size;
+        d.from = draw(0, 62) / 10.0;
+        d.wide = draw(0, 1) == 0 ? draw(0, 30) / 10.0 : 0;
+        d.canopy = draw(30, 130);
+        d.inner = draw(0, 4) == 0 ? d.canopy : draw(0, d.canopy - 15);
+        drogues.push_back(d);
+    }
+    const auto grey_at = [&](double x, double y) {
+        int grey = background;
+        for (const Drogue &d : drogues) {
+            const double dx = x - d.xc, dy = y - d.yc, c = std::cos(d.tilt), s = std::sin(d.tilt);
+            const double u = dx * c + dy * s, v = (dy * c - dx * s) / d.ratio, inner_v = v - d.lean / d.ratio;
+            double turn = std::atan2(dy, dx) - d.from;
+            turn -= 2 * CV_PI * std::floor(turn / (2 * CV_PI));
+            if (u * u + inner_v * inner_v <= d.inner_radius * d.inner_radius) {
+                grey = d.inner;
+            } else if (u * u + v * v <= d.a * d.a && (turn >= d.wide || u * u + v * v <= d.a * d.a / 2)) {
+                grey = d.canopy;
+            }
+        }
+        return grey;
+    };
+    Picture p;
+    p.camera = {500, 500, 66, 32};
+    p.image = image_from(WIDTH, HEIGHT, [&](int x, int y) {
+        int sum = 8;
+        for (int k = 0; k < 16; k++) {
+            sum += grey_at(x + (2 * (k % 4) - 3) / 8.0, y + (2 * (k / 4) - 3) / 8.0);
+        }
+        return sum / 16;
+    });
+    return p;
+}
+
+/* What is asked of an acquisition. */
+struct Ask {
+    bool part = false;
+    std::array<int64_t, 4> region = {0, 0, 0, 0};
+    int64_t search = 256, workspace = 256, contrast = 6;
+};
+
+void add_ask(Set &set, const std::string &name, Tier tier, const Flags &flags, const Picture &p, const Ask &a)
+{
+    set.add(
+        name, tier, flags,
+        inputs_of(p, {a.part, a.region[0], a.region[1], a.region[2], a.region[3], a.search, a.workspace, a.contrast}));
+}
+
+} // namespace
+
+void add_acquire(Set &set)
+{
+    set.begin("acquire");
+    Picture p = picture(61, 150, 120, 0.3, -0.1, 6, 0.2, -0.15);
+    Ask ask;
+    add_ask(set, "whole", Tier::ordinary, {}, p, ask);
+    ask.part = true;
+    ask.region = {45, 9, 90, 83};
+    add_ask(set, "part", Tier::ordinary, {}, p, ask);
+    ask.region = {-30, -700, 5000, 807}; /* past the image */
+    add_ask(set, "part-past-the-image", Tier::boundary, {"border"}, p, ask);
+    ask.region = {0, 0, 60, 120}; /* the drogue is elsewhere */
+    add_ask(set, "part-beside-it", Tier::must_reject, {}, p, ask);
+    ask.region = {63, 20, 50, 70}; /* much of the outline is cut */
+    add_ask(set, "part-cuts-it", Tier::stress, {"arc"}, p, ask);
+    const int64_t low = INT32_MIN, high = INT32_MAX;
+    const std::pair<const char *, std::array<int64_t, 4>> hostile[] = {{"wraps-down", {0, low, 64, low + 5000}},
+                                                                       {"wraps-left", {low, 0, low + 5000, 64}},
+                                                                       {"far-away", {high, high, high, high}},
+                                                                       {"no-width", {0, 0, 0, 64}},
+                                                                       {"negative", {0, 0, 64, -1}},
+                                                                       {"to-the-border", {-64, 0, 64, 64}},
+                                                                       {"beside", {64, 0, 64, 64}}};
+    Picture blank;
+    blank.image = constant(64, 64, 210);
+    for (const auto &[name, region] : hostile) {
+        ask.region = region;
+        add_ask(set, std::string("region-") + name, Tier::must_reject, {"argument", "saturation"}, blank, ask);
+    }
+    ask.region = {low, low, high, high};
+    add_ask(set, "region-largest", Tier::must_reject, {"saturation"}, blank, ask);
+    ask.region = {-1000000, -1000000, 2000000, 2000000};
+    add_ask(set, "region-all", Tier::boundary, {"saturation"}, p, ask);
+    ask = Ask();
+    ask.search = 63;
+    add_ask(set, "search-too-narrow", Tier::must_reject, {"table-full"}, blank, ask);
+    ask.search = 150;
+    ask.workspace = 60;
+    add_ask(set, "workspace-too-narrow", Tier::must_reject, {"table-full"}, p, ask);
+    ask = Ask();
+    ask.contrast = 256;
+    add_ask(set, "contrast-too-large", Tier::must_reject, {"argument"}, blank, ask);
+    ask.contrast = 255; /* nothing is sighted: the image itself is measured, the drogue not in its middle */
+    add_ask(set, "nothing-sighted", Tier::stress, {}, p, ask);
+    ask = Ask();
+    p = picture(62, 110, 110, 0.02, 0.01, 5, 0.1, 0.1);
+    ask.contrast = 255;
+    add_ask(set, "nothing-sighted-middle", Tier::ordinary, {}, p, ask);
+    ask.contrast = 6;
+    p.inner_radius = 0;
+    add_ask(set, "inner-unknown", Tier::ordinary, {"inner-missing"}, p, ask);
+    p.inner_radius = 0.2; /* not of its size: seen, not sure */
+    add_ask(set, "inner-of-another-size", Tier::stress, {"inner-missing"}, p, ask);
+    p = picture(63, 130, 110, -0.2, 0.2, 7, -0.1, 0.2);
+    fill(p.image, 0, 0, 62, 110, 150); /* half of it is hidden */
+    add_ask(set, "half-hidden", Tier::stress, {"occlusion"}, p, ask);
+    p = picture(64, 160, 100, 0.35, 0, 6, 0.2, 0.1); /* beside it a darker disc in a ring, which is none */
+    cv::Mat decoy = soft_disc(70, 100, 58, 98, 92, 8, 40, 190);
+    const cv::Mat dark = soft_disc(70, 100, 58, 98, 30, 6, 0, 255);
+    decoy = cv::min(decoy, dark);
+    decoy.copyTo(p.image(cv::Rect(0, 0, 70, 100)));
+    add_ask(set, "decoy", Tier::stress, {"tie"}, p, ask);
+    p = picture(65, 120, 100, 0.2, 0.1, 5.5, 0.25, -0.2);
+    p.image = 255 - p.image;
+    add_ask(set, "negative-picture", Tier::stress, {"polarity"}, p, ask);
+    ask = Ask();
+    for (const int number : {0, 1, 10, 16, 19, 36, 42, 44, 56, 328, 363}) { /* several sighted: which settles, and which is worth more */
+        add_ask(set, "drawn-" + std::to_string(number), Tier::stress, {"tie"}, drawn_drogues(static_cast<uint64_t>(number)), ask);
+    }
+    for (const int number : {14, 19, 48}) {
+        p = drawn_drogues(static_cast<uint64_t>(number));
+        p.inner_radius = 0;
+        add_ask(set, "drawn-inner-unknown-" + std::to_string(number), Tier::stress, {"tie", "inner-missing"}, p, ask);
+    }
+    p.image = constant(520, 8, 90);
+    ask.search = 520;
+    add_ask(set, "too-wide-to-measure-whole", Tier::must_reject, {"threshold-met"}, p, ask);
+    p.image = constant(512, 8, 90);
+    add_ask(set, "wide-enough-to-measure-whole", Tier::must_reject, {"threshold-met"}, p, ask);
+    p.image = constant(8, 513, 90);
+    add_ask(set, "too-high-to-measure-whole", Tier::must_reject, {"threshold-met"}, p, ask);
+}
+
+namespace {
+
+struct Look {
+    std::array<int64_t, 4> region;
+    int64_t width = 256, edges = 4096, labels = 2048, arcs = 512;
+};
+
+void add_one(Set &set, const std::string &name, Tier tier, const Flags &flags, const Picture &p, const Look &l)
+{
+    set.add(name, tier, flags,
+            inputs_of(p, {l.region[0], l.region[1], l.region[2], l.region[3], l.width, l.edges, l.labels, l.arcs}));
+}
+
+} // namespace
+
+void add_look(Set &set)
+{
+    set.begin("look");
+    Picture p;
+    p.camera = {400, 400, 63.5, 63.5};
+    p.inner_radius = 0;
+    p.image = image_from(128, 128,
+                         [](int x, int y) { return (x - 76) * (x - 76) + (y - 60) * (y - 60) <= 40 * 40 ? 60 : 200; });
+    Look l = {{0, 0, 128, 128}};
+    for (const int edges :
+         {100, 140, 180, 220, 260, 280, 400}) { /* the list fills in the first look, in the second, never */
+        l.edges = edges;
+        add_one(set, "edges-" + std::to_string(edges), Tier::stress, {"table-full", "arc"}, p, l);
+    }
+    l = {{0, 0, 128, 128}};
+    for (const int width : {127, 128, 150, 200}) {
+        l.width = width;
+        add_one(set, "width-" + std::to_string(width), Tier::boundary, {"table-full", "threshold-met"}, p, l);
+    }
+    l = {{0, 0, 128, 128}};
+    for (const int labels : {8, 12, 16, 24, 40}) {
+        l.labels = labels;
+        add_one(set, "labels-" + std::to_string(labels), Tier::stress, {"table-full"}, p, l);
+    }
+    l = {{0, 0, 128, 128}};
+    for (const int arcs : {1, 2, 3, 4, 6}) {
+        l.arcs = arcs;
+        add_one(set, "arcs-" + std::to_string(arcs), Tier::stress, {"table-full"}, p, l);
+    }
+    p = picture(71, 130, 120, 0.2, -0.1, 4.5, 0.2, -0.2);
+    const int x = 65 + 22, y = 60 - 11;        /* where it is, about */
+    for (const int off : {0, 6, 12, 18, 24}) { /* the region's middle beside it: the ring cuts the outline */
+        l = {{x - 49 + off, y - 49, 97, 97}};
+        add_one(set, "beside-" + std::to_string(off), Tier::ordinary, {"arc"}, p, l);
+        l = {{x - 49, y - 49 - off, 97, 97}};
+        l.width = 97; /* no room for a wider region */
+        add_one(set, "above-" + std::to_string(off), Tier::boundary, {"arc", "table-full"}, p, l);
+    }
+    for (const int side : {66, 76, 120, 150}) {
+        l = {{x - side / 2, y - side / 2, side, side}};
+        add_one(set, "side-" + std::to_string(side), Tier::ordinary, {}, p, l);
+    }
+    l = {{x - 20, y - 49, 97, 97}}; /* past the image's right border */
+    add_one(set, "past-the-border", Tier::boundary, {"border", "arc"}, p, l);
+    p.image = constant(100, 100, 80);
+    l = {{0, 0, 100, 100}};
+    add_one(set, "nothing", Tier::must_reject, {"degenerate"}, p, l);
+}
+
+} // namespace vectors
