@@ -15,7 +15,7 @@
 #define OWN_BLUR2_Q8_SMOOTH 363 /* px^2: smoothing 1, Sobel 1/3, the pixel 1/12 */
 #define OWN_BLUR2_Q8 107
 
-#define LOOKS 512 /* edge points looked at, to about twice as many */
+#define LOOKS 256 /* edge points looked at, to about twice as many */
 
 /* (h - q) / s over h / s from 1 in steps of a sixteenth, Q8; below, the band is too narrow to say more */
 static const uint8_t moved_q8[17] = {205, 120, 79, 55, 38, 27, 19, 13, 9, 7, 4, 3, 2, 1, 1, 1, 0};

@@ -445,7 +445,7 @@ void find_pull(Outline &o, const FrontEnd &front, const drogue_config &config, c
     }
     const std::vector<BandPoint> points =
         collect(o.fitted, {width, real(config.refit_cos_q16)}, front, follow.library != nullptr ? &library : nullptr);
-    const size_t stride = points.size() / 512 | 1;
+    const size_t stride = points.size() / 256 | 1;
     for (size_t i = 0; i < points.size(); i += stride) {
         const BandPoint &p = points[i];
         if (!p.held || p.f == 0) {
