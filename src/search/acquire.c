@@ -12,7 +12,7 @@
 #define MOST_OFF_PX DROGUE_Q16(6, 10)   /* and an eighth, of the inner part's radius */
 #define SETTLED_COVER DROGUE_Q16(8, 10) /* of a result after which nothing else is looked at */
 #define MOST_PRODUCT (INT64_MAX / 4)
-#define MOST_WHOLE_PX 512               /* a larger image is not measured itself: a drogue in it shows its inner part */
+#define MOST_WHOLE_PX 512 /* a larger image is not measured itself: a drogue in it shows its inner part */
 
 /* Radii of the inner part, px Q16, as circles of its area: what the model expects in this outline, and by how much it is
  * off. A ring about some dark disc has another; and of concentric outlines the rim fits best. */

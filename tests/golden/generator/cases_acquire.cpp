@@ -186,8 +186,10 @@ void add_acquire(Set &set)
     p.image = 255 - p.image;
     add_ask(set, "negative-picture", Tier::stress, {"polarity"}, p, ask);
     ask = Ask();
-    for (const int number : {0, 1, 10, 16, 19, 36, 42, 44, 56, 328, 363}) { /* several sighted: which settles, and which is worth more */
-        add_ask(set, "drawn-" + std::to_string(number), Tier::stress, {"tie"}, drawn_drogues(static_cast<uint64_t>(number)), ask);
+    for (const int number :
+         {0, 1, 10, 16, 19, 36, 42, 44, 56, 328, 363}) { /* several sighted: which settles, and which is worth more */
+        add_ask(set, "drawn-" + std::to_string(number), Tier::stress, {"tie"},
+                drawn_drogues(static_cast<uint64_t>(number)), ask);
     }
     for (const int number : {14, 19, 48}) {
         p = drawn_drogues(static_cast<uint64_t>(number));

@@ -66,7 +66,10 @@ cv::Mat drawn_circles(uint64_t number, bool faint)
     const int ox = draw(-2, 2), oy = draw(-2, 2);
     return image_from(44, 44, [&](int x, int y) {
         const int dx = x - 22 - ox, dy = y - 22 - oy, d = dx * dx + dy * dy;
-        return (d < radius * radius ? inside : d < wide * wide ? middle : background) + (noise > 0 ? draw(0, noise) : 0);
+        return (d < radius * radius ? inside
+                : d < wide * wide   ? middle
+                                    : background) +
+               (noise > 0 ? draw(0, noise) : 0);
     });
 }
 

@@ -356,6 +356,10 @@ START_TEST(acquire_refuses_hostile_regions)
                                                     &(drogue_setup){&r.camera, &model, &r.config}, &image, &regions[i]);
         MUST(status == DROGUE_E_REGION && result.status == status, "region %d: %s", (int)i, drogue_status_name(status));
     }
+    ck_assert_int_eq(drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+                                    &(drogue_setup){&r.camera, &model, &r.config}, &(drogue_image){NULL, 64, 64, 64},
+                                    NULL),
+                     DROGUE_E_ARGUMENT);
     free_rig(&r);
     free(f.pixels);
 }
@@ -518,7 +522,8 @@ START_TEST(uncertain_searches_within_reach)
     int shown, k;
     for (shown = 0; shown < 2; shown++) {
         const double start[3] = {-1, 0, 5}, other[3] = {1.2, 0.2, 3.5};
-        frame blank = new_frame(640, 480, 210, 1), first = new_frame(640, 480, 210, 2), last = new_frame(640, 480, 210, 3);
+        frame blank = new_frame(640, 480, 210, 1), first = new_frame(640, 480, 210, 2),
+              last = new_frame(640, 480, 210, 3);
         rig r = new_rig(&blank);
         drogue_track_config config;
         drogue_track t;
@@ -645,7 +650,6 @@ END_TEST
 
 SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
            any_size_of_frame, refusals, acquire_measures_what_it_finds, clipping_saturates,
-           acquire_refuses_hostile_regions, sure_at_its_limits,
-           a_model_beyond_measure_is_not_sure,
+           acquire_refuses_hostile_regions, sure_at_its_limits, a_model_beyond_measure_is_not_sure,
            frames_larger_than_a_region, track_frames, uncertain_searches_within_reach, first_region_then_anywhere,
            what_shows_no_inner_part_is_reconsidered)
