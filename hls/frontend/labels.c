@@ -87,6 +87,7 @@ static void label_arc(drogue_hls_labels *l, uint32_t x, const drogue_hls_words *
     l->arc_next = (uint32_t)read->arc_row >> 3;
     l->key_next = (uint32_t)read->arc_row & 7u;
     l->arc = label;
+    l->arc_fresh = new &room;
 }
 
 void drogue_hls_labels_tick(drogue_hls_labels *l, const drogue_hls_windows *w, const drogue_hls_words *read,

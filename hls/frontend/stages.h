@@ -58,13 +58,13 @@ enum { IDLE_PX = 5, LEAST_PERIOD = PLACES - 1, LAG_ROWS = 5 };
     X(arc_component, DROGUE_HLS_LABELS, LABEL_BITS) \
     X(arc_key, DROGUE_HLS_LABELS, 3)                \
     X(arc_root, DROGUE_HLS_LABELS, LABEL_BITS)      \
-    X(arc_points, DROGUE_HLS_LABELS, POINT_BITS)    \
     X(arc_place, DROGUE_HLS_LABELS, POINT_BITS)     \
     X(point_arc, DROGUE_HLS_EDGES + 1, LABEL_BITS)  \
     X(points, DROGUE_HLS_EDGES + 1, 64)
 #define DROGUE_HLS_PAIR_MEMORIES(X)                    \
     X(component_parent, DROGUE_HLS_LABELS, LABEL_BITS) \
-    X(arc_parent, DROGUE_HLS_LABELS, LABEL_BITS)
+    X(arc_parent, DROGUE_HLS_LABELS, LABEL_BITS)       \
+    X(arc_points, DROGUE_HLS_LABELS, POINT_BITS)
 
 /* Bits of n. */
 #define BITS_4(n) ((n) > 7 ? 4 : (n) > 3 ? 3 : (n) > 1 ? 2 : 1)
@@ -208,6 +208,7 @@ typedef struct drogue_hls_labels {
     uint32_t key_above[3];
     uint32_t key_left;
     uint32_t arc; /* of the pixel that may be listed */
+    uint32_t arc_fresh; /* 1: the first of that label */
 } drogue_hls_labels;
 
 void drogue_hls_labels_begin(drogue_hls_labels *l);
@@ -250,7 +251,8 @@ typedef struct drogue_hls_lists {
     uint32_t here[3]; /* 1: there is one; [0] not used */
     uint32_t strong;  /* what a stage hands to the next */
     uint32_t root;
-    uint64_t point;
+    uint32_t count[2];
+    uint64_t point[2];
     uint32_t arcs; /* entries of the arc table */
     uint32_t arcs_full;
     uint32_t first; /* points in arcs so far */
@@ -266,8 +268,7 @@ enum {
     PHASE_ROWS,       /* a tick a clock */
     PHASE_SETTLE,     /* the merges of a row, where there are any */
     PHASE_COMPONENTS, /* the roots of components, which of them are strong */
-    PHASE_ARCS,       /* the roots of arcs, 0 in a weak component */
-    PHASE_COUNT,      /* the points of each arc */
+    PHASE_ARCS,       /* the roots of arcs, 0 in a weak component, and their points */
     PHASE_PLACE,      /* the arc table */
     PHASE_SORT        /* the edge list */
 };
@@ -304,8 +305,9 @@ static inline uint32_t drogue_hls_takes(const drogue_hls_registers *r)
 void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, const drogue_hls_words *read,
                      drogue_hls_places *places, drogue_hls_writes *write);
 
-/* Append a point when it has an arc. */
-void drogue_hls_append(drogue_hls_lists *list, uint64_t point, uint32_t arc, drogue_hls_writes *write);
+/* Append a point when it has an arc, and count it there. */
+void drogue_hls_append(drogue_hls_lists *list, uint64_t point, const drogue_hls_labels *labels,
+                       const drogue_hls_words *read, drogue_hls_writes *write);
 
 /* A clock of a phase from PHASE_COMPONENTS on; 1 when the phase is complete. Of the places those that a word read names. */
 uint32_t drogue_hls_lists_step(drogue_hls_lists *list, const drogue_hls_labels *labels, uint32_t phase,

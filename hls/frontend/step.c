@@ -101,7 +101,7 @@ static void tick(drogue_hls_registers *r, uint32_t pixel, const drogue_hls_words
 {
     drogue_hls_windows *w = &r->windows;
     const uint32_t code = w->code[AT_LABEL] & (w->in_ring ? 0x1Fu : 3u); /* no arc outside the ring */
-    drogue_hls_append(&r->lists, w->point[AT_LIST], r->labels.arc, write);
+    drogue_hls_append(&r->lists, w->point[AT_LIST], &r->labels, read, write);
     drogue_hls_labels_tick(&r->labels, w, read, write, code);
     drogue_hls_pixels_tick(w, &r->frame, read, write);
     w->pixel = (uint8_t)pixel;
@@ -181,13 +181,20 @@ static void ask(drogue_hls_places *p, const drogue_hls_registers *r)
     case PHASE_ROWS:
         p->component_parent = r->labels.component_next;
         p->arc_parent = r->labels.arc_next;
+        p->arc_points = r->labels.arc;
         break;
     case PHASE_COMPONENTS:
         p->component_parent = at;
         p->component_strong = at;
         break;
-    case PHASE_ARCS: p->arc_parent = at; break;
-    case PHASE_PLACE: p->arc_points = at; break;
+    case PHASE_ARCS:
+        p->arc_parent = at;
+        p->arc_points = at;
+        break;
+    case PHASE_PLACE:
+        p->arc_points = at;
+        p->arc_root = at;
+        break;
     default: break;
     }
 }

@@ -39,8 +39,7 @@ void rise(Vdrogue_frontend *v)
 {
     v->clock = 1;
     v->eval();
-    v->clock = 0;
-    v->eval();
+    v->clock = 0; // takes effect with the inputs of the next clock
 }
 
 } // namespace
@@ -65,12 +64,12 @@ void drogue_hls_frontend(const uint8_t *pixels, uint64_t *edges, uint64_t *arcs,
     v->centre2_y = (uint32_t)centre2_y;
     v->longest_px = (uint32_t)longest_px;
     v->start = 1;
+    v->eval();
     do {
-        v->eval();
         gaps = gaps * 1664525u + 1013904223u;
         v->pixel_valid = stalls ? gaps >> 30 != 0 : 1;
         v->pixel = v->pixel_valid && v->pixel_ready ? pixels[taken] : 0xA5;
-        v->eval();
+        v->eval(); // the same half of the clock: writes may follow from the pixel
         taken += v->pixel_valid && v->pixel_ready;
         if (v->edge_write) {
             edges[v->edge_at] = v->edge_word;
@@ -86,6 +85,7 @@ void drogue_hls_frontend(const uint8_t *pixels, uint64_t *edges, uint64_t *arcs,
             printf("rtl: the block does not end\n");
             exit(1);
         }
+        v->eval();
     } while (v->busy);
     if (!stalls && width_px == DROGUE_HLS_WIDTH && height_px == DROGUE_HLS_HEIGHT && clocks > busiest.clocks) {
         busiest.clocks = clocks;
