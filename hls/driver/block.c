@@ -50,7 +50,9 @@ drogue_block_status drogue_block_start(const drogue_bank_of_registers *bank, con
 drogue_block_status drogue_block_poll(const drogue_bank_of_registers *bank)
 {
     const uint32_t state = drogue_bank_read(bank, DROGUE_BANK_STATE);
-    return state & DROGUE_BANK_BUSY ? DROGUE_BLOCK_BUSY : state & DROGUE_BANK_DONE ? DROGUE_BLOCK_OK : DROGUE_BLOCK_EARLY;
+    return state & DROGUE_BANK_BUSY   ? DROGUE_BLOCK_BUSY
+           : state & DROGUE_BANK_DONE ? DROGUE_BLOCK_OK
+                                      : DROGUE_BLOCK_EARLY;
 }
 
 drogue_block_status drogue_block_wait(const drogue_bank_of_registers *bank)

@@ -12,13 +12,13 @@
 /* What became of a frame. */
 typedef enum drogue_block_status {
     DROGUE_BLOCK_OK = 0,
-    DROGUE_BLOCK_ABSENT,  /* no front end at that address, or one of another kind */
-    DROGUE_BLOCK_SMALL,   /* its tables are smaller than the workspace's: it could not do what the library does */
-    DROGUE_BLOCK_BUSY,    /* the frame before is still under way: nothing was started, or read */
-    DROGUE_BLOCK_EARLY,   /* no frame has ended since the last start: nothing was read */
-    DROGUE_BLOCK_STUCK,   /* the frame did not end in time; the block was reset */
-    DROGUE_BLOCK_LENGTH,  /* a list longer than its table, or than the workspace's */
-    DROGUE_BLOCK_LIST,    /* arcs that do not lie one after the other among the points, or a status that is none */
+    DROGUE_BLOCK_ABSENT, /* no front end at that address, or one of another kind */
+    DROGUE_BLOCK_SMALL,  /* its tables are smaller than the workspace's: it could not do what the library does */
+    DROGUE_BLOCK_BUSY,   /* the frame before is still under way: nothing was started, or read */
+    DROGUE_BLOCK_EARLY,  /* no frame has ended since the last start: nothing was read */
+    DROGUE_BLOCK_STUCK,  /* the frame did not end in time; the block was reset */
+    DROGUE_BLOCK_LENGTH, /* a list longer than its table, or than the workspace's */
+    DROGUE_BLOCK_LIST,   /* arcs that do not lie one after the other among the points, or a status that is none */
     DROGUE_BLOCK_STATUSES
 } drogue_block_status;
 
@@ -28,9 +28,9 @@ const char *drogue_block_status_name(drogue_block_status status);
 /* A register bank; what it is, is for the two functions below to know. In bank.c: an address. */
 typedef struct drogue_bank_of_registers {
     volatile uint32_t *base;
-    const uint8_t *frame;   /* the frame memory as the processor sees it */
+    const uint8_t *frame; /* the frame memory as the processor sees it */
     uint32_t frame_bytes;
-    uint32_t most_polls;    /* reads of the state before a frame counts as stuck */
+    uint32_t most_polls; /* reads of the state before a frame counts as stuck */
 } drogue_bank_of_registers;
 
 /* A word of the bank at a byte offset. */

@@ -4,12 +4,12 @@
 #define DROGUE_BLOCK_REGISTERS_H
 
 enum {
-    DROGUE_BANK_IDENTITY = 0x00, /* read: DROGUE_BANK_IS */
-    DROGUE_BANK_WIDTH = 0x04,    /* read: longest side of a region, px */
-    DROGUE_BANK_EDGES = 0x08,    /* read: words that the edge list holds */
-    DROGUE_BANK_ARCS = 0x0C,     /* read: words that the arc table holds */
-    DROGUE_BANK_CONTROL = 0x10,  /* write: START, or RESET, which ends whatever is under way */
-    DROGUE_BANK_STATE = 0x14,    /* read: BUSY, DONE (from the end of a frame until the next START) */
+    DROGUE_BANK_IDENTITY = 0x00,  /* read: DROGUE_BANK_IS */
+    DROGUE_BANK_WIDTH = 0x04,     /* read: longest side of a region, px */
+    DROGUE_BANK_EDGES = 0x08,     /* read: words that the edge list holds */
+    DROGUE_BANK_ARCS = 0x0C,      /* read: words that the arc table holds */
+    DROGUE_BANK_CONTROL = 0x10,   /* write: START, or RESET, which ends whatever is under way */
+    DROGUE_BANK_STATE = 0x14,     /* read: BUSY, DONE (from the end of a frame until the next START) */
     DROGUE_BANK_INTERRUPT = 0x18, /* 1: the interrupt's line is high while DONE */
     /* of the frame; not to be written while BUSY */
     DROGUE_BANK_WIDTH_PX = 0x20,

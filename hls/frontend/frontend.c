@@ -25,8 +25,8 @@ static void read_words(drogue_hls_words *read, const drogue_hls_places *places)
 
 static void write_words(const drogue_hls_writes *write)
 {
-#define X(name, words, bits)                                     \
-    if (write->name.enable) {                                    \
+#define X(name, words, bits)                                      \
+    if (write->name.enable) {                                     \
         name[write->name.address] = kept(write->name.word, bits); \
     }
     DROGUE_HLS_MEMORIES(X)

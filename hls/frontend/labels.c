@@ -37,8 +37,7 @@ static void label_component(drogue_hls_labels *l, uint32_t x, const drogue_hls_w
     write->component_merges = drogue_hls_write_of(l->component_merges, pack_merge(near, merge_with), merges);
     l->component_merges += merges;
     write->component_parent = drogue_hls_write_of(label & fresh, label & fresh, 1);
-    write->component_strong =
-        drogue_hls_write_of(label & (fresh | drogue_hls_when((int)strong)), strong, 1);
+    write->component_strong = drogue_hls_write_of(label & (fresh | drogue_hls_when((int)strong)), strong, 1);
     write->component_row = drogue_hls_write_of(x, label, 1);
     l->component_count += new &room;
     l->components_full |= new &(room ^ 1u);

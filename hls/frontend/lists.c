@@ -33,8 +33,8 @@ static void find_arc(drogue_hls_lists *l, const drogue_hls_words *read, drogue_h
 {
     const uint32_t strong = drogue_hls_when((int)(read->component_strong != 0 && l->here[2]));
     write->arc_root = drogue_hls_write_of(l->at[2], l->root & strong, l->here[2]);
-    write->arc_points = drogue_hls_write_of(l->root, read->arc_points_2 + l->count[1],
-                                            l->here[2] & (uint32_t)(l->root != l->at[2]));
+    write->arc_points =
+        drogue_hls_write_of(l->root, read->arc_points_2 + l->count[1], l->here[2] & (uint32_t)(l->root != l->at[2]));
     l->left += l->count[1] & strong;
     l->count[1] = l->count[0];
     l->count[0] = (uint32_t)read->arc_points;
@@ -50,9 +50,8 @@ static void find_arc(drogue_hls_lists *l, const drogue_hls_words *read, drogue_h
 static void place_arc(drogue_hls_lists *l, uint32_t here, uint32_t min_arc_px, const drogue_hls_words *read,
                       drogue_hls_writes *write)
 {
-    const uint32_t long_enough =
-        here & (uint32_t)(l->at[0] != 0) & (uint32_t)(read->arc_root == l->at[0]) &
-        (uint32_t)(read->arc_points != 0) & (uint32_t)(read->arc_points >= min_arc_px);
+    const uint32_t long_enough = here & (uint32_t)(l->at[0] != 0) & (uint32_t)(read->arc_root == l->at[0]) &
+                                 (uint32_t)(read->arc_points != 0) & (uint32_t)(read->arc_points >= min_arc_px);
     const uint32_t room = l->arcs < DROGUE_HLS_ARCS;
     const uint32_t listed = long_enough & room;
     drogue_arc arc;
@@ -88,9 +87,9 @@ uint32_t drogue_hls_lists_step(drogue_hls_lists *list, const drogue_hls_labels *
                                uint32_t min_arc_px, const drogue_hls_words *read, drogue_hls_places *places,
                                drogue_hls_writes *write)
 {
-    const uint32_t entries = phase == PHASE_COMPONENTS                      ? labels->component_count
+    const uint32_t entries = phase == PHASE_COMPONENTS                     ? labels->component_count
                              : phase == PHASE_ARCS || phase == PHASE_PLACE ? labels->arc_count
-                                                                            : list->points;
+                                                                           : list->points;
     const uint32_t here = list->at[0] < entries;
     switch (phase) {
     case PHASE_COMPONENTS: find_component(list, read, places, write); break;

@@ -90,8 +90,7 @@ static void sum_columns(drogue_hls_windows *w)
 }
 
 /* The smoothed pixel, or the pixel itself, and the two above it, border replicated. */
-static void stack_levels(drogue_hls_windows *w, const drogue_hls_frame *frame, uint32_t older,
-                         drogue_hls_writes *write)
+static void stack_levels(drogue_hls_windows *w, const drogue_hls_frame *frame, uint32_t older, drogue_hls_writes *write)
 {
     const int32_t y = w->y[AT_LEVELS] - 3; /* row of the gradient */
     const uint8_t level = frame->smooth ? w->smoothed : w->middle[1];

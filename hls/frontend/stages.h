@@ -71,7 +71,11 @@ enum { IDLE_PX = 5, LEAST_PERIOD = PLACES - 1, LAG_ROWS = 5 };
 #define BITS_8(n) ((n) > 15 ? 4 + BITS_4((n) >> 4) : BITS_4(n))
 #define BITS_16(n) ((n) > 255 ? 8 + BITS_8((n) >> 8) : BITS_8(n))
 #define BITS(n) ((n) > 65535 ? 16 + BITS_16((n) >> 16) : BITS_16(n))
-enum { LABEL_BITS = BITS(DROGUE_HLS_LABELS), POINT_BITS = BITS(DROGUE_HLS_EDGES) + 1, COLUMN_BITS = BITS(DROGUE_HLS_PERIOD) };
+enum {
+    LABEL_BITS = BITS(DROGUE_HLS_LABELS),
+    POINT_BITS = BITS(DROGUE_HLS_EDGES) + 1,
+    COLUMN_BITS = BITS(DROGUE_HLS_PERIOD)
+};
 
 /* A word written where enable is 1. */
 typedef struct drogue_hls_write {
@@ -207,7 +211,7 @@ typedef struct drogue_hls_labels {
     uint32_t key_next; /* direction class + 1; 0: in no arc */
     uint32_t key_above[3];
     uint32_t key_left;
-    uint32_t arc; /* of the pixel that may be listed */
+    uint32_t arc;       /* of the pixel that may be listed */
     uint32_t arc_fresh; /* 1: the first of that label */
 } drogue_hls_labels;
 
@@ -220,11 +224,11 @@ void drogue_hls_labels_tick(drogue_hls_labels *l, const drogue_hls_windows *w, c
 /* The merges of a row in one table: a merge a clock forward, to join, then one backward, so that every label of the row points
  * at its root: drogue_labels_resolve(). */
 typedef struct drogue_hls_settling {
-    uint32_t at;       /* the merge whose labels are there */
-    uint32_t back;     /* 1: on the way back */
-    uint32_t pending;  /* 1: parents of a merge are there */
-    uint32_t merge;    /* and its place */
-    uint32_t label;    /* on the way back: whose parent is written */
+    uint32_t at;      /* the merge whose labels are there */
+    uint32_t back;    /* 1: on the way back */
+    uint32_t pending; /* 1: parents of a merge are there */
+    uint32_t merge;   /* and its place */
+    uint32_t label;   /* on the way back: whose parent is written */
     uint32_t done;
 } drogue_hls_settling;
 
@@ -278,9 +282,9 @@ typedef struct drogue_hls_registers {
     uint32_t row;    /* of ticks */
     uint32_t column; /* tick of the row */
     drogue_hls_frame frame;
-    int32_t ring_dx; /* 2x - centre2_x of the first column that a row of ticks tests */
-    int32_t ring_dy; /* 2y - centre2_y of the row of labels that begins next */
-    uint32_t bit;    /* of the three squares at work */
+    int32_t ring_dx;    /* 2x - centre2_x of the first column that a row of ticks tests */
+    int32_t ring_dy;    /* 2y - centre2_y of the row of labels that begins next */
+    uint32_t bit;       /* of the three squares at work */
     uint64_t square[3]; /* of ring_dx, ring_dy, the ring's longest side */
     drogue_hls_windows windows;
     drogue_hls_labels labels;

@@ -29,8 +29,8 @@ opt -passes="$passes" -internalize-public-api-list=drogue_hls_step_rtl -inline-t
 gcc "${flags[@]}" hls/rtl/shell.c -o "$work/shell"
 {
     cat hls/rtl/memory.v
-    python3 hls/rtl/verilog.py "$work/step.ll" drogue_hls_step_rtl drogue_frontend_step now=in asked=in read=in \
-        next=out places=out write=out
+    "$work/shell" begin
+    python3 hls/rtl/verilog.py "$work/step.ll" drogue_hls_step_rtl now=in asked=in read=in next=now places=out write=out
     "$work/shell"
 } >"$work/drogue_frontend.v"
 echo "rtl: $work/drogue_frontend.v"

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A pure C function as a combinational Verilog module: one clock of a block.
+"""A pure C function as Verilog: one clock of a block, its combinational part and its registers.
 
-usage: verilog.py IR FUNCTION MODULE NAME=in|out...
+usage: verilog.py IR FUNCTION NAME=in|out|NAME...
 
 The function's LLVM IR has everything inlined and no loops left; its arguments are pointers to structs, named in their order,
-of which 'in' are only read and 'out' are written once at its end. Each becomes a port with the bits of the struct in memory,
-the lowest address lowest. A block of the control flow has a condition under which it is reached; where ways join, these
-choose the value. What cannot be expressed so is an error: nothing is guessed.
+of which 'in' are only read and the others written once at its end. A member becomes the wire NAME_BIT, where BIT is the place
+of its lowest bit in the struct; those of an 'in' are for the surroundings to declare. An argument named after another one
+is what its members, registers, become at the clock: surroundings give 'clock', 'reset' and 'enable'. A block of the control
+flow has a condition under which it is reached; where ways join, these choose the value. What cannot be expressed so is an
+error: nothing is guessed.
 """
 import re
 import sys
@@ -62,6 +64,18 @@ class Types:
             align = max(align, one)
         return -(-at // align) * align, align
 
+    def members(self, t, at=0):
+        """(first bit, bits) of every number in a T."""
+        array = re.fullmatch(r"\[(\d+) x (.*)\]", t)
+        if re.fullmatch(r"i\d+", t):
+            yield at, int(t[1:])
+        elif array:
+            for i in range(int(array[1])):
+                yield from self.members(array[2], at + 8 * i * self.size(array[2])[0])
+        else:
+            for i, member in enumerate(split(self.structs[t])):
+                yield from self.members(member, at + 8 * self.place(t, [0, i]))
+
     def place(self, t, indices):
         """Bytes from the beginning of a T to what the indices name, the first of them among several T."""
         at = indices[0] * self.size(t)[0]
@@ -91,15 +105,15 @@ class Function:
             sys.exit("verilog.py: not everything was inlined")
         self.ports = ports
         self.pointers = {}  # value -> (port, bytes); of an alloca: (None, 0)
-        self.sizes = []
+        self.members = []
         for k, argument in enumerate(split(head[1])):
             self.pointers[argument.split()[-1]] = (k, 0)
-            self.sizes.append(8 * self.types.size(re.match(r"[%\w.]+", argument)[0])[0])
+            self.members.append(dict(self.types.members(re.match(r"[%\w.]+", argument)[0])))
         self.width = {}
         self.names = {}
         self.lines = []
         self.stores = {}  # port -> [(bit, bits, value)]
-        self.blocks, self.order = self.parse(body, len(self.sizes))
+        self.blocks, self.order = self.parse(body, len(self.members))
         self.edges = {}  # (from, to) -> condition
         self.reached = {}
 
@@ -203,10 +217,23 @@ class Function:
             at += self.types.place(inside[0], [int(i) for i in indices])
         self.pointers[v] = (port, at)
 
+    def load(self, port, at, bits):
+        """One member, a part of one, or several whole ones with what lies between them, which is 0."""
+        name, found, end = self.ports[port][0], [], at + bits
+        for first, size in sorted(self.members[port].items(), reverse=True):
+            if first <= at and at + bits <= first + size:
+                return f"{name}_{first}" + ("" if bits == size else f"[{at - first} +: {bits}]")
+            if at <= first and first + size <= end:
+                found += [f"{end - first - size}'d0"] * (end > first + size) + [f"{name}_{first}"]
+                end = first
+            elif first < end and at < first + size:
+                return None
+        return "{" + ", ".join(found + [f"{end - at}'d0"] * (end > at)) + "}"
+
     def store(self, block, code):
         t, v, where = re.match(r"store (\S+) ([^,]+), (.*?)(?:, align \d+)?$", code).groups()
         port, at = self.pointer(where)
-        if port is None or self.ports[port][1] != "out":
+        if port is None or self.ports[port][1] == "in":
             fail(code)
         self.stores.setdefault(port, []).append((block, 8 * at, int(t[1:]), self.value(t, v)))
 
@@ -248,7 +275,7 @@ class Function:
             port, at = self.pointer(where)
             if port is None or self.ports[port][1] != "in":
                 fail(line)
-            self.wire(v, int(t[1:]), f"{self.ports[port][0]}[{8 * at} +: {t[1:]}]")
+            self.wire(v, int(t[1:]), self.load(port, 8 * at, int(t[1:])) or fail(line))
         elif operation == "store":
             self.store(block, code)
         elif operation in ("call", "tail"):
@@ -273,7 +300,7 @@ class Function:
         else:
             fail(line)
 
-    def module(self, name):
+    def body(self):
         for block in self.sorted_blocks():
             ways = [e for (_, to), e in self.edges.items() if to == block]
             if block == self.order[0]:
@@ -285,37 +312,42 @@ class Function:
             for line in self.blocks[block][:-1]:
                 self.instruction(block, line)
             self.leave(block, self.blocks[block][-1])
-        yield f"module {name} ("
-        yield ",\n".join(
-            f"    {'in' if way == 'in' else 'out'}put wire [{bits - 1}:0] {port}"
-            for (port, way), bits in zip(self.ports, self.sizes)
-        )
-        yield ");"
+        for k, (port, way) in enumerate(self.ports):
+            if way not in ("in", "out"):  # registers
+                for bit, bits in self.members[k].items():
+                    yield f"    reg [{bits - 1}:0] {way}_{bit} = {bits}'d0;"
         yield from self.lines
         for k, (port, way) in enumerate(self.ports):
-            if way == "out":
-                yield from self.assigned(port, self.sizes[k], self.stores[k])
-        yield "endmodule"
+            if way != "in":
+                yield from self.assigned(port, way, self.members[k], self.stores[k])
 
-    def assigned(self, port, size, stores):
-        """Each bit once: what no store names holds nothing."""
-        at = 0
-        for block, bit, bits, v in sorted(stores, key=lambda s: s[1]):
-            if block != self.last or bit < at:
-                sys.exit(f"verilog.py: {port} is not written just once at the end")
-            if bit > at:
-                yield f"    assign {port}[{bit - 1}:{at}] = {bit - at}'d0;"
-            yield f"    assign {port}[{bit} +: {bits}] = {v};"
-            at = bit + bits
-        if at < size:
-            yield f"    assign {port}[{size - 1}:{at}] = {size - at}'d0;"
+    def assigned(self, port, way, members, stores):
+        """Each member once; one that no store names is 0."""
+        values = {}
+        for block, at, bits, v in stores:
+            if block != self.last:
+                sys.exit(f"verilog.py: {port} is not written just at the end")
+            for bit in sorted(b for b in members if b < at + bits and at < b + members[b]):
+                if bit in values or bit < at or bit + members[bit] > at + bits:
+                    sys.exit(f"verilog.py: bit {bit} of {port} is not written once")
+                values[bit] = v if bits == members[bit] or "'" in v else f"{v}[{bit - at} +: {members[bit]}]"
+                if "'" in v and bits != members[bit]:  # a constant
+                    values[bit] = f"{members[bit]}'d{(int(v.split('d')[1]) >> (bit - at)) % (1 << members[bit])}"
+        for bit, bits in members.items():
+            yield f"    wire [{bits - 1}:0] {port}_{bit} = {values.get(bit, f'{bits}' + chr(39) + 'd0')};"
+        if way != "out":
+            yield "    always @(posedge clock) if (reset) begin"
+            yield from (f"        {way}_{bit} <= {bits}'d0;" for bit, bits in members.items())
+            yield "    end else if (enable) begin"
+            yield from (f"        {way}_{bit} <= {port}_{bit};" for bit in members)
+            yield "    end"
 
 
 def main():
-    path, name, module, *ports = sys.argv[1:]
+    path, name, *ports = sys.argv[1:]
     function = Function(open(path).read(), name, [p.split("=") for p in ports])
-    print("// Made from C by hls/rtl/verilog.py.")
-    for line in function.module(module):
+    print("    // Made from C by hls/rtl/verilog.py.")
+    for line in function.body():
         print(line)
 
 

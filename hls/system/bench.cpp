@@ -121,9 +121,10 @@ int main(int argc, char **argv)
         }
         frames++;
     }
-    printf("system: side=%d frames=%lu words off=%lu lost=%lu tracking=%lu coasting=%lu second looks=%lu; most clocks of a frame "
-           "that was tracked %lu: %lu frames/s at 50 MHz\n",
-           SIDE, frames, failed, seen[0], seen[1], seen[2], second_looks, most.all,
-           most.all ? 50ul * 1000 * 1000 / most.all : 0);
+    printf(
+        "system: side=%d frames=%lu words off=%lu lost=%lu tracking=%lu coasting=%lu second looks=%lu; most clocks of a frame "
+        "that was tracked %lu: %lu frames/s at 50 MHz\n",
+        SIDE, frames, failed, seen[0], seen[1], seen[2], second_looks, most.all,
+        most.all ? 50ul * 1000 * 1000 / most.all : 0);
     return failed != 0 || frames == 0;
 }

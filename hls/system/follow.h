@@ -27,7 +27,8 @@ typedef struct follow {
 static inline drogue_status follow_begin(follow *f)
 {
     static const drogue_capacity capacity = DROGUE_CAPACITY_FOR(WIDEST);
-    const drogue_camera camera = {FOCAL_PX * 65536, FOCAL_PX * 65536, (SIDE - 1) * 32768, (SIDE - 1) * 32768, 0, 0, 0, 0, 0};
+    const drogue_camera camera = {
+        FOCAL_PX * 65536, FOCAL_PX * 65536, (SIDE - 1) * 32768, (SIDE - 1) * 32768, 0, 0, 0, 0, 0};
     const drogue_model model = {DROGUE_Q16(35, 100), DROGUE_Q16(12, 100), DROGUE_Q16(25, 100)};
     drogue_track_config config;
     drogue_status status = drogue_workspace_init(&f->workspace, f->memory, sizeof f->memory, &capacity);

@@ -36,7 +36,7 @@ firmware() {
 # build SIDE FOLDER
 build() {
     verilator --cc --exe --build -O3 --x-assign fast --x-initial fast -Wno-fatal -Wno-lint -Mdir "$2/verilated" \
-        --top-module drogue_system "-GFIRMWARE=\"$root/$2/firmware.hex\"" hls/system/system.v hls/system/bank.v \
+        --top-module drogue_system "-GFIRMWARE=\"firmware.hex\"" hls/system/system.v hls/system/bank.v \
         build/hls/rtl/256/drogue_frontend.v "$core" "$root/hls/system/bench.cpp" "$root/build/hls/system/libdrogue.a" \
         -CFLAGS "-O2 -DSIDE=$1 -I$root/include -I$root/hls" -o bench >"$2/verilator.log" 2>&1 ||
         { tail -n 20 "$2/verilator.log" && exit 1; }
@@ -52,6 +52,6 @@ while [ $# -ge 2 ]; do
     firmware "$1" "$work"
     build "$1" "$work"
     "$render" "$1" "$2" >"$work/frames.raw"
-    "$work/verilated/bench" "$work/frames.raw"
+    (cd "$work" && verilated/bench frames.raw)
     shift 2
 done

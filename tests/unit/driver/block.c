@@ -11,7 +11,17 @@
 enum { SIDE = 64, WORDS = 0x30000 / 4 };
 
 /* What the bank does wrong, once. */
-typedef enum fault { NONE, OTHER_IDENTITY, SMALL_TABLE, NEVER_ENDS, EDGES_TOO_MANY, ARCS_TOO_MANY, ARC_BEYOND, ARC_GAP, NO_STATUS } fault;
+typedef enum fault {
+    NONE,
+    OTHER_IDENTITY,
+    SMALL_TABLE,
+    NEVER_ENDS,
+    EDGES_TOO_MANY,
+    ARCS_TOO_MANY,
+    ARC_BEYOND,
+    ARC_GAP,
+    NO_STATUS
+} fault;
 
 static uint32_t words[WORDS];
 static uint8_t memory[SIDE * SIDE];
