@@ -50,6 +50,7 @@ int main(int argc, char **argv)
     };
     v.reset = 1;
     for (int i = 0; i < 8; i++) {
+        v.eval();
         rise();
     }
     v.reset = 0;
@@ -57,6 +58,7 @@ int main(int argc, char **argv)
     if (follow_begin(&f) != DROGUE_OK) {
         return 2;
     }
+    setvbuf(stdout, nullptr, _IOLBF, 0);
     printf("frame  state     status          runs  camera    front end    lists  processor       all  second look\n");
     while (fread(pixels, 1, sizeof pixels, file) == sizeof pixels) {
         size_t sent = 0, got = 0;

@@ -17,6 +17,7 @@ module drogue_system #(
     wire [29:0] i_at, d_at;
     wire [31:0] d_word;
     wire [3:0] d_bytes;
+    wire [2:0] i_burst, d_burst;
     reg i_done, d_done;
     reg [31:0] d_read;
     wire [31:0] ram_read, frame_read, bank_read;
@@ -27,14 +28,17 @@ module drogue_system #(
         .externalInterruptArray({31'd0, interrupt}), .clk(clock), .reset(reset),
         .iBusWishbone_CYC(i_cycle), .iBusWishbone_STB(i_strobe), .iBusWishbone_ACK(i_done), .iBusWishbone_WE(),
         .iBusWishbone_ADR(i_at), .iBusWishbone_DAT_MISO(ram_read), .iBusWishbone_DAT_MOSI(), .iBusWishbone_SEL(),
-        .iBusWishbone_ERR(1'b0), .iBusWishbone_CTI(), .iBusWishbone_BTE(),
+        .iBusWishbone_ERR(1'b0), .iBusWishbone_CTI(i_burst), .iBusWishbone_BTE(),
         .dBusWishbone_CYC(d_cycle), .dBusWishbone_STB(d_strobe), .dBusWishbone_ACK(d_done), .dBusWishbone_WE(d_write),
         .dBusWishbone_ADR(d_at), .dBusWishbone_DAT_MISO(d_read), .dBusWishbone_DAT_MOSI(d_word),
-        .dBusWishbone_SEL(d_bytes), .dBusWishbone_ERR(1'b0), .dBusWishbone_CTI(), .dBusWishbone_BTE());
+        .dBusWishbone_SEL(d_bytes), .dBusWishbone_ERR(1'b0), .dBusWishbone_CTI(d_burst), .dBusWishbone_BTE());
 
-    // Each access takes two clocks. Data go before instructions where both want the RAM.
-    wire d_asks = d_cycle && d_strobe && !d_done;
-    wire i_asks = i_cycle && i_strobe && !i_done;
+    // An access takes two clocks, a cache line one more than it has words: while a word is there the next is asked for. Data go
+    // before instructions where both want the RAM.
+    wire i_more = i_done && i_burst == 3'd2, d_more = d_done && d_burst == 3'd2 && !d_write;
+    wire d_asks = d_cycle && d_strobe && (!d_done || d_more);
+    wire i_asks = i_cycle && i_strobe && (!i_done || i_more);
+    wire [29:0] d_place = d_at + {29'd0, d_more}, i_place = i_at + {29'd0, i_more};
     wire d_ram = d_asks && d_at[29:28] == 2'd0;
     wire d_frame = d_asks && d_at[29:28] == 2'd1;
     wire d_bank = d_asks && d_at[29:26] == 4'd8;
@@ -50,7 +54,7 @@ module drogue_system #(
 
     drogue_ram #(.WORDS(RAM_WORDS), .CONTENTS(FIRMWARE)) ram (
         .clock(clock), .enable(d_ram || i_asks), .write(d_bytes & {4{d_ram && d_write}}),
-        .at(d_ram ? d_at[$clog2(RAM_WORDS)-1:0] : i_at[$clog2(RAM_WORDS)-1:0]), .word(d_word), .read(ram_read));
+        .at(d_ram ? d_place[$clog2(RAM_WORDS)-1:0] : i_place[$clog2(RAM_WORDS)-1:0]), .word(d_word), .read(ram_read));
 
     // The frame memory: the front end's while it runs, else the camera's when it brings a pixel, else the processor's.
     wire running;
@@ -62,7 +66,7 @@ module drogue_system #(
     assign captured = wanted == 32'd0;
     assign camera_ready = !captured && !running && (camera_first || taken != 32'd0);
     assign frame_free = !running && !takes;
-    wire [31:0] frame_at = running ? source_next : takes ? place : {d_at, 2'd0};
+    wire [31:0] frame_at = running ? source_next : takes ? place : {d_place, 2'd0};
     drogue_ram #(.WORDS(FRAME_WORDS), .CONTENTS("")) frame (
         .clock(clock), .enable(1'b1), .write(running ? 4'd0 : takes ? 4'd1 << place[1:0] : 4'd0),
         .at(frame_at[2 +: $clog2(FRAME_WORDS)]), .word({4{camera_pixel}}), .read(frame_read));
