@@ -24,7 +24,8 @@ int main(int argc, char **argv)
         const double z = (other ? 9 : 12) * scale - 1.5 * s;
         scene.camera = {1465, 1465, (side - 1) / 2.0, (side - 1) / 2.0};
         scene.image_px = {side, side};
-        scene.pose.position_m = {other ? 0.1 : 0.05 * std::sin(9 * s) + (i == 3 ? 0.10 * scale : 0), other ? -0.06 : 0.04, gone ? 4000 : z};
+        scene.pose.position_m = {other ? 0.1 : 0.05 * std::sin(9 * s) + (i == 3 ? 0.10 * scale : 0),
+                                 other ? -0.06 : 0.04, gone ? 4000 : z};
         scene.pose.axis = axis_of(0.1 + 0.05 * std::sin(5 * s), -0.08);
         scene.seed = 1 + (unsigned)i;
         scene.coarse = true;

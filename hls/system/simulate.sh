@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The small system under Verilator: ten and more rendered frames of 128 x 128, three of 256 x 256, track carried on, every word
+# The small system under Verilator: twelve rendered frames of 128 x 128, three of 256 x 256, track carried on, every word
 # that of drogue_track_frame(). A line a frame, then one that sums up.
 # usage: simulate.sh RENDER [SIDE FRAMES]...     RENDER: hls_system_render of the build; 77 where a tool is absent
 # The soft core is the Verilog of the Python package pythondata-cpu-vexriscv: DROGUE_VEXRISCV, or what python3 finds.
@@ -10,7 +10,7 @@ cd "$(dirname "$0")/../.."
 . src/sources.sh
 root=$PWD
 shift
-[ $# -gt 0 ] || set -- 128 14 256 3
+[ $# -gt 0 ] || set -- 128 12 256 3
 for tool in verilator make g++ riscv64-unknown-elf-gcc; do
     command -v $tool >/dev/null || { echo "system: SKIPPED: no $tool" && exit 77; }
 done
@@ -21,7 +21,7 @@ hls/rtl/rtl.sh 256
 
 # firmware SIDE FOLDER
 firmware() {
-    local flags=(-march=rv32im -mabi=ilp32 -std=c99 -O2 -ffunction-sections -fdata-sections "-DSIDE=$1" -Iinclude -Ihls)
+    local flags=(-march=rv32im -mabi=ilp32 -std=c99 -Os -ffunction-sections -fdata-sections "-DSIDE=$1" -Iinclude -Ihls)
     mkdir -p "$2/objects"
     (cd "$2/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]/#-I/-I$root/}" -c)
     rm -f "$2/libdrogue.a"
