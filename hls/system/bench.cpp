@@ -41,7 +41,7 @@ int main(int argc, char **argv)
     }
     Vdrogue_system v;
     unsigned long clock = 0, failed = 0, frames = 0, seen[3] = {0, 0, 0}, second_looks = 0;
-    Clocks sum, most;
+    Clocks most;
     auto rise = [&] {
         v.clock = 1;
         v.eval();
@@ -118,7 +118,7 @@ int main(int argc, char **argv)
                drogue_status_name(f.result.status), c.runs, c.capture, c.block, c.lists,
                c.all - c.capture - c.block - c.lists, c.all, drogue_second_look_name(f.result.second_look));
         fflush(stdout);
-        if (f.track.state == DROGUE_TRACKING && c.all > most.all) {
+        if (f.track.state == DROGUE_TRACKING && f.region.width_px > 0 && c.all > most.all) { // not one of a search
             most = c;
         }
         frames++;

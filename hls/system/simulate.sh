@@ -26,7 +26,7 @@ firmware() {
     (cd "$2/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]/#-I/-I$root/}" -c)
     rm -f "$2/libdrogue.a"
     riscv64-unknown-elf-ar rcs "$2/libdrogue.a" "$2"/objects/*.o
-    riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -nostartfiles -Wl,--gc-sections \
+    riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -nostartfiles -Wl,--gc-sections,--no-warn-rwx-segments \
         -T hls/system/system.ld hls/system/start.S hls/system/firmware.c hls/driver/{block,bank,block_frontend}.c \
         "$2/libdrogue.a" -o "$2/firmware.elf"
     riscv64-unknown-elf-objcopy -O verilog --verilog-data-width=4 "$2/firmware.elf" "$2/firmware.hex"
