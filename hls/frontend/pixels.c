@@ -1,13 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Smoothing, gradient, suppression and subpixel place over a stream, each with its line buffers. A line buffer's word is
- * read and written once in a tick, at the same column, and not again before the next row. */
+/* Smoothing, gradient, suppression and subpixel place over a stream. A line buffer's word is read and written once in a tick, at
+ * the same column, and not again before the next row. */
 #include "operators.h"
 #include "stages.h"
-
-static uint32_t raw_rows[DROGUE_HLS_PERIOD];       /* rows y - 4 .. y - 1, the oldest lowest */
-static uint16_t smooth_rows[DROGUE_HLS_PERIOD];    /* the two above the newest */
-static uint32_t gradient_row[DROGUE_HLS_PERIOD];   /* the one above the newest */
-static uint32_t magnitude_rows[DROGUE_HLS_PERIOD]; /* the two above the newest */
 
 void drogue_hls_pixels_begin(drogue_hls_windows *w)
 {
@@ -18,16 +13,6 @@ void drogue_hls_pixels_begin(drogue_hls_windows *w)
     for (k = 0; k < PLACES; k++) {
         w->y[k] = 0xFFFF; /* row -1 */
     }
-}
-
-drogue_hls_lines drogue_hls_lines_read(const drogue_hls_windows *w)
-{
-    drogue_hls_lines lines;
-    lines.raw = raw_rows[w->x[AT_PICK_ROWS]];
-    lines.smooth = smooth_rows[w->x[AT_LEVELS]];
-    lines.gradient = gradient_row[w->x[AT_MAGNITUDES]];
-    lines.magnitudes = magnitude_rows[w->x[AT_MAGNITUDES]];
-    return lines;
 }
 
 static int is_inside(const drogue_hls_frame *frame, const drogue_hls_windows *w, int32_t at)
@@ -67,12 +52,12 @@ static uint16_t pick(uint32_t tap, const uint16_t c[5])
 }
 
 /* The pixel that has come, the four above it and the border: what the vertical sum adds up. */
-static void pick_rows(drogue_hls_windows *w, uint32_t older)
+static void pick_rows(drogue_hls_windows *w, uint32_t older, drogue_hls_writes *write)
 {
     const uint16_t of[5] = {(uint16_t)(older & 0xFFu), (uint16_t)(older >> 8 & 0xFFu), (uint16_t)(older >> 16 & 0xFFu),
                             (uint16_t)(older >> 24), w->pixel};
     int k;
-    raw_rows[w->x[AT_PICK_ROWS]] = older >> 8 | (uint32_t)w->pixel << 24;
+    write->raw_rows = drogue_hls_write_of(w->x[AT_PICK_ROWS], older >> 8 | (uint32_t)w->pixel << 24, 1);
     for (k = 0; k < 5; k++) {
         w->rows[k] = (uint8_t)(k == 2 ? of[2] : pick(w->row_tap[k], of));
     }
@@ -105,12 +90,12 @@ static void sum_columns(drogue_hls_windows *w)
 }
 
 /* The smoothed pixel, or the pixel itself, and the two above it, border replicated. */
-static void stack_levels(drogue_hls_windows *w, const drogue_hls_frame *frame, uint32_t older)
+static void stack_levels(drogue_hls_windows *w, const drogue_hls_frame *frame, uint32_t older, drogue_hls_writes *write)
 {
     const int32_t y = w->y[AT_LEVELS] - 3; /* row of the gradient */
     const uint8_t level = frame->smooth ? w->smoothed : w->middle[1];
     const uint8_t middle = (uint8_t)(older >> 8);
-    smooth_rows[w->x[AT_LEVELS]] = (uint16_t)(older >> 8 | (uint32_t)level << 8);
+    write->smooth_rows = drogue_hls_write_of(w->x[AT_LEVELS], (older >> 8 & 0xFFu) | (uint32_t)level << 8, 1);
     w->level_column[0] = y == 0 ? middle : (uint8_t)(older & 0xFFu);
     w->level_column[1] = middle;
     w->level_column[2] = y == frame->height_px - 1 ? middle : level;
@@ -135,16 +120,18 @@ static uint32_t gradient_of(uint8_t window[3][3])
 }
 
 /* The magnitude and the two above it, 0 outside. */
-static void stack_magnitudes(drogue_hls_windows *w, const drogue_hls_frame *frame, const drogue_hls_lines *lines)
+static void stack_magnitudes(drogue_hls_windows *w, const drogue_hls_frame *frame, const drogue_hls_words *read,
+                             drogue_hls_writes *write)
 {
+    const uint32_t older = (uint32_t)read->magnitude_rows;
     const int32_t y = w->y[AT_MAGNITUDES] - 4; /* row suppressed */
     const int inside = is_inside(frame, w, AT_MAGNITUDES);
-    gradient_row[w->x[AT_MAGNITUDES]] = w->gradient[1];
-    magnitude_rows[w->x[AT_MAGNITUDES]] = lines->magnitudes >> 16 | (uint32_t)w->magnitude << 16;
-    w->column[0] = (uint16_t)(lines->magnitudes & 0xFFFFu & drogue_hls_when(inside & (y >= 1)));
-    w->column[1] = (uint16_t)(lines->magnitudes >> 16 & drogue_hls_when(inside));
+    write->gradient_row = drogue_hls_write_of(w->x[AT_MAGNITUDES], w->gradient[1], 1);
+    write->magnitude_rows = drogue_hls_write_of(w->x[AT_MAGNITUDES], older >> 16 | (uint32_t)w->magnitude << 16, 1);
+    w->column[0] = (uint16_t)(older & 0xFFFFu & drogue_hls_when(inside & (y >= 1)));
+    w->column[1] = (uint16_t)(older >> 16 & drogue_hls_when(inside));
     w->column[2] = (uint16_t)(w->magnitude & drogue_hls_when(inside & (y + 1 < frame->height_px)));
-    w->middle_gradient[AT_TANGENT] = lines->gradient;
+    w->middle_gradient[AT_TANGENT] = (uint32_t)read->gradient_row;
 }
 
 static void shift_magnitudes(drogue_hls_windows *w)
@@ -191,7 +178,7 @@ static void locate(drogue_hls_windows *w, const drogue_hls_frame *frame)
 
 static void test_ring(drogue_hls_windows *w, const drogue_hls_frame *frame)
 {
-    w->in_ring = (frame->use_ring == 0) | drogue_hls_in_ring(w->ring_square, frame->ring.least_x9, frame->ring.most);
+    w->in_ring = (frame->use_ring == 0) | drogue_hls_in_ring(w->ring_square, frame->ring_least_x9, frame->ring_most);
     w->ring_square += 4 * (int64_t)w->ring_dx + 4; /* (v + 2)^2 = v^2 + 4 v + 4 */
     w->ring_dx += 2;
 }
@@ -210,14 +197,9 @@ static void advance(drogue_hls_windows *w, const drogue_hls_frame *frame)
     w->y[0] = (uint16_t)(w->y[1] + last);
 }
 
-void drogue_hls_pixels_tick(drogue_hls_windows *w, const drogue_hls_frame *frame, const drogue_hls_lines *lines)
+void drogue_hls_pixels_tick(drogue_hls_windows *w, const drogue_hls_frame *frame, const drogue_hls_words *read,
+                            drogue_hls_writes *write)
 {
-#ifndef __BAMBU__ /* LEAST_PERIOD */
-#pragma HLS dependence variable = raw_rows type = inter direction = RAW distance = 25 dependent = true
-#pragma HLS dependence variable = smooth_rows type = inter direction = RAW distance = 25 dependent = true
-#pragma HLS dependence variable = gradient_row type = inter direction = RAW distance = 25 dependent = true
-#pragma HLS dependence variable = magnitude_rows type = inter direction = RAW distance = 25 dependent = true
-#endif
     int k;
     test_ring(w, frame);
     locate(w, frame);
@@ -231,19 +213,19 @@ void drogue_hls_pixels_tick(drogue_hls_windows *w, const drogue_hls_frame *frame
     for (k = AT_PLACE; k > AT_TANGENT; k--) {
         w->middle_gradient[k] = w->middle_gradient[k - 1];
     }
-    stack_magnitudes(w, frame, lines);
+    stack_magnitudes(w, frame, read, write);
     w->magnitude = drogue_hls_magnitude(w->gradient[0]);
     w->gradient[1] = w->gradient[0];
     w->gradient[0] = gradient_of(w->levels);
     shift_levels(w, frame);
-    stack_levels(w, frame, lines->smooth);
+    stack_levels(w, frame, (uint32_t)read->smooth_rows, write);
     sum_columns(w);
     pick_columns(w);
     tap(w->column_tap, w->near_column, w->x[AT_REFLECT_COLUMNS + 1]);
     reflect(w->near_column, w->column_about, frame->width_px);
     about(w->column_about, w->x[AT_REFLECT_COLUMNS - 1]);
     sum_rows(w);
-    pick_rows(w, lines->raw);
+    pick_rows(w, (uint32_t)read->raw_rows, write);
     tap(w->row_tap, w->near_row, w->y[AT_REFLECT_ROWS + 1] - 2);
     reflect(w->near_row, w->row_about, frame->height_px);
     about(w->row_about, w->y[AT_REFLECT_ROWS - 1] - 2);

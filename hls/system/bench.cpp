@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// The small system under Verilator beside the library: the camera brings frames from a file, every word of region, result,
+// estimate and track must be that of drogue_track_frame() on this machine. Clocks of each frame by part.
+// usage: bench FRAMES.raw
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+#include "Vdrogue_system.h"
+#include "verilated.h"
+
+extern "C" {
+#include "follow.h"
+}
+
+namespace {
+
+std::vector<uint32_t> words;
+
+void add(const void *from, size_t bytes)
+{
+    const size_t at = words.size();
+    words.resize(at + bytes / 4);
+    memcpy(&words[at], from, bytes);
+}
+
+struct Clocks {
+    unsigned long capture = 0, block = 0, runs = 0, lists = 0, all = 0;
+};
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    static follow f;
+    static uint8_t pixels[SIDE * SIDE];
+    FILE *file = argc == 2 ? fopen(argv[1], "rb") : nullptr;
+    if (file == nullptr) {
+        fprintf(stderr, "usage: bench FRAMES.raw\n");
+        return 2;
+    }
+    Vdrogue_system v;
+    unsigned long clock = 0, failed = 0, frames = 0, seen[3] = {0, 0, 0}, second_looks = 0;
+    Clocks most;
+    auto rise = [&] {
+        v.clock = 1;
+        v.eval();
+        v.clock = 0; // takes effect with the inputs of the next clock
+        clock++;
+    };
+    v.reset = 1;
+    for (int i = 0; i < 8; i++) {
+        v.eval();
+        rise();
+    }
+    v.reset = 0;
+    add("\0\0\0", 4);
+    if (follow_begin(&f) != DROGUE_OK) {
+        return 2;
+    }
+    setvbuf(stdout, nullptr, _IOLBF, 0);
+    printf("frame  state     status          runs  camera    front end    lists  processor       all  second look\n");
+    while (fread(pixels, 1, sizeof pixels, file) == sizeof pixels) {
+        size_t sent = 0, got = 0;
+        Clocks c;
+        bool was_busy = false;
+        unsigned long ended = 0, list_read = 0;
+        follow_frame(&f, pixels);
+        add("\0\0\0", 4); // drogue_block_last()
+        add(&f.region, sizeof f.region);
+        add(&f.result, sizeof f.result);
+        add(&f.estimate, sizeof f.estimate);
+        add(&f.track, sizeof f.track);
+        const unsigned long begin = clock;
+        unsigned long first = 0;
+        while (got < words.size()) {
+            v.camera_valid = sent < sizeof pixels;
+            v.camera_first = sent == 0;
+            v.camera_pixel = sent < sizeof pixels ? pixels[sent] : 0;
+            v.eval(); // of the clock's low half
+            if (v.camera_valid && v.camera_ready) {
+                first = first == 0 ? clock : first;
+                sent++;
+                c.capture = clock + 1 - first;
+            }
+            if (v.result_valid) {
+                if (v.result != words[got] && failed++ < 5) {
+                    printf("frame %lu: word %zu is %08x, expected %08x\n", frames, got, v.result, words[got]);
+                }
+                got++;
+            }
+            c.block += v.block_busy;
+            c.runs += v.block_busy && !was_busy;
+            if (was_busy && !v.block_busy) {
+                ended = clock;
+            }
+            if (v.list_read) {
+                list_read = clock;
+            }
+            if (v.block_busy && !was_busy && list_read > ended) {
+                c.lists += list_read - ended;
+            }
+            was_busy = v.block_busy;
+            rise();
+            if (clock - begin > 400ul * 1000 * 1000) {
+                printf("frame %lu: no end, %zu of %zu words\n", frames, got, words.size());
+                return 1;
+            }
+        }
+        if (list_read > ended) {
+            c.lists += list_read - ended;
+        }
+        words.clear();
+        c.all = clock - first;
+        seen[f.track.state]++;
+        second_looks += f.result.second_look != DROGUE_SECOND_NONE;
+        printf("%5lu  %-9s %-14s %5lu %7lu %12lu %8lu %10lu %9lu  %s\n", frames, drogue_track_state_name(f.track.state),
+               drogue_status_name(f.result.status), c.runs, c.capture, c.block, c.lists,
+               c.all - c.capture - c.block - c.lists, c.all, drogue_second_look_name(f.result.second_look));
+        fflush(stdout);
+        if (f.track.state == DROGUE_TRACKING && f.region.width_px > 0 && c.all > most.all) { // not one of a search
+            most = c;
+        }
+        frames++;
+    }
+    printf(
+        "system: side=%d frames=%lu words off=%lu lost=%lu tracking=%lu coasting=%lu second looks=%lu; most clocks of a frame "
+        "that was tracked %lu: %lu frames/s at 50 MHz\n",
+        SIDE, frames, failed, seen[0], seen[1], seen[2], second_looks, most.all,
+        most.all ? 50ul * 1000 * 1000 / most.all : 0);
+    return failed != 0 || frames == 0;
+}

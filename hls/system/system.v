@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small system: camera -> frame memory -> front end -> lists -> VexRiscv, which runs the library after the lists.
+//
+//   0x00000000  RAM: firmware, its data and stack
+//   0x40000000  frame memory; the processor waits while the front end or the camera is at it
+//   0x80000000  the front end's registers and lists, bank.v; not cached, like all from here on
+//   0x90000000  CAPTURE: write, pixels of the next frame to take; read, 1 when they are there
+//   0x90000004  RESULT: words that go out
+module drogue_system #(
+    parameter RAM_WORDS = 49152, parameter FRAME_WORDS = 16384, parameter FIRMWARE = "firmware.hex",
+    parameter WIDTH = 256, parameter EDGES = 2688, parameter ARCS = 96) (
+    input wire clock, input wire reset,
+    input wire camera_valid, input wire camera_first, input wire [7:0] camera_pixel, output wire camera_ready,
+    output wire result_valid, output wire [31:0] result,
+    output wire block_busy, output wire list_read, output wire captured);
+    wire i_cycle, i_strobe, d_cycle, d_strobe, d_write;
+    wire [29:0] i_at, d_at;
+    wire [31:0] d_word;
+    wire [3:0] d_bytes;
+    wire [2:0] i_burst, d_burst;
+    reg i_done, d_done;
+    reg [31:0] d_read;
+    wire [31:0] ram_read, frame_read, bank_read;
+    wire interrupt;
+
+    VexRiscv core (
+        .externalResetVector(32'd0), .timerInterrupt(1'b0), .softwareInterrupt(1'b0),
+        .externalInterruptArray({31'd0, interrupt}), .clk(clock), .reset(reset),
+        .iBusWishbone_CYC(i_cycle), .iBusWishbone_STB(i_strobe), .iBusWishbone_ACK(i_done), .iBusWishbone_WE(),
+        .iBusWishbone_ADR(i_at), .iBusWishbone_DAT_MISO(ram_read), .iBusWishbone_DAT_MOSI(), .iBusWishbone_SEL(),
+        .iBusWishbone_ERR(1'b0), .iBusWishbone_CTI(i_burst), .iBusWishbone_BTE(),
+        .dBusWishbone_CYC(d_cycle), .dBusWishbone_STB(d_strobe), .dBusWishbone_ACK(d_done), .dBusWishbone_WE(d_write),
+        .dBusWishbone_ADR(d_at), .dBusWishbone_DAT_MISO(d_read), .dBusWishbone_DAT_MOSI(d_word),
+        .dBusWishbone_SEL(d_bytes), .dBusWishbone_ERR(1'b0), .dBusWishbone_CTI(d_burst), .dBusWishbone_BTE());
+
+    // An access takes two clocks, a cache line one more than it has words: while a word is there the next is asked for. Data go
+    // before instructions where both want the RAM.
+    wire i_more = i_done && i_burst == 3'd2, d_more = d_done && d_burst == 3'd2 && !d_write;
+    wire d_asks = d_cycle && d_strobe && (!d_done || d_more);
+    wire i_asks = i_cycle && i_strobe && (!i_done || i_more);
+    wire [29:0] d_place = d_at + {29'd0, d_more}, i_place = i_at + {29'd0, i_more};
+    wire d_ram = d_asks && d_at[29:28] == 2'd0;
+    wire d_frame = d_asks && d_at[29:28] == 2'd1;
+    wire d_bank = d_asks && d_at[29:26] == 4'd8;
+    wire d_own = d_asks && d_at[29:26] == 4'd9;
+    wire frame_free;
+    always @(posedge clock) begin
+        d_done <= !reset && d_asks && (!d_frame || frame_free);
+        i_done <= !reset && i_asks && !d_ram;
+    end
+    reg [3:0] was;
+    always @(posedge clock) was <= {d_own, d_bank, d_frame, d_ram};
+    always @(*) d_read = was[3] ? {31'd0, captured} : was[2] ? bank_read : was[1] ? frame_read : ram_read;
+
+    drogue_ram #(.WORDS(RAM_WORDS), .CONTENTS(FIRMWARE)) ram (
+        .clock(clock), .enable(d_ram || i_asks), .write(d_bytes & {4{d_ram && d_write}}),
+        .at(d_ram ? d_place[$clog2(RAM_WORDS)-1:0] : i_place[$clog2(RAM_WORDS)-1:0]), .word(d_word), .read(ram_read));
+
+    // The frame memory: the front end's while it runs, else the camera's when it brings a pixel, else the processor's.
+    wire running;
+    wire [31:0] source_next;
+    reg [1:0] source_byte;
+    reg [31:0] wanted, taken;
+    wire takes = camera_valid && camera_ready;
+    wire [31:0] place = camera_first ? 32'd0 : taken;
+    assign captured = wanted == 32'd0;
+    assign camera_ready = !captured && !running && (camera_first || taken != 32'd0);
+    assign frame_free = !running && !takes;
+    wire [31:0] frame_at = running ? source_next : takes ? place : {d_place, 2'd0};
+    drogue_ram #(.WORDS(FRAME_WORDS), .CONTENTS("")) frame (
+        .clock(clock), .enable(1'b1), .write(running ? 4'd0 : takes ? 4'd1 << place[1:0] : 4'd0),
+        .at(frame_at[2 +: $clog2(FRAME_WORDS)]), .word({4{camera_pixel}}), .read(frame_read));
+    always @(posedge clock) begin
+        source_byte <= source_next[1:0];
+        if (reset) begin
+            wanted <= 32'd0;
+            taken <= 32'd0;
+        end else if (d_own && !d_at[0] && d_write) begin
+            wanted <= d_word;
+            taken <= 32'd0;
+        end else if (takes) begin
+            taken <= place + 32'd1 == wanted ? 32'd0 : place + 32'd1;
+            if (place + 32'd1 == wanted) wanted <= 32'd0;
+        end
+    end
+
+    drogue_bank #(.WIDTH(WIDTH), .EDGES(EDGES), .ARCS(ARCS)) bank (
+        .clock(clock), .reset(reset), .select(d_bank), .write(d_write), .at({d_at[15:0], 2'd0}), .word(d_word),
+        .read(bank_read), .interrupt(interrupt), .running(running), .source_next(source_next),
+        .pixel(frame_read[8 * source_byte +: 8]));
+    assign result_valid = d_own && d_at[0] && d_write;
+    assign result = d_word;
+    assign block_busy = running;
+    assign list_read = d_bank && d_at[15:14] != 2'd0;
+endmodule
+
+// A memory of words with a write enable a byte; what is read comes a clock later.
+module drogue_ram #(parameter WORDS = 1024, parameter CONTENTS = "") (
+    input wire clock, input wire enable, input wire [3:0] write, input wire [$clog2(WORDS)-1:0] at,
+    input wire [31:0] word, output reg [31:0] read);
+    reg [31:0] words [0:WORDS-1];
+    generate if (CONTENTS != "") begin : filled
+        initial $readmemh(CONTENTS, words);
+    end endgenerate
+    integer k;
+    always @(posedge clock) if (enable) begin
+        for (k = 0; k < 4; k = k + 1) if (write[k]) words[at][8 * k +: 8] <= word[8 * k +: 8];
+        read <= words[at];
+    end
+endmodule
