@@ -36,6 +36,21 @@ typedef char drogue_assume_wrapping_conversion_32[(int32_t)UINT32_C(0xFFFFFFFF) 
 typedef char drogue_assume_wrapping_conversion_64[(int64_t)UINT64_C(0xFFFFFFFFFFFFFFFF) == -1 ? 1 : -1];
 typedef char drogue_assume_int_32[sizeof(int) >= 4 ? 1 : -1];
 
+/* a b, exact. Armv6-M has no instruction for it, and compilers there call the product of two 64-bit numbers. */
+#ifdef __ARM_ARCH_6M__
+uint64_t drogue_product_u32(uint32_t a, uint32_t b);
+
+static inline int64_t drogue_product(int32_t a, int32_t b)
+{
+    const uint64_t p = drogue_product_u32((uint32_t)a, (uint32_t)b);
+    return (int64_t)(p - ((uint64_t)((a < 0 ? (uint32_t)b : 0u) + (b < 0 ? (uint32_t)a : 0u)) << 32));
+}
+#else
+static inline uint64_t drogue_product_u32(uint32_t a, uint32_t b) { return (uint64_t)a * b; }
+
+static inline int64_t drogue_product(int32_t a, int32_t b) { return (int64_t)a * b; }
+#endif
+
 /* Saturate to 32 bits. */
 static inline int32_t drogue_sat_s32(int64_t v)
 {

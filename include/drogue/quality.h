@@ -9,11 +9,15 @@
 extern "C" {
 #endif
 
-/* The ellipse in the form that points are tested with; c, s are cosine and sine of its angle. */
+/* The ellipse F = 0 in the form that points are tested with; c, s are cosine and sine of its angle. */
 typedef struct drogue_ellipse_frame {
     drogue_q16 xc_px_q16;
     drogue_q16 yc_px_q16;
     drogue_q16 b_px_q16;
+    int32_t half_over_b_q31; /* 1 / (2 b), 1/px */
+    int32_t xx_q30;          /* b times the matrix of F's quadratic part, 1/px */
+    int32_t xy_q30;
+    int32_t yy_q30;
     int32_t cos_over_a_q30; /* 1/px */
     int32_t sin_over_a_q30;
     int32_t cos_over_b_q30;
@@ -26,7 +30,7 @@ typedef struct drogue_ellipse_frame {
 
 /* Prepare an ellipse for point tests.
  *
- *  return  DROGUE_OK; DROGUE_E_DOMAIN when b < 1 px or a < b
+ *  return  DROGUE_OK; DROGUE_E_DOMAIN when b < 1 px, a < b, or a coordinate of the centre is 2^14 px or more
  */
 drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_ellipse *ellipse);
 
@@ -47,16 +51,19 @@ typedef struct drogue_band {
 /* Band of a half width in (0, 8] px and a least cosine in [0, 1]. */
 drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16);
 
-/* An edge point in an ellipse's frame. */
+/* An edge point that belongs to an outline. */
 typedef struct drogue_band_point {
-    int32_t u_q24;
-    int32_t v_q24;
-    int32_t f_q24;            /* u^2 + v^2 - 1 */
+    int32_t u_q14;            /* its direction in the ellipse's frame, drogue_support_bin_of(): b / a times u, v */
+    int32_t v_q14;
+    int32_t offset_q16;       /* F / 2: how far it lies off the outline, along the radius, in semi-axes */
     drogue_polarity polarity; /* DARK: the gradient points outward; BRIGHT: inward */
 } drogue_band_point;
 
-/* Does an edge point belong to the outline? Position px Q16 in the ellipse's coordinates, gradient y downward.
- * 'out' is complete when it does. */
+/* Does an edge point belong to the outline? Gradient y downward; 'out' is complete when it does.
+ *
+ *  x, y   px Q16 in the ellipse's coordinates, within 2^14 px
+ *  error  of F times b: 2^-14 a / b px and 2^-20 of b; of the direction: 2^-12 a / b rad
+ */
 int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
                               drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy);
 

@@ -20,6 +20,17 @@ static const uint32_t exp_q32[EXP_TERMS] = {2147483648u, 715827883u, 178956971u,
 static const uint32_t atan_q32[ATAN_TERMS] = {1431655765u, 858993459u, 613566757u, 477218588u, 390451572u,
                                               330382100u,  286331153u, 252645135u, 226050910u, 204522252u};
 
+#ifdef __ARM_ARCH_6M__
+uint64_t drogue_product_u32(uint32_t a, uint32_t b)
+{
+    const uint32_t mask = 0xFFFFu;
+    const uint32_t low = (a & mask) * (b & mask);
+    const uint32_t cross = (a >> 16) * (b & mask) + (low >> 16); /* below 2^32 */
+    const uint32_t other = (a & mask) * (b >> 16) + (cross & mask);
+    return (uint64_t)((a >> 16) * (b >> 16) + (cross >> 16) + (other >> 16)) << 32 | (other << 16 | (low & mask));
+}
+#endif
+
 int drogue_clz_u32(uint32_t v)
 {
     int n = 0;

@@ -2,6 +2,13 @@
 /* Collected edge points: the unit of their moments, their fit, and what blur took from it. */
 #include "collection.h"
 
+void drogue_collection_of_region(drogue_collection *c)
+{
+    drogue_moments_clear(&c->moments);
+    c->x_px_q16 = c->y_px_q16 = drogue_q16_from_int(DROGUE_MAX_SIDE / 2);
+    c->frac_bits = 5;
+}
+
 void drogue_collection_begin(drogue_collection *c, const drogue_ellipse *e, int64_t reach_px_q16)
 {
     drogue_moments_clear(&c->moments);

@@ -6,6 +6,9 @@
 #include "drogue/config.h"
 #include "near.h"
 
+/* An empty collection of edge points of a region, about the middle of the largest one: exact. */
+void drogue_collection_of_region(drogue_collection *c);
+
 /* Begin a collection of points that reach this far from a centre: the finest unit in which they fit 16 bits. The origin
  * is a whole pixel: edge points, multiples of 1/32 px, are then exact, where any other would shift them all alike. */
 void drogue_collection_begin(drogue_collection *c, const drogue_ellipse *e, int64_t reach_px_q16);

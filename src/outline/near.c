@@ -9,10 +9,14 @@
 uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
                            uint32_t count)
 {
+    const drogue_q16 most_px_q16 = drogue_q16_mul(threshold, frame->b_px_q16);
     uint32_t near_count = 0;
     uint32_t i;
     for (i = 0; i < count; i++) { /* bound: points of an arc */
-        near_count += deviation(frame, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i])) < threshold;
+        const band_place p = place_of(frame, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]));
+        if (!far_off(p.nx_q46) && !far_off(p.ny_q46)) {
+            near_count += near_form(frame, size_q38_of(&p, q22_of_q46(p.nx_q46), q22_of_q46(p.ny_q46)), most_px_q16);
+        }
     }
     return near_count;
 }
@@ -22,36 +26,71 @@ void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame
 {
     const drogue_ellipse_frame f = *frame; /* apart: the counts might be part of them, for all a compiler knows */
     const drogue_band b = *band;
+    const band_reach reach = reach_of(frame, band);
     uint32_t i;
     memset(out, 0, sizeof *out);
     for (i = 0; i < edge_count; i += stride) { /* bound: edge_count / stride, stride >= 1 */
         drogue_band_point p;
-        if (band_holds(&p, &f, &b, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]), edges[i].gx,
+        if (band_holds(&p, &f, &b, &reach, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]), edges[i].gx,
                        edges[i].gy)) {
-            out->bin[bin_of(p.u_q24, p.v_q24)].count[p.polarity]++;
+            out->bin[bin_of(p.u_q14, p.v_q14)].count[p.polarity]++;
         }
     }
 }
 
-void drogue_collect_edges(drogue_collection *c, drogue_support *support, const drogue_ellipse_frame *frame,
-                          const drogue_band *band, const drogue_edge *edges, uint32_t count,
-                          const drogue_region_lens *lens)
+void drogue_collect_arc(drogue_moments *moments, const drogue_edge *edges, uint32_t count)
+{
+    drogue_moments m = *moments; /* apart: in registers, as far as there are */
+    uint32_t i;
+    for (i = 0; i < count; i++) { /* bound: points of an arc */
+        drogue_moments_add_point(&m, edges[i].x_q5 - DROGUE_MIDDLE_Q5, edges[i].y_q5 - DROGUE_MIDDLE_Q5);
+    }
+    *moments = m;
+}
+
+void drogue_collect_edges(drogue_moments *moments, drogue_support *support, const drogue_ellipse_frame *frame,
+                          const drogue_band *band, const drogue_edge *edges, uint32_t count, uint32_t counted)
 {
     const drogue_ellipse_frame f = *frame; /* apart, as above */
     const drogue_band b = *band;
-    drogue_moments m = c->moments;
+    const band_reach reach = reach_of(frame, band);
+    const uint32_t bright_bins = support->bright_bins;
+    support_sums sums = sums_of(support);
     uint32_t i;
     for (i = 0; i < count; i++) { /* bound: edge points */
         const drogue_edge *e = &edges[i];
-        drogue_q16 x = drogue_edge_x_q16(e);
-        drogue_q16 y = drogue_edge_y_q16(e);
+        uint32_t own = 0;
         drogue_band_point p;
-        if (band_holds(&p, &f, &b, x, y, e->gx, e->gy) && drogue_support_add(support, &p, e) &&
-            (lens == NULL || undistort_edge(&x, &y, lens))) {
-            const int32_t u = in_unit(x, c->x_px_q16, c->frac_bits);
-            DROGUE_NOTE("outline: point in the fit's unit", u, 16);
-            collect_point(&m, 1, u, in_unit(y, c->y_px_q16, c->frac_bits));
+        if (band_holds(&p, &f, &b, &reach, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy)) {
+            const uint32_t k = bin_of(p.u_q14, p.v_q14);
+            own = add_to_support(&support->bin[k], &sums, 1, (bright_bins >> k) & 1u, p.offset_q16, p.polarity, e->gx,
+                                 e->gy);
+        }
+        if (own != counted) {
+            recount_edge(moments, own, e->x_q5, e->y_q5);
         }
     }
-    c->moments = m;
+    put_sums(support, &sums);
+}
+
+uint32_t drogue_collect_undistorted(drogue_collection *c, uint32_t bright_bins, const drogue_ellipse_frame *frame,
+                                    const drogue_band *band, const drogue_edge *edges, uint32_t count,
+                                    const drogue_region_lens *lens)
+{
+    const band_reach reach = reach_of(frame, band);
+    uint32_t own = 0;
+    uint32_t i;
+    for (i = 0; i < count; i++) { /* bound: edge points */
+        drogue_q16 x = drogue_edge_x_q16(&edges[i]);
+        drogue_q16 y = drogue_edge_y_q16(&edges[i]);
+        drogue_band_point p;
+        if (band_holds(&p, frame, band, &reach, x, y, edges[i].gx, edges[i].gy) &&
+            ((bright_bins >> bin_of(p.u_q14, p.v_q14)) & 1u) == (uint32_t)p.polarity) {
+            own++;
+            if (undistort_edge(&x, &y, lens)) {
+                collect_point(c, x, y);
+            }
+        }
+    }
+    return own;
 }

@@ -8,24 +8,11 @@
 #include "drogue/ellipse.h"
 #include "near.h"
 
-#define EDGE_FRAC 5                        /* edge points are Q5 */
 #define LOOKS 512                          /* a candidate is scored by so many edge points, evenly taken */
 #define TRIES 3                            /* candidates refined before the best of them is taken */
 #define GOOD_COVER_Q16 DROGUE_Q16(3, 4)    /* no further try */
 #define ENOUGH_COVER_Q16 DROGUE_Q16(9, 10) /* no further candidate */
 #define SETTLED_Q16 DROGUE_Q16(1, 64)      /* px: an ellipse that a refit moves by less has settled */
-
-/* Add an arc to moments about the region's middle, unit 1/32 px. */
-static void add_arc(drogue_moments *sum, const drogue_edge *edges, const drogue_arc *arc)
-{
-    const int32_t origin_q5 = (DROGUE_MAX_SIDE / 2) << EDGE_FRAC; /* makes the coordinates 16-bit for every region */
-    drogue_moments m = *sum;                                      /* apart: hardware keeps it in registers */
-    uint32_t i;
-    for (i = arc->first; i < arc->first + arc->count; i++) { /* bound: points of the arc */
-        drogue_moments_add_point(&m, edges[i].x_q5 - origin_q5, edges[i].y_q5 - origin_q5);
-    }
-    *sum = m;
-}
 
 static int plausible(const drogue_ellipse *e, const drogue_mask *mask, const drogue_config *config)
 {
@@ -52,6 +39,10 @@ typedef struct context {
     const drogue_mask *mask;
     const drogue_config *config;
     drogue_arc_choices choices;
+    drogue_collection sum;     /* of the points of these arcs, about the middle of the largest region */
+    uint32_t arcs;             /* as a candidate has them; 0: none */
+    const drogue_arc *part[4]; /* the same in the order of their points */
+    int parts;
 } context;
 
 /* Arc of quadrant k in a candidate: choice number arcs >> 4 k, less one; NULL when it has none there. */
@@ -61,29 +52,28 @@ static const drogue_arc *arc_of(const context *c, uint32_t arcs, int k)
     return choice != 0 ? &c->workspace->arcs[c->choices.arc[k][choice - 1]] : NULL;
 }
 
-/* Fit the union of arcs; 0 when that gives no plausible ellipse. */
-static int fit_arcs(drogue_ellipse *out, uint32_t *points, uint32_t arcs, const context *c)
+/* Sum the points of arcs. */
+static void sum_arcs(context *c, uint32_t arcs)
 {
-    drogue_moments sum;
     int k;
-    drogue_moments_clear(&sum);
+    int i;
+    drogue_collection_of_region(&c->sum);
+    c->arcs = arcs;
+    c->parts = 0;
     for (k = 0; k < 4; k++) {
         const drogue_arc *arc = arc_of(c, arcs, k);
         if (arc != NULL) {
-            add_arc(&sum, c->workspace->edges, arc);
+            for (i = c->parts++; i > 0 && c->part[i - 1]->first > arc->first; i--) {
+                c->part[i] = c->part[i - 1];
+            }
+            c->part[i] = arc;
+            drogue_collect_arc(&c->sum.moments, c->workspace->edges + arc->first, arc->count);
         }
     }
-    *points = (uint32_t)sum.n;
-    if (drogue_ellipse_fit(out, &sum, EDGE_FRAC) != DROGUE_OK) {
-        return 0;
-    }
-    out->xc_px_q16 = drogue_q16_add(out->xc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
-    out->yc_px_q16 = drogue_q16_add(out->yc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
-    return plausible(out, c->mask, c->config);
 }
 
 /* Fit and score the union of arcs; 0 when it is no candidate. */
-static int try_arcs(drogue_candidate *out, uint32_t arcs, const context *c)
+static int try_arcs(drogue_candidate *out, uint32_t arcs, context *c)
 {
     const uint32_t stride = c->list->edge_count / LOOKS + 1;
     drogue_ellipse_frame frame;
@@ -92,26 +82,25 @@ static int try_arcs(drogue_candidate *out, uint32_t arcs, const context *c)
     drogue_band band;
     drogue_q16 threshold;
     drogue_q16 fit_error;
-    uint32_t points;
     uint32_t near_count = 0;
     int k;
     out->arcs = arcs;
-    if (!fit_arcs(&out->ellipse, &points, arcs, c) || drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
+    sum_arcs(c, arcs);
+    if (drogue_collection_fit(&out->ellipse, &c->sum) != DROGUE_OK || !plausible(&out->ellipse, c->mask, c->config) ||
+        drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
         return 0;
     }
     band = band_about(&out->ellipse, c->config->search_band_q16, c->config);
     fit_error = drogue_q16_mul(out->ellipse.a_px_q16, c->config->search_band_q16);
     fit_error = fit_error > c->config->quality.fit_error_px_q16 ? fit_error : c->config->quality.fit_error_px_q16;
     threshold = drogue_quality_threshold(&out->ellipse, fit_error);
-    for (k = 0; k < 4; k++) {
-        const drogue_arc *arc = arc_of(c, arcs, k);
-        if (arc != NULL) {
-            near_count += drogue_near_count(&frame, threshold, c->workspace->edges + arc->first, arc->count);
-        }
+    for (k = 0; k < c->parts; k++) {
+        near_count +=
+            drogue_near_count(&frame, threshold, c->workspace->edges + c->part[k]->first, c->part[k]->count);
     }
     drogue_support_count(&support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);
     drogue_support_judge(&support, &out->ellipse, c->config->polarity, stride);
-    drogue_quality_of_cover(&quality, &out->ellipse, near_count, points, drogue_support_cover(&support),
+    drogue_quality_of_cover(&quality, &out->ellipse, near_count, (uint32_t)c->sum.moments.n, drogue_support_cover(&support),
                             &c->config->quality);
     out->reliability_q16 = quality.reliability_q16;
     out->fit_ratio_q16 = quality.fit_ratio_q16;
@@ -129,7 +118,7 @@ static int usable(const context *c, int k, int choice)
 
 /* The first arcs of all quadrants together; unless they cover enough, all pairs of arcs from two quadrants too. Returns
  * how many candidates there are. */
-static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const context *c)
+static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], context *c)
 {
     uint32_t arcs = 0;
     uint32_t count;
@@ -158,21 +147,30 @@ static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES
     return count;
 }
 
-/* Collect the edge points that belong to an outline: counts by bin, residuals and moments. Bins have the polarity that
- * the collection before gave them. */
+/* Collect the edge points that belong to an outline: counts by bin, residuals and moments, from those of the arcs. Bins have
+ * the polarity that the collection before gave them. */
 static drogue_status collect_outline(drogue_collection *c, drogue_support *support, const drogue_ellipse *ellipse,
                                      const drogue_band *band, const context *x)
 {
+    const drogue_edge *edges = x->workspace->edges;
     const uint32_t bright_bins = support->bright_bins;
     drogue_ellipse_frame frame;
+    uint32_t at = 0;
+    int k;
     drogue_status status = drogue_ellipse_frame_of(&frame, ellipse);
     if (status != DROGUE_OK) {
         return status;
     }
     memset(support, 0, sizeof *support);
     support->bright_bins = bright_bins;
-    drogue_collection_begin(c, ellipse, (int64_t)ellipse->a_px_q16 + 16 * DROGUE_Q16_ONE);
-    drogue_collect_edges(c, support, &frame, band, x->workspace->edges, x->list->edge_count, NULL);
+    *c = x->sum;
+    for (k = 0; k < x->parts; k++) {
+        const drogue_arc *arc = x->part[k];
+        drogue_collect_edges(&c->moments, support, &frame, band, edges + at, arc->first - at, 0);
+        drogue_collect_edges(&c->moments, support, &frame, band, edges + arc->first, arc->count, 1);
+        at = arc->first + arc->count;
+    }
+    drogue_collect_edges(&c->moments, support, &frame, band, edges + at, x->list->edge_count - at, 0);
     return DROGUE_OK;
 }
 
@@ -243,9 +241,12 @@ static void refit(drogue_outline *outline, const context *x)
 }
 
 /* Describe and refine a candidate. */
-static void refine(drogue_outline *out, const drogue_candidate *candidate, const context *c)
+static void refine(drogue_outline *out, const drogue_candidate *candidate, context *c)
 {
     int k;
+    if (c->arcs != candidate->arcs) {
+        sum_arcs(c, candidate->arcs);
+    }
     memset(out, 0, sizeof *out);
     for (k = 0; k < 4; k++) {
         const drogue_arc *arc = arc_of(c, candidate->arcs, k);
@@ -261,7 +262,7 @@ static void refine(drogue_outline *out, const drogue_candidate *candidate, const
 /* The most reliable candidate, refined; when that covers little, the next that differ from it, and the one of them that
  * covers most. */
 static drogue_status best_outline(drogue_outline *out, drogue_candidate candidates[DROGUE_MAX_CANDIDATES],
-                                  uint32_t count, const context *c)
+                                  uint32_t count, context *c)
 {
     drogue_outline trial;
     int tries;
@@ -350,6 +351,7 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
     c.list = list;
     c.mask = mask;
     c.config = config;
+    drogue_collection_of_region(&c.sum);
     best = *out;
     best.cover_q16 = 0;
     for (k = 0; k < RINGS; k++) {

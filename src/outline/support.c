@@ -4,13 +4,13 @@
 
 #include "band.h"
 
-uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24) { return bin_of(u_q24, v_q24); }
+uint32_t drogue_support_bin_of(int32_t u, int32_t v) { return bin_of(u, v); }
 
 int drogue_support_add(drogue_support *support, const drogue_band_point *p, const drogue_edge *edge)
 {
-    const uint32_t k = bin_of(p->u_q24, p->v_q24);
+    const uint32_t k = bin_of(p->u_q14, p->v_q14);
     support_sums sums = sums_of(support);
-    const uint32_t own = add_to_support(&support->bin[k], &sums, 1, (support->bright_bins >> k) & 1u, p->f_q24,
+    const uint32_t own = add_to_support(&support->bin[k], &sums, 1, (support->bright_bins >> k) & 1u, p->offset_q16,
                                         p->polarity, edge->gx, edge->gy);
     put_sums(support, &sums);
     return (int)own;
