@@ -24,32 +24,64 @@ uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 thresho
 void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame, const drogue_band *band,
                           const drogue_edge *edges, uint32_t edge_count, uint32_t stride)
 {
-    const drogue_ellipse_frame f = *frame; /* apart: the counts might be part of them, for all a compiler knows */
-    const drogue_band b = *band;
-    const band_reach reach = reach_of(frame, band);
     uint32_t i;
     memset(out, 0, sizeof *out);
     for (i = 0; i < edge_count; i += stride) { /* bound: edge_count / stride, stride >= 1 */
         drogue_band_point p;
-        if (band_holds(&p, &f, &b, &reach, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]), edges[i].gx,
-                       edges[i].gy)) {
+        if (drogue_ellipse_band_holds(&p, frame, band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
+                                      edges[i].gx, edges[i].gy)) {
             out->bin[bin_of(p.u_q14, p.v_q14)].count[p.polarity]++;
         }
     }
 }
 
+#define BLOCK 4 /* points whose fourth powers 64 bits hold */
+
 void drogue_collect_arc(drogue_moments *moments, const drogue_edge *edges, uint32_t count)
 {
-    drogue_moments m = *moments; /* apart: in registers, as far as there are */
-    uint32_t i;
-    for (i = 0; i < count; i++) { /* bound: points of an arc */
-        drogue_moments_add_point(&m, edges[i].x_q5 - DROGUE_MIDDLE_Q5, edges[i].y_q5 - DROGUE_MIDDLE_Q5);
+    drogue_moments m = *moments; /* apart: a compiler would write it to memory for each point */
+    uint32_t i = 0;
+    m.n += count;
+    while (i < count) { /* bound: points of an arc */
+        const uint32_t end = count - i < BLOCK ? count : i + BLOCK;
+        int64_t m40 = 0;
+        int64_t m31 = 0;
+        int64_t m22 = 0;
+        int64_t m13 = 0;
+        int64_t m04 = 0;
+        for (; i < end; i++) {
+            const int32_t x = edges[i].x_q5 - DROGUE_MIDDLE_Q5;
+            const int32_t y = edges[i].y_q5 - DROGUE_MIDDLE_Q5;
+            const int32_t xx = x * x;
+            const int32_t xy = x * y;
+            const int32_t yy = y * y;
+            m.m10 += x;
+            m.m01 += y;
+            m.m20 += xx;
+            m.m11 += xy;
+            m.m02 += yy;
+            m.m30 += drogue_product(xx, x);
+            m.m21 += drogue_product(xx, y);
+            m.m12 += drogue_product(yy, x);
+            m.m03 += drogue_product(yy, y);
+            m40 += drogue_product(xx, xx);
+            m31 += drogue_product(xx, xy);
+            m22 += drogue_product(xx, yy);
+            m13 += drogue_product(xy, yy);
+            m04 += drogue_product(yy, yy);
+        }
+        drogue_long_sum_add(&m.m40, m40);
+        drogue_long_sum_add(&m.m31, m31);
+        drogue_long_sum_add(&m.m22, m22);
+        drogue_long_sum_add(&m.m13, m13);
+        drogue_long_sum_add(&m.m04, m04);
     }
     *moments = m;
 }
 
 void drogue_collect_edges(drogue_moments *moments, drogue_support *support, const drogue_ellipse_frame *frame,
-                          const drogue_band *band, const drogue_edge *edges, uint32_t count, uint32_t counted)
+                          const drogue_band *band, const drogue_edge *edges, uint32_t count, uint32_t stride,
+                          uint32_t counted)
 {
     const drogue_ellipse_frame f = *frame; /* apart, as above */
     const drogue_band b = *band;
@@ -57,7 +89,7 @@ void drogue_collect_edges(drogue_moments *moments, drogue_support *support, cons
     const uint32_t bright_bins = support->bright_bins;
     support_sums sums = sums_of(support);
     uint32_t i;
-    for (i = 0; i < count; i++) { /* bound: edge points */
+    for (i = 0; i < count; i += stride) { /* bound: edge points */
         const drogue_edge *e = &edges[i];
         uint32_t own = 0;
         drogue_band_point p;
@@ -77,14 +109,13 @@ uint32_t drogue_collect_undistorted(drogue_collection *c, uint32_t bright_bins, 
                                     const drogue_band *band, const drogue_edge *edges, uint32_t count,
                                     const drogue_region_lens *lens)
 {
-    const band_reach reach = reach_of(frame, band);
     uint32_t own = 0;
     uint32_t i;
     for (i = 0; i < count; i++) { /* bound: edge points */
         drogue_q16 x = drogue_edge_x_q16(&edges[i]);
         drogue_q16 y = drogue_edge_y_q16(&edges[i]);
         drogue_band_point p;
-        if (band_holds(&p, frame, band, &reach, x, y, edges[i].gx, edges[i].gy) &&
+        if (drogue_ellipse_band_holds(&p, frame, band, x, y, edges[i].gx, edges[i].gy) &&
             ((bright_bins >> bin_of(p.u_q14, p.v_q14)) & 1u) == (uint32_t)p.polarity) {
             own++;
             if (undistort_edge(&x, &y, lens)) {

@@ -34,10 +34,12 @@ void drogue_collect_arc(drogue_moments *moments, const drogue_edge *edges, uint3
  * moments to hold them and no others.
  *
  *  moments  about the middle of the largest region, unit 1/32 px
+ *  stride   every stride-th edge point is looked at, >= 1
  *  counted  1: these points are in the moments already, which lose those that are not collected; 0: none is
  */
 void drogue_collect_edges(drogue_moments *moments, drogue_support *support, const drogue_ellipse_frame *frame,
-                          const drogue_band *band, const drogue_edge *edges, uint32_t count, uint32_t counted);
+                          const drogue_band *band, const drogue_edge *edges, uint32_t count, uint32_t stride,
+                          uint32_t counted);
 
 /* Add the same points to a collection, without the distortion of a lens: those within 16 bits of its origin. Returns how
  * many there are, with those that the lens model cannot undo. */

@@ -43,7 +43,12 @@ typedef struct context {
     uint32_t arcs;             /* as a candidate has them; 0: none */
     const drogue_arc *part[4]; /* the same in the order of their points */
     int parts;
+    drogue_collection own; /* edge points that belong to the ellipse looked at last */
+    drogue_support support;
+    uint32_t looked_as; /* the bins' polarities then */
 } context;
+
+static uint32_t stride_of(const context *c) { return c->list->edge_count / LOOKS + 1; }
 
 /* Arc of quadrant k in a candidate: choice number arcs >> 4 k, less one; NULL when it has none there. */
 static const drogue_arc *arc_of(const context *c, uint32_t arcs, int k)
@@ -72,14 +77,63 @@ static void sum_arcs(context *c, uint32_t arcs)
     }
 }
 
+/* Which polarity the bins of these arcs' ellipse are likely to have: that of the arcs, by quadrant and direction. */
+static uint32_t polarity_of_arcs(const context *c, uint32_t arcs)
+{
+    int32_t bright = 0;
+    int k;
+    for (k = 0; k < 4; k++) {
+        const drogue_arc *arc = arc_of(c, arcs, k);
+        if (arc != NULL) {
+            bright += (uint32_t)k == arc->direction ? -(int32_t)arc->count : (int32_t)arc->count;
+        }
+    }
+    return bright > 0 ? UINT32_MAX : 0;
+}
+
+/* Collect the edge points that belong to an ellipse, every one or every so many of them: counts by bin, residuals, and
+ * moments, where all count from those of the arcs. Bins have the given polarities until they are judged by the counts. */
+static drogue_status collect(context *c, const drogue_ellipse *ellipse, const drogue_band *band, uint32_t bright_bins,
+                             uint32_t stride)
+{
+    const drogue_edge *edges = c->workspace->edges;
+    drogue_ellipse_frame frame;
+    uint32_t at = 0;
+    int k;
+    drogue_status status = drogue_ellipse_frame_of(&frame, ellipse);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    memset(&c->support, 0, sizeof c->support);
+    c->support.bright_bins = bright_bins;
+    c->own = c->sum;
+    if (stride > 1) {
+        drogue_moments_clear(&c->own.moments);
+    }
+    for (k = 0; k < c->parts && stride == 1; k++) {
+        const drogue_arc *arc = c->part[k];
+        drogue_collect_edges(&c->own.moments, &c->support, &frame, band, edges + at, arc->first - at, 1, 0);
+        drogue_collect_edges(&c->own.moments, &c->support, &frame, band, edges + arc->first, arc->count, 1, 1);
+        at = arc->first + arc->count;
+    }
+    drogue_collect_edges(&c->own.moments, &c->support, &frame, band, edges + at, c->list->edge_count - at, stride, 0);
+    drogue_support_judge(&c->support, ellipse, c->config->polarity, stride);
+    return DROGUE_OK;
+}
+
+/* Look at every so many edge points about an ellipse: as its first round does. */
+static drogue_status look(context *c, const drogue_ellipse *ellipse, uint32_t bright_bins)
+{
+    const drogue_band band = band_about(ellipse, c->config->search_band_q16, c->config);
+    c->looked_as = bright_bins;
+    return collect(c, ellipse, &band, bright_bins, stride_of(c));
+}
+
 /* Fit and score the union of arcs; 0 when it is no candidate. */
 static int try_arcs(drogue_candidate *out, uint32_t arcs, context *c)
 {
-    const uint32_t stride = c->list->edge_count / LOOKS + 1;
     drogue_ellipse_frame frame;
     drogue_quality quality;
-    drogue_support support;
-    drogue_band band;
     drogue_q16 threshold;
     drogue_q16 fit_error;
     uint32_t near_count = 0;
@@ -90,7 +144,6 @@ static int try_arcs(drogue_candidate *out, uint32_t arcs, context *c)
         drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
         return 0;
     }
-    band = band_about(&out->ellipse, c->config->search_band_q16, c->config);
     fit_error = drogue_q16_mul(out->ellipse.a_px_q16, c->config->search_band_q16);
     fit_error = fit_error > c->config->quality.fit_error_px_q16 ? fit_error : c->config->quality.fit_error_px_q16;
     threshold = drogue_quality_threshold(&out->ellipse, fit_error);
@@ -98,14 +151,13 @@ static int try_arcs(drogue_candidate *out, uint32_t arcs, context *c)
         near_count +=
             drogue_near_count(&frame, threshold, c->workspace->edges + c->part[k]->first, c->part[k]->count);
     }
-    drogue_support_count(&support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);
-    drogue_support_judge(&support, &out->ellipse, c->config->polarity, stride);
-    drogue_quality_of_cover(&quality, &out->ellipse, near_count, (uint32_t)c->sum.moments.n, drogue_support_cover(&support),
-                            &c->config->quality);
+    (void)look(c, &out->ellipse, polarity_of_arcs(c, arcs));
+    drogue_quality_of_cover(&quality, &out->ellipse, near_count, (uint32_t)c->sum.moments.n,
+                            drogue_support_cover(&c->support), &c->config->quality);
     out->reliability_q16 = quality.reliability_q16;
     out->fit_ratio_q16 = quality.fit_ratio_q16;
     out->cover_q16 = quality.length_ratio_q16;
-    out->polarity = support.bright_bins;
+    out->polarity = c->support.bright_bins;
     return quality.fit_ratio_q16 >= c->config->min_fit_ratio_q16;
 }
 
@@ -147,33 +199,6 @@ static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES
     return count;
 }
 
-/* Collect the edge points that belong to an outline: counts by bin, residuals and moments, from those of the arcs. Bins have
- * the polarity that the collection before gave them. */
-static drogue_status collect_outline(drogue_collection *c, drogue_support *support, const drogue_ellipse *ellipse,
-                                     const drogue_band *band, const context *x)
-{
-    const drogue_edge *edges = x->workspace->edges;
-    const uint32_t bright_bins = support->bright_bins;
-    drogue_ellipse_frame frame;
-    uint32_t at = 0;
-    int k;
-    drogue_status status = drogue_ellipse_frame_of(&frame, ellipse);
-    if (status != DROGUE_OK) {
-        return status;
-    }
-    memset(support, 0, sizeof *support);
-    support->bright_bins = bright_bins;
-    *c = x->sum;
-    for (k = 0; k < x->parts; k++) {
-        const drogue_arc *arc = x->part[k];
-        drogue_collect_edges(&c->moments, support, &frame, band, edges + at, arc->first - at, 0);
-        drogue_collect_edges(&c->moments, support, &frame, band, edges + arc->first, arc->count, 1);
-        at = arc->first + arc->count;
-    }
-    drogue_collect_edges(&c->moments, support, &frame, band, edges + at, x->list->edge_count - at, 0);
-    return DROGUE_OK;
-}
-
 static int settled(const drogue_ellipse *p, const drogue_ellipse *q)
 {
     const int64_t d[4] = {(int64_t)p->xc_px_q16 - q->xc_px_q16, (int64_t)p->yc_px_q16 - q->yc_px_q16,
@@ -201,38 +226,41 @@ static void narrow(drogue_band *band, const drogue_support *support, const drogu
     }
 }
 
-/* Refit on the points that belong to the outline until it settles, as often as configured; stops at the last good fit.
- * Judges the outline by the share of its circumference that they cover. */
-static void refit(drogue_outline *outline, const context *x)
+/* Refit on the points that belong to the outline until it settles, as often as configured; stops at the last good fit. The
+ * first round takes the points that were looked at. Judges the outline by the share of its circumference that they cover. */
+static void refit(drogue_outline *outline, context *x)
 {
     const drogue_config *config = x->config;
     drogue_band band = band_about(&outline->ellipse, config->search_band_q16, config);
-    drogue_collection c;
+    uint32_t stride = config->refit_rounds > 0 ? stride_of(x) : 1;
     uint32_t round;
     int done = 0;
     /* bound: refit_rounds + 1, at most 17 */
     for (round = 0; round <= config->refit_rounds && !done; round++) {
         drogue_ellipse ellipse;
         const drogue_q16 width = band.half_width_px_q16;
-        const uint32_t bright_bins = outline->support.bright_bins;
-        if (collect_outline(&c, &outline->support, &outline->ellipse, &band, x) != DROGUE_OK) {
-            return;
+        const uint32_t bright_bins = round == 0 ? x->looked_as : outline->support.bright_bins;
+        if ((round > 0 || config->refit_rounds == 0) &&
+            collect(x, &outline->ellipse, &band, bright_bins, stride) != DROGUE_OK) {
+            break;
         }
-        drogue_support_judge(&outline->support, &outline->ellipse, config->polarity, 1);
+        outline->support = x->support;
         outline->band_px_q16 = width;
         if (round == config->refit_rounds) {
             if (outline->support.bright_bins != bright_bins) { /* the sums are those of the bins before */
                 drogue_support_judge_as(&outline->support, &outline->ellipse, bright_bins, 1);
             }
         } else if (outline->support.bright_bins == bright_bins) {
-            if (drogue_collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, config)) {
+            if (drogue_collection_fit(&ellipse, &x->own) == DROGUE_OK && plausible(&ellipse, x->mask, config)) {
+                narrow(&band, &outline->support, &ellipse, config);
+                done = band.half_width_px_q16 == width && stride == 1 && settled(&ellipse, &outline->ellipse);
+                outline->ellipse = ellipse;
+                outline->refit_points = (uint32_t)x->own.moments.n;
+            } else if (stride == 1) {
                 break;
             }
-            narrow(&band, &outline->support, &ellipse, config);
-            done = band.half_width_px_q16 == width && settled(&ellipse, &outline->ellipse);
-            outline->ellipse = ellipse;
-            outline->refit_points = (uint32_t)c.moments.n;
         } /* else collect again with the polarities that the counts show */
+        stride = 1;
     }
     outline->cover_q16 = drogue_support_cover(&outline->support);
     outline->polarity = outline->support.bright_bins == 0            ? DROGUE_POLARITY_DARK
@@ -246,6 +274,10 @@ static void refine(drogue_outline *out, const drogue_candidate *candidate, conte
     int k;
     if (c->arcs != candidate->arcs) {
         sum_arcs(c, candidate->arcs);
+        c->looked_as = ~candidate->polarity;
+    }
+    if (c->looked_as != candidate->polarity) {
+        (void)look(c, &candidate->ellipse, candidate->polarity);
     }
     memset(out, 0, sizeof *out);
     for (k = 0; k < 4; k++) {
@@ -255,7 +287,6 @@ static void refine(drogue_outline *out, const drogue_candidate *candidate, conte
     drogue_quality_of_cover(&out->quality, &candidate->ellipse, (uint32_t)candidate->fit_ratio_q16, DROGUE_Q16_ONE,
                             candidate->cover_q16, &c->config->quality);
     out->ellipse = candidate->ellipse;
-    out->support.bright_bins = candidate->polarity;
     refit(out, c);
 }
 
@@ -325,18 +356,18 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
 
 #define RINGS 14 /* about the outline, each larger than the one before by a fortieth: to 1.4 times its size */
 
-/* Cover of a ring by every so many edge points; negative when it is no plausible ellipse. */
-static drogue_q16 ring_cover(drogue_support *support, const drogue_ellipse *ring, const context *c)
+/* Look for an outline on a ring: is enough of it covered? Negative when it is no plausible ellipse. */
+static int ring_covered(const drogue_ellipse *ring, context *c)
 {
-    const uint32_t stride = c->list->edge_count / LOOKS + 1;
-    const drogue_band band = band_about(ring, c->config->search_band_q16, c->config);
-    drogue_ellipse_frame frame;
-    if (!plausible(ring, c->mask, c->config) || drogue_ellipse_frame_of(&frame, ring) != DROGUE_OK) {
+    uint32_t bright_bins = 0;
+    if (!plausible(ring, c->mask, c->config) || look(c, ring, bright_bins) != DROGUE_OK) {
         return -1;
     }
-    drogue_support_count(support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);
-    drogue_support_judge(support, ring, c->config->polarity, stride);
-    return drogue_support_cover(support);
+    if (drogue_support_cover(&c->support) < c->config->min_cover_q16) {
+        return 0;
+    }
+    bright_bins = c->support.bright_bins;
+    return c->looked_as == bright_bins || look(c, ring, bright_bins) == DROGUE_OK;
 }
 
 int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
@@ -356,14 +387,14 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
     best.cover_q16 = 0;
     for (k = 0; k < RINGS; k++) {
         drogue_outline trial = *out;
-        drogue_q16 cover_q16;
+        int covered;
         ring.a_px_q16 = drogue_q16_add(ring.a_px_q16, ring.a_px_q16 / 40);
         ring.b_px_q16 = drogue_q16_add(ring.b_px_q16, ring.b_px_q16 / 40);
-        cover_q16 = ring_cover(&trial.support, &ring, &c);
-        if (cover_q16 < 0) {
+        covered = ring_covered(&ring, &c);
+        if (covered < 0) {
             break;
         }
-        if (cover_q16 < config->min_cover_q16) {
+        if (!covered) {
             continue;
         }
         trial.ellipse = ring;
