@@ -66,9 +66,17 @@ static inline int64_t drogue_shr_round_s64(int64_t v, int n) { return n == 0 ? v
 /* |v|, defined for INT64_MIN too. */
 static inline uint64_t drogue_abs_u64(int64_t v) { return v < 0 ? (uint64_t)0 - (uint64_t)v : (uint64_t)v; }
 
-/* Leading zero bits of v; 32 (64) for 0. */
+/* Leading zero bits of v; 32 (64) for 0. By the core's instruction where the compiler has a name for it. */
+#if defined __GNUC__ && !defined __BAMBU__ && !defined __SYNTHESIS__
+static inline int drogue_clz_u32(uint32_t v) { return v == 0 ? 32 : __builtin_clz(v); }
+#else
 int drogue_clz_u32(uint32_t v);
-int drogue_clz_u64(uint64_t v);
+#endif
+
+static inline int drogue_clz_u64(uint64_t v)
+{
+    return v >> 32 != 0 ? drogue_clz_u32((uint32_t)(v >> 32)) : 32 + drogue_clz_u32((uint32_t)v);
+}
 
 /* 2^62 / d for 2^30 <= d < 2^31, from below, to 2^-29 of it: one 32-bit division and two products. */
 uint32_t drogue_reciprocal_u32(uint32_t d);

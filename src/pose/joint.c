@@ -19,7 +19,7 @@ static int64_t products(const int32_t a[FIT], const int32_t b[FIT])
     int64_t sum = 0;
     int k;
     for (k = 0; k < FIT; k++) {
-        sum += (int64_t)a[k] * b[k];
+        sum += drogue_product(a[k], b[k]);
     }
     return sum;
 }

@@ -14,7 +14,7 @@
 
 static const drogue_real one = {1 << 30, -30};
 
-static int32_t mul_q30(int32_t a, int32_t b) { return (int32_t)drogue_shr_round_s64((int64_t)a * b, 30); }
+static int32_t mul_q30(int32_t a, int32_t b) { return (int32_t)drogue_shr_round_s64(drogue_product(a, b), 30); }
 
 /* a . b / 2^30; |a| <= 1 Q30 */
 static int32_t dot_q30(const int32_t a_q30[3], const int32_t b[3])
@@ -253,7 +253,7 @@ drogue_status drogue_joint_outline_rows(drogue_joint_rows *out, const drogue_joi
     drogue_real_quotient(&over, &one, &over);
     residual->exponent = harmonics(h, q_q54) + over.exponent + 31;
     for (i = 0; i < DROGUE_JOINT_FIT; i++) {
-        residual->outline[i] = -(int32_t)drogue_shr_round_s64((int64_t)h[i] * over.mantissa, 31);
+        residual->outline[i] = -(int32_t)drogue_shr_round_s64(drogue_product(h[i], over.mantissa), 31);
         drogue_real_set(&t, residual->outline[i], residual->exponent);
         residual_q29[i] = drogue_real_to_s32(t, 29);
         if (residual_q29[i] >= 1 << 30 || residual_q29[i] <= -(1 << 30)) {
