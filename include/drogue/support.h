@@ -56,7 +56,7 @@ static inline drogue_q16 drogue_support_cover(const drogue_support *support)
     return (drogue_q16)(support->covered * (DROGUE_Q16_ONE / DROGUE_SUPPORT_BINS));
 }
 
-/* Index of the bin of a direction, |u| and |v| < 2^15 in any common unit; (0, 0) is in bin 0. */
+/* Index of the bin of a direction, |u| and |v| < 2^15 in any common unit; not (0, 0). */
 uint32_t drogue_support_bin_of(int32_t u, int32_t v);
 
 #ifdef __cplusplus

@@ -183,12 +183,12 @@ static inline uint32_t bin_of(int32_t u, int32_t v)
 {
     const uint32_t x = (uint32_t)(u < 0 ? -u : u);
     const uint32_t y = (uint32_t)(v < 0 ? -v : v);
-    const uint32_t most = x > y ? x : y;
-    const uint32_t least = (x > y ? y : x) << 16;
-    uint32_t bin =
-        (uint32_t)(least >= most * TAN_1) + (uint32_t)(least >= most * TAN_2) + (uint32_t)(least >= most * TAN_3);
-    bin = most == 0 ? 0 : bin;
-    bin = y > x ? 7 - bin : bin;  /* first quadrant */
+    const int steep = y > x;
+    const uint32_t most = steep ? y : x;
+    const uint32_t least = (steep ? x : y) << 16;
+    const uint32_t half = least >= most * TAN_2;
+    uint32_t bin = 2 * half + (least >= most * (half ? TAN_3 : TAN_1));
+    bin = steep ? 7 - bin : bin;  /* first quadrant */
     bin = u < 0 ? 15 - bin : bin; /* upper half */
     return v < 0 ? 31 - bin : bin;
 }

@@ -6,7 +6,7 @@
 
 #include "joint_model.h"
 
-#define SETTLED_BITS 20 /* a step that turns by less than 2^-20 rad and moves by less of the distance is the last */
+#define SETTLED_BITS 13 /* a step that turns by less than 2^-13 rad and moves by less of the distance is the last */
 #define FIT DROGUE_JOINT_FIT
 
 /* Index of the residuals' row in the packed normal equations, and of their square. */
@@ -132,10 +132,8 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
     drogue_joint_state s;
     int last = 0;
     int step;
-    drogue_status status = drogue_joint_weigh(&weights, normal, out->covariance, outline, inner, camera);
-    if (status == DROGUE_OK && start->position_m_q16[2] <= 0) {
-        status = DROGUE_E_BEHIND_CAMERA;
-    }
+    drogue_status status = start->position_m_q16[2] > 0 ? DROGUE_OK : DROGUE_E_BEHIND_CAMERA;
+    drogue_joint_weigh(&weights, outline, inner, camera);
     if (status == DROGUE_OK) {
         status = drogue_joint_begin(&s, &frame, start, &outline->ellipse, inner, camera, model);
     }

@@ -78,13 +78,8 @@ drogue_status drogue_joint_outline_rows(drogue_joint_rows *out, const drogue_joi
 drogue_status drogue_joint_inner_rows(drogue_joint_rows *out, const drogue_joint_state *state,
                                       const drogue_joint_frame *frame);
 
-/* Weights from the outline's covariance and the inner part's standard deviation.
- *
- *  root         working space, as is 'information'
- *  return       DROGUE_OK; DROGUE_E_DEGENERATE when the covariance is not positive definite
- */
-drogue_status drogue_joint_weigh(drogue_joint_weights *out, drogue_real root[DROGUE_PACKED_MAX],
-                                 drogue_real information[DROGUE_PACKED_MAX], const drogue_joint_outline *outline,
-                                 const drogue_joint_inner *inner, const drogue_camera *camera);
+/* Weights of the outline, and of the inner part from its standard deviation. */
+void drogue_joint_weigh(drogue_joint_weights *out, const drogue_joint_outline *outline, const drogue_joint_inner *inner,
+                        const drogue_camera *camera);
 
 #endif
