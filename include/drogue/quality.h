@@ -53,7 +53,7 @@ drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16);
 
 /* An edge point that belongs to an outline. */
 typedef struct drogue_band_point {
-    int32_t u_q14;            /* its direction in the ellipse's frame, drogue_support_bin_of(): b / a times u, v */
+    int32_t u_q14; /* its direction in the ellipse's frame, drogue_support_bin_of(): b / a times u, v */
     int32_t v_q14;
     int32_t offset_q16;       /* F / 2: how far it lies off the outline, along the radius, in semi-axes */
     drogue_polarity polarity; /* DARK: the gradient points outward; BRIGHT: inward */

@@ -28,18 +28,13 @@ typedef struct drogue_support {
     uint32_t covered;     /* bins that hold enough points, less the changes of polarity round the outline beyond none */
 } drogue_support;
 
-/* Count the edge points that belong to an ellipse, of both polarities.
- *
- *  out     counts; sums are zero
- *  stride  every stride-th edge point is looked at, >= 1
- */
-void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame, const drogue_band *band,
-                          const drogue_edge *edges, uint32_t edge_count, uint32_t stride);
-
 /* From the counts, decide the polarity of each bin and how many bins are covered.
  *
  * A bin is covered by 0.35 points and more per pixel of its length (8-connected edges have 0.7 to 1). An outline of
- * one polarity is preferred: a mixed one loses a bin for each change of polarity round it. */
+ * one polarity is preferred: a mixed one loses a bin for each change of polarity round it.
+ *
+ *  stride  every stride-th edge point has been counted, >= 1
+ */
 void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse, drogue_polarity polarity,
                           uint32_t stride);
 

@@ -145,7 +145,8 @@ static void straighten(int32_t v[3][3])
     for (k = 0; k < 3; k++) {
         const int i = (k + 1) % 3;
         const int j = (k + 2) % 3;
-        v[2][k] = (int32_t)drogue_shr_round_s64(drogue_product(v[0][i], v[1][j]) - drogue_product(v[0][j], v[1][i]), 30);
+        v[2][k] =
+            (int32_t)drogue_shr_round_s64(drogue_product(v[0][i], v[1][j]) - drogue_product(v[0][j], v[1][i]), 30);
     }
 }
 

@@ -61,8 +61,8 @@ int drogue_clz_u32(uint32_t v)
 uint32_t drogue_reciprocal_u32(uint32_t d)
 {
     const uint32_t seed = 2 * (UINT32_MAX / ((d + (1u << 14)) >> 15)) + 1; /* 2^48 / d to 1.25 * 2^-16 */
-    const uint32_t error = ~(uint32_t)(drogue_product_u32(d, seed) >> 17);          /* 2 - d seed, Q31 */
-    return (uint32_t)(drogue_product_u32(seed, error) >> 17);                       /* by Newton, from below */
+    const uint32_t error = ~(uint32_t)(drogue_product_u32(d, seed) >> 17); /* 2 - d seed, Q31 */
+    return (uint32_t)(drogue_product_u32(seed, error) >> 17);              /* by Newton, from below */
 }
 
 drogue_q16 drogue_q16_from_int(int32_t v) { return drogue_sat_s32((int64_t)v * DROGUE_Q16_ONE); }

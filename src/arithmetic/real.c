@@ -84,15 +84,15 @@ void drogue_real_subtract_product(drogue_real *out, const drogue_real *a, const 
 void drogue_real_products(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
                           const drogue_real *d)
 {
-    put_sum(out, drogue_product(a->mantissa, b->mantissa), a->exponent + b->exponent, drogue_product(c->mantissa, d->mantissa),
-            c->exponent + d->exponent);
+    put_sum(out, drogue_product(a->mantissa, b->mantissa), a->exponent + b->exponent,
+            drogue_product(c->mantissa, d->mantissa), c->exponent + d->exponent);
 }
 
 void drogue_real_determinant(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
                              const drogue_real *d)
 {
-    put_sum(out, drogue_product(a->mantissa, b->mantissa), a->exponent + b->exponent, drogue_product(c->mantissa, -d->mantissa),
-            c->exponent + d->exponent);
+    put_sum(out, drogue_product(a->mantissa, b->mantissa), a->exponent + b->exponent,
+            drogue_product(c->mantissa, -d->mantissa), c->exponent + d->exponent);
 }
 
 void drogue_real_negate(drogue_real *v) { v->mantissa = -v->mantissa; }

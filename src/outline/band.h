@@ -48,17 +48,17 @@ static inline int64_t size_q38_of(const band_place *p, int32_t nx_q22, int32_t n
 /* Is it 2^15 px or more? */
 static inline int far_size(int64_t size_q38) { return (uint32_t)((uint64_t)size_q38 >> 32) >> 21 != 0; }
 
-/* F b, where the size is not far off */
+/* F b, where the size is not far off; anything else elsewhere */
 static inline int32_t form_px_q16(const drogue_ellipse_frame *frame, int64_t size_q38)
 {
-    return low_shr_round(size_q38, 22) - frame->b_px_q16;
+    return (int32_t)((uint32_t)low_shr_round(size_q38, 22) - (uint32_t)frame->b_px_q16);
 }
 
 /* Is |F| b below a limit? */
 static inline uint32_t near_form(const drogue_ellipse_frame *frame, int64_t size_q38, drogue_q16 most_px_q16)
 {
     const int32_t f_b_px_q16 = form_px_q16(frame, size_q38);
-    return (uint32_t)(!far_size(size_q38) & ((f_b_px_q16 < 0 ? -f_b_px_q16 : f_b_px_q16) < most_px_q16));
+    return (uint32_t)(!far_size(size_q38) & (f_b_px_q16 < most_px_q16) & (f_b_px_q16 > -most_px_q16));
 }
 
 /* F / 2 of F b within reach */

@@ -2,8 +2,6 @@
 /* Edge points near an ellipse: counted, and collected for a fit. */
 #include "near.h"
 
-#include <string.h>
-
 #include "band.h"
 
 uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
@@ -19,20 +17,6 @@ uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 thresho
         }
     }
     return near_count;
-}
-
-void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame, const drogue_band *band,
-                          const drogue_edge *edges, uint32_t edge_count, uint32_t stride)
-{
-    uint32_t i;
-    memset(out, 0, sizeof *out);
-    for (i = 0; i < edge_count; i += stride) { /* bound: edge_count / stride, stride >= 1 */
-        drogue_band_point p;
-        if (drogue_ellipse_band_holds(&p, frame, band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
-                                      edges[i].gx, edges[i].gy)) {
-            out->bin[bin_of(p.u_q14, p.v_q14)].count[p.polarity]++;
-        }
-    }
 }
 
 #define BLOCK 4 /* points whose fourth powers 64 bits hold */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Inside the outline stage: edge points near an ellipse, counted, and collected for a fit. Hardware takes its own form of
- * these functions and of drogue_support_count(), hls/outline/near.c. */
+ * these functions, hls/outline/near.c. */
 #ifndef DROGUE_NEAR_H
 #define DROGUE_NEAR_H
 

@@ -148,8 +148,7 @@ static int try_arcs(drogue_candidate *out, uint32_t arcs, context *c)
     fit_error = fit_error > c->config->quality.fit_error_px_q16 ? fit_error : c->config->quality.fit_error_px_q16;
     threshold = drogue_quality_threshold(&out->ellipse, fit_error);
     for (k = 0; k < c->parts; k++) {
-        near_count +=
-            drogue_near_count(&frame, threshold, c->workspace->edges + c->part[k]->first, c->part[k]->count);
+        near_count += drogue_near_count(&frame, threshold, c->workspace->edges + c->part[k]->first, c->part[k]->count);
     }
     (void)look(c, &out->ellipse, polarity_of_arcs(c, arcs));
     drogue_quality_of_cover(&quality, &out->ellipse, near_count, (uint32_t)c->sum.moments.n,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Support of an ellipse by all edge points; drogue_support_count() is in near.c. */
+/* Support of an ellipse by all edge points. */
 #include "drogue/support.h"
 
 #include "band.h"

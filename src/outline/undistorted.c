@@ -32,7 +32,8 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     own = drogue_collect_undistorted(&c, outline->support.bright_bins, &frame, &band, workspace->edges,
                                      list->edge_count, &l);
     status = drogue_collection_fit(out, &c);
-    if (status == DROGUE_OK && (c.moments.n * 4 < (int64_t)own * 3 || !drogue_round_enough(out, setup->config) || out->b_px_q16 < DROGUE_Q16_ONE)) {
+    if (status == DROGUE_OK && (c.moments.n * 4 < (int64_t)own * 3 || !drogue_round_enough(out, setup->config) ||
+                                out->b_px_q16 < DROGUE_Q16_ONE)) {
         status = DROGUE_E_DEGENERATE; /* most of the outline lies beyond what the lens model can undo */
     }
     if (status == DROGUE_OK) {

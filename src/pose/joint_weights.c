@@ -52,10 +52,21 @@ static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, cons
     }
     {
         /* twice the sums of the products, packed */
-        const int64_t sum_q30[DROGUE_PACKED_MAX] = {
-            2 * c_q30[0],        2 * c_q30[1],        c_q30[0] + c_q30[2], 2 * s_q30[1],        s_q30[2],
-            c_q30[0] - c_q30[2], 2 * c_q30[2],        c_q30[1] + c_q30[3], s_q30[3] - s_q30[1], c_q30[0] + c_q30[4],
-            2 * s_q30[2],        s_q30[1] + s_q30[3], c_q30[1] - c_q30[3], s_q30[4],            c_q30[0] - c_q30[4]};
+        const int64_t sum_q30[DROGUE_PACKED_MAX] = {2 * c_q30[0],
+                                                    2 * c_q30[1],
+                                                    c_q30[0] + c_q30[2],
+                                                    2 * s_q30[1],
+                                                    s_q30[2],
+                                                    c_q30[0] - c_q30[2],
+                                                    2 * c_q30[2],
+                                                    c_q30[1] + c_q30[3],
+                                                    s_q30[3] - s_q30[1],
+                                                    c_q30[0] + c_q30[4],
+                                                    2 * s_q30[2],
+                                                    s_q30[1] + s_q30[3],
+                                                    c_q30[1] - c_q30[3],
+                                                    s_q30[4],
+                                                    c_q30[0] - c_q30[4]};
         for (i = 0; i < DROGUE_PACKED_MAX; i++) {
             /* 2^22 points at most, basis functions at most 1 */
             DROGUE_NOTE("joint: information, Q31", sum_q30[i], 54);

@@ -4,8 +4,8 @@
 
 #include <string.h>
 
+#include "../support_count.h"
 #include "drogue/joint.h"
-#include "drogue/support.h"
 
 /* Edge points from words x_q5 y_q5 gx gy; 0 when one is out of the front end's range. */
 static int edges_of_words(drogue_edge *edges, const int32_t *w, size_t count)
@@ -40,7 +40,7 @@ static void add_members(int32_t *members, drogue_support *support, const drogue_
         members[i] = -1;
         if (drogue_ellipse_band_holds(&p, frame, band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
                                       edges[i].gx, edges[i].gy)) {
-            members[i] = (int32_t)(drogue_support_bin_of(p.u_q24, p.v_q24) + DROGUE_SUPPORT_BINS * p.polarity);
+            members[i] = (int32_t)(drogue_support_bin_of(p.u_q14, p.v_q14) + DROGUE_SUPPORT_BINS * p.polarity);
             (void)drogue_support_add(support, &p, &edges[i]);
         }
     }
@@ -84,7 +84,7 @@ int stage_support(stage_run *r)
     if (summary[0] != DROGUE_OK) {
         return 0;
     }
-    drogue_support_count(&support, &frame, &band, edges, (uint32_t)count, (uint32_t)p[2]);
+    support_count(&support, &frame, &band, edges, (uint32_t)count, (uint32_t)p[2]);
     drogue_support_judge(&support, &ellipse, (drogue_polarity)p[3], (uint32_t)p[2]);
     summary[1] = counted(&support);
     summary[2] = (int32_t)support.bright_bins;

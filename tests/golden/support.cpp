@@ -5,7 +5,7 @@
 #include "golden.hpp"
 #include "reference.hpp"
 
-#include "drogue/support.h"
+#include "../support_count.h"
 
 namespace {
 
@@ -85,7 +85,7 @@ int main()
             held.add(INFINITY, name);
             continue;
         }
-        drogue_support_count(&got, &frame, &s.band, s.edges.data(), (std::uint32_t)s.edges.size(), 1);
+        support_count(&got, &frame, &s.band, s.edges.data(), (std::uint32_t)s.edges.size(), 1);
         for (const drogue_edge &q : s.edges) {
             const reference::Edge edge = {
                 {q.x_q5 / 32.0L, q.y_q5 / 32.0L}, (reference::Real)q.gx, (reference::Real)q.gy};
@@ -99,7 +99,7 @@ int main()
             wrong += !open && own != m.held;
             m.held = own;
             if (own) {
-                const int bin = (int)drogue_support_bin_of(p.u_q24, p.v_q24);
+                const int bin = (int)drogue_support_bin_of(p.u_q14, p.v_q14);
                 misplaced += m.from_next_bin > 3e-5L && (bin != m.bin || (int)p.polarity != m.polarity);
                 m.bin = bin;
                 reference::support_add(model, m, edge);
