@@ -60,8 +60,8 @@ drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline);
  *  out      pose, covariance, chi2; undefined on failure
  *  start    a pose from drogue_pose_from_ellipse()
  *  steps    most Gauss-Newton steps after the first, [0, 16], each about squares what is left of the error; a step of
- *           less than 2^-13 rad and of the distance is the last one. 0: none at all, the start itself. The covariance
- *           is that of the point before the last step; chi2 too, less what such a last one takes off it
+ *           less than 2^-20 rad and of the distance is the last one. 0: none at all, the start itself. Covariance and
+ *           chi2 are those of the point before the last step
  *  return   DROGUE_OK; DROGUE_E_BEHIND_CAMERA (the start too); DROGUE_E_DEGENERATE; DROGUE_E_DOMAIN: farther than 2^16
  *           rim radii, rays two focal lengths off the axis, an outline two semi-axes off
  *  scaling  Q30 and Q29 in 32 bits, lengths in a power of two of the rim radius that follows the distance; sums of products

@@ -6,7 +6,7 @@
 
 #include "joint_model.h"
 
-#define SETTLED_BITS 13 /* a step that turns by less than 2^-13 rad and moves by less of the distance is the last */
+#define SETTLED_BITS 20 /* a step that turns by less than 2^-20 rad and moves by less of the distance is the last */
 #define FIT DROGUE_JOINT_FIT
 
 /* Index of the residuals' row in the packed normal equations, and of their square. */
@@ -84,19 +84,6 @@ static int move(drogue_joint_state *s, const drogue_real step[FIT])
     return is_small;
 }
 
-/* What a small step leaves of chi2: its slope times the step less, to second order. */
-static void take_off(drogue_real *chi2, const drogue_real slope[FIT], drogue_real step[FIT])
-{
-    int k;
-    for (k = 0; k < FIT; k++) {
-        drogue_real_negate(&step[k]);
-        drogue_real_subtract_product(chi2, &slope[k], &step[k]);
-    }
-    if (chi2->mantissa < 0) {
-        drogue_real_set(chi2, 0, 0);
-    }
-}
-
 /* Inverse of the normal equations; lengths from radii to metres. */
 static void put_covariance(drogue_real out[DROGUE_PACKED_MAX], const drogue_real *root, drogue_q16 radius_m_q16)
 {
@@ -164,17 +151,12 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
         last = step == steps;
         if (status == DROGUE_OK && steps > 0) {
             drogue_real *down = &normal[RIGHT];
-            drogue_real slope[FIT];
             int k;
-            memcpy(slope, down, sizeof slope);
             drogue_cholesky_solve(down, normal, FIT);
             for (k = 0; k < FIT; k++) {
                 drogue_real_negate(&down[k]);
             }
-            if (move(&s, down)) {
-                last = 1;
-                take_off(&normal[CHI2], slope, down);
-            }
+            last = move(&s, down) || last;
         }
     }
     if (status != DROGUE_OK) {

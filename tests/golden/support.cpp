@@ -100,7 +100,7 @@ int main()
             m.held = own;
             if (own) {
                 const int bin = (int)drogue_support_bin_of(p.u_q14, p.v_q14);
-                misplaced += m.from_next_bin > 3e-5L && (bin != m.bin || (int)p.polarity != m.polarity);
+                misplaced += m.from_next_bin > e.a / e.b / 8192 && (bin != m.bin || (int)p.polarity != m.polarity);
                 m.bin = bin;
                 reference::support_add(model, m, edge);
             }
