@@ -63,7 +63,7 @@ drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline);
  *           less than 2^-20 rad and of the distance is the last one. 0: none at all, the start itself. Covariance and
  *           chi2 are those of the point before the last step
  *  return   DROGUE_OK; DROGUE_E_BEHIND_CAMERA (the start too); DROGUE_E_DEGENERATE; DROGUE_E_DOMAIN: farther than 2^16
- *           rim radii, rays two focal lengths off the axis, an outline two semi-axes off
+ *           rim radii, rays two focal lengths off the axis, an outline two semi-axes off, angles beyond their ranges
  *  scaling  Q30 and Q29 in 32 bits, lengths in a power of two of the rim radius that follows the distance; sums of products
  *           exact in 64 bits; normal equations with 31-bit mantissas
  *  error    pose <= 1 LSB against double

@@ -24,7 +24,8 @@ typedef struct drogue_pose {
  *  ellipse  undistorted, px of the whole image
  *  camera   fx, fy, cx, cy; distortion is ignored
  *  radius   rim radius, > 0
- *  return   DROGUE_OK, DROGUE_E_DOMAIN (ellipse flat or empty, camera without focal length, position beyond Q16)
+ *  return   DROGUE_OK, DROGUE_E_DOMAIN (ellipse flat or empty, its angle beyond pi / 2, camera without focal length,
+ *           position beyond Q16)
  *  scaling  31-bit mantissas; the cone in a frame about its own axis, where its matrix is graded; no overflow
  *  error    position, axis and angles <= 4 LSB against double from the same ellipse, for a focal length of 300 px and
  *           more and a centre within 2 focal lengths of the principal point

@@ -30,7 +30,8 @@ typedef struct drogue_ellipse_frame {
 
 /* Prepare an ellipse for point tests.
  *
- *  return  DROGUE_OK; DROGUE_E_DOMAIN when b < 1 px, a < b, or a coordinate of the centre is 2^14 px or more
+ *  return  DROGUE_OK; DROGUE_E_DOMAIN when b < 1 px, a < b, a coordinate of the centre is 2^14 px or more, or the angle
+ *          beyond pi / 2
  */
 drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_ellipse *ellipse);
 

@@ -52,3 +52,30 @@ void drogue_undo_blur(drogue_ellipse *e, const drogue_config *config)
     e->a_px_q16 = drogue_real_to_q16(grown[0]);
     e->b_px_q16 = drogue_real_to_q16(grown[1]);
 }
+
+#define SETTLED_Q16 DROGUE_Q16(1, 64) /* px */
+
+int drogue_ellipse_settled(const drogue_ellipse *p, const drogue_ellipse *q)
+{
+    const int64_t d[4] = {(int64_t)p->xc_px_q16 - q->xc_px_q16, (int64_t)p->yc_px_q16 - q->yc_px_q16,
+                          (int64_t)p->a_px_q16 - q->a_px_q16, (int64_t)p->b_px_q16 - q->b_px_q16};
+    int k;
+    for (k = 0; k < 4; k++) {
+        if (d[k] > SETTLED_Q16 || d[k] < -SETTLED_Q16) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+void drogue_band_narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
+                        const drogue_config *config)
+{
+    const int64_t variance_q32 = support->points > 0 ? support->squares_q32 / (int64_t)support->points : 0;
+    const int64_t spread_px_q16 =
+        drogue_shr_round_s64(3 * (int64_t)drogue_isqrt_u64((uint64_t)variance_q32) * e->a_px_q16, 16);
+    const drogue_q16 least = config->refit_band_px_q16 / 3 + 1;
+    if (spread_px_q16 < band->half_width_px_q16) {
+        *band = drogue_band_of(spread_px_q16 < least ? least : (drogue_q16)spread_px_q16, config->refit_cos_q16);
+    }
+}

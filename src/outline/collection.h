@@ -21,6 +21,14 @@ drogue_status drogue_collection_fit(drogue_ellipse *out, const drogue_collection
  * at those of the minor. */
 void drogue_undo_blur(drogue_ellipse *e, const drogue_config *config);
 
+/* Has a refit moved an ellipse by less than 1/64 px? */
+int drogue_ellipse_settled(const drogue_ellipse *p, const drogue_ellipse *q);
+
+/* Band for the next round: three times the spread of the points about the ellipse, from a third of the configured width
+ * to the last one: what stands out of the outline, as a hose or a fitting behind the rim, drops out. */
+void drogue_band_narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
+                        const drogue_config *config);
+
 /* Is an ellipse round enough to be the drogue's? */
 static inline int drogue_round_enough(const drogue_ellipse *e, const drogue_config *config)
 {

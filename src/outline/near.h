@@ -4,17 +4,8 @@
 #ifndef DROGUE_NEAR_H
 #define DROGUE_NEAR_H
 
-#include "drogue/ellipse.h"
-#include "drogue/support.h"
+#include "drogue/outline.h"
 #include "drogue/undistort.h"
-
-/* Moments of the points, 1 / 2^frac_bits px from the origin. */
-typedef struct drogue_collection {
-    drogue_moments moments;
-    drogue_q16 x_px_q16; /* origin of the moments */
-    drogue_q16 y_px_q16;
-    int frac_bits; /* 0 .. 10 */
-} drogue_collection;
 
 /* A lens, and the region's first pixel in the image that it distorts. */
 typedef struct drogue_region_lens {

@@ -12,7 +12,6 @@
 #define TRIES 3                            /* candidates refined before the best of them is taken */
 #define GOOD_COVER_Q16 DROGUE_Q16(3, 4)    /* no further try */
 #define ENOUGH_COVER_Q16 DROGUE_Q16(9, 10) /* no further candidate */
-#define SETTLED_Q16 DROGUE_Q16(1, 64)      /* px: an ellipse that a refit moves by less has settled */
 
 static int plausible(const drogue_ellipse *e, const drogue_mask *mask, const drogue_config *config)
 {
@@ -39,13 +38,11 @@ typedef struct context {
     const drogue_mask *mask;
     const drogue_config *config;
     drogue_arc_choices choices;
-    drogue_collection sum;     /* of the points of these arcs, about the middle of the largest region */
-    uint32_t arcs;             /* as a candidate has them; 0: none */
+    drogue_outline_room *room;
+    uint32_t arcs;             /* whose points are summed, as a candidate has them; 0: none */
     const drogue_arc *part[4]; /* the same in the order of their points */
     int parts;
-    drogue_collection own; /* edge points that belong to the ellipse looked at last */
-    drogue_support support;
-    uint32_t looked_as; /* the bins' polarities then */
+    uint32_t looked_as; /* the bins' polarities in the last look */
 } context;
 
 static uint32_t stride_of(const context *c) { return c->list->edge_count / LOOKS + 1; }
@@ -62,7 +59,7 @@ static void sum_arcs(context *c, uint32_t arcs)
 {
     int k;
     int i;
-    drogue_collection_of_region(&c->sum);
+    drogue_collection_of_region(&c->room->sum);
     c->arcs = arcs;
     c->parts = 0;
     for (k = 0; k < 4; k++) {
@@ -72,7 +69,7 @@ static void sum_arcs(context *c, uint32_t arcs)
                 c->part[i] = c->part[i - 1];
             }
             c->part[i] = arc;
-            drogue_collect_arc(&c->sum.moments, c->workspace->edges + arc->first, arc->count);
+            drogue_collect_arc(&c->room->sum.moments, c->workspace->edges + arc->first, arc->count);
         }
     }
 }
@@ -104,20 +101,22 @@ static drogue_status collect(context *c, const drogue_ellipse *ellipse, const dr
     if (status != DROGUE_OK) {
         return status;
     }
-    memset(&c->support, 0, sizeof c->support);
-    c->support.bright_bins = bright_bins;
-    c->own = c->sum;
+    memset(&c->room->support, 0, sizeof c->room->support);
+    c->room->support.bright_bins = bright_bins;
+    c->room->own = c->room->sum;
     if (stride > 1) {
-        drogue_moments_clear(&c->own.moments);
+        drogue_moments_clear(&c->room->own.moments);
     }
     for (k = 0; k < c->parts && stride == 1; k++) {
         const drogue_arc *arc = c->part[k];
-        drogue_collect_edges(&c->own.moments, &c->support, &frame, band, edges + at, arc->first - at, 1, 0);
-        drogue_collect_edges(&c->own.moments, &c->support, &frame, band, edges + arc->first, arc->count, 1, 1);
+        drogue_collect_edges(&c->room->own.moments, &c->room->support, &frame, band, edges + at, arc->first - at, 1, 0);
+        drogue_collect_edges(&c->room->own.moments, &c->room->support, &frame, band, edges + arc->first, arc->count, 1,
+                             1);
         at = arc->first + arc->count;
     }
-    drogue_collect_edges(&c->own.moments, &c->support, &frame, band, edges + at, c->list->edge_count - at, stride, 0);
-    drogue_support_judge(&c->support, ellipse, c->config->polarity, stride);
+    drogue_collect_edges(&c->room->own.moments, &c->room->support, &frame, band, edges + at, c->list->edge_count - at,
+                         stride, 0);
+    drogue_support_judge(&c->room->support, ellipse, c->config->polarity, stride);
     return DROGUE_OK;
 }
 
@@ -140,8 +139,8 @@ static int try_arcs(drogue_candidate *out, uint32_t arcs, context *c)
     int k;
     out->arcs = arcs;
     sum_arcs(c, arcs);
-    if (drogue_collection_fit(&out->ellipse, &c->sum) != DROGUE_OK || !plausible(&out->ellipse, c->mask, c->config) ||
-        drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
+    if (drogue_collection_fit(&out->ellipse, &c->room->sum) != DROGUE_OK ||
+        !plausible(&out->ellipse, c->mask, c->config) || drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
         return 0;
     }
     fit_error = drogue_q16_mul(out->ellipse.a_px_q16, c->config->search_band_q16);
@@ -151,12 +150,12 @@ static int try_arcs(drogue_candidate *out, uint32_t arcs, context *c)
         near_count += drogue_near_count(&frame, threshold, c->workspace->edges + c->part[k]->first, c->part[k]->count);
     }
     (void)look(c, &out->ellipse, polarity_of_arcs(c, arcs));
-    drogue_quality_of_cover(&quality, &out->ellipse, near_count, (uint32_t)c->sum.moments.n,
-                            drogue_support_cover(&c->support), &c->config->quality);
+    drogue_quality_of_cover(&quality, &out->ellipse, near_count, (uint32_t)c->room->sum.moments.n,
+                            drogue_support_cover(&c->room->support), &c->config->quality);
     out->reliability_q16 = quality.reliability_q16;
     out->fit_ratio_q16 = quality.fit_ratio_q16;
     out->cover_q16 = quality.length_ratio_q16;
-    out->polarity = c->support.bright_bins;
+    out->polarity = c->room->support.bright_bins;
     return quality.fit_ratio_q16 >= c->config->min_fit_ratio_q16;
 }
 
@@ -169,8 +168,9 @@ static int usable(const context *c, int k, int choice)
 
 /* The first arcs of all quadrants together; unless they cover enough, all pairs of arcs from two quadrants too. Returns
  * how many candidates there are. */
-static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], context *c)
+static uint32_t all_candidates(context *c)
 {
+    drogue_candidate *candidates = c->room->candidates;
     uint32_t arcs = 0;
     uint32_t count;
     int k;
@@ -198,33 +198,6 @@ static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES
     return count;
 }
 
-static int settled(const drogue_ellipse *p, const drogue_ellipse *q)
-{
-    const int64_t d[4] = {(int64_t)p->xc_px_q16 - q->xc_px_q16, (int64_t)p->yc_px_q16 - q->yc_px_q16,
-                          (int64_t)p->a_px_q16 - q->a_px_q16, (int64_t)p->b_px_q16 - q->b_px_q16};
-    int k;
-    for (k = 0; k < 4; k++) {
-        if (d[k] > SETTLED_Q16 || d[k] < -SETTLED_Q16) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-/* Band for the next round: three times the spread of the points about the ellipse, from a third of the configured width
- * to the last one: what stands out of the outline, as a hose or a fitting behind the rim, drops out. */
-static void narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
-                   const drogue_config *config)
-{
-    const int64_t variance_q32 = support->points > 0 ? support->squares_q32 / (int64_t)support->points : 0;
-    const int64_t spread_px_q16 =
-        drogue_shr_round_s64(3 * (int64_t)drogue_isqrt_u64((uint64_t)variance_q32) * e->a_px_q16, 16);
-    const drogue_q16 least = config->refit_band_px_q16 / 3 + 1;
-    if (spread_px_q16 < band->half_width_px_q16) {
-        *band = drogue_band_of(spread_px_q16 < least ? least : (drogue_q16)spread_px_q16, config->refit_cos_q16);
-    }
-}
-
 /* Refit on the points that belong to the outline until it settles, as often as configured; stops at the last good fit. The
  * first round takes the points that were looked at. Judges the outline by the share of its circumference that they cover. */
 static void refit(drogue_outline *outline, context *x)
@@ -243,18 +216,19 @@ static void refit(drogue_outline *outline, context *x)
             collect(x, &outline->ellipse, &band, bright_bins, stride) != DROGUE_OK) {
             break;
         }
-        outline->support = x->support;
+        outline->support = x->room->support;
         outline->band_px_q16 = width;
         if (round == config->refit_rounds) {
             if (outline->support.bright_bins != bright_bins) { /* the sums are those of the bins before */
                 drogue_support_judge_as(&outline->support, &outline->ellipse, bright_bins, 1);
             }
         } else if (outline->support.bright_bins == bright_bins) {
-            if (drogue_collection_fit(&ellipse, &x->own) == DROGUE_OK && plausible(&ellipse, x->mask, config)) {
-                narrow(&band, &outline->support, &ellipse, config);
-                done = band.half_width_px_q16 == width && stride == 1 && settled(&ellipse, &outline->ellipse);
+            if (drogue_collection_fit(&ellipse, &x->room->own) == DROGUE_OK && plausible(&ellipse, x->mask, config)) {
+                drogue_band_narrow(&band, &outline->support, &ellipse, config);
+                done = band.half_width_px_q16 == width && stride == 1 &&
+                       drogue_ellipse_settled(&ellipse, &outline->ellipse);
                 outline->ellipse = ellipse;
-                outline->refit_points = (uint32_t)x->own.moments.n;
+                outline->refit_points = (uint32_t)x->room->own.moments.n;
             } else if (stride == 1) {
                 break;
             }
@@ -291,10 +265,10 @@ static void refine(drogue_outline *out, const drogue_candidate *candidate, conte
 
 /* The most reliable candidate, refined; when that covers little, the next that differ from it, and the one of them that
  * covers most. */
-static drogue_status best_outline(drogue_outline *out, drogue_candidate candidates[DROGUE_MAX_CANDIDATES],
-                                  uint32_t count, context *c)
+static drogue_status best_outline(drogue_outline *out, uint32_t count, context *c)
 {
-    drogue_outline trial;
+    drogue_candidate *candidates = c->room->candidates;
+    drogue_outline *trial = &c->room->trial;
     int tries;
     for (tries = 0; tries < TRIES && out->cover_q16 < GOOD_COVER_Q16; tries++) {
         uint32_t members;
@@ -306,11 +280,11 @@ static drogue_status best_outline(drogue_outline *out, drogue_candidate candidat
             break;
         }
         chosen = candidates[best];
-        refine(tries == 0 ? out : &trial, &chosen, c);
+        refine(tries == 0 ? out : trial, &chosen, c);
         if (tries == 0) {
             out->cluster_members = members;
-        } else if (trial.cover_q16 > out->cover_q16) {
-            *out = trial;
+        } else if (trial->cover_q16 > out->cover_q16) {
+            *out = *trial;
             out->cluster_members = members;
         }
         for (i = 0; i < count; i++) {
@@ -326,7 +300,6 @@ static drogue_status best_outline(drogue_outline *out, drogue_candidate candidat
 drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                                   const drogue_mask *mask, const drogue_config *config)
 {
-    drogue_candidate *candidates = workspace->candidates;
     context c;
     drogue_status status;
     int k;
@@ -338,13 +311,14 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
         return DROGUE_E_NO_EDGES;
     }
     c.workspace = workspace;
+    c.room = workspace->outline;
     c.list = list;
     c.mask = mask;
     c.config = config;
     status = drogue_select_arcs(&c.choices, workspace->hull, workspace->edges, workspace->arcs, list->arc_count, mask,
                                 config->min_short_px_q16, config->polarity);
     if (status == DROGUE_OK) {
-        status = best_outline(out, candidates, all_candidates(candidates, &c), &c);
+        status = best_outline(out, all_candidates(&c), &c);
         out->fitted = out->ellipse;
         if (out->ellipse.b_px_q16 > 0) {
             drogue_undo_blur(&out->ellipse, config);
@@ -362,10 +336,10 @@ static int ring_covered(const drogue_ellipse *ring, context *c)
     if (!plausible(ring, c->mask, c->config) || look(c, ring, bright_bins) != DROGUE_OK) {
         return -1;
     }
-    if (drogue_support_cover(&c->support) < c->config->min_cover_q16) {
+    if (drogue_support_cover(&c->room->support) < c->config->min_cover_q16) {
         return 0;
     }
-    bright_bins = c->support.bright_bins;
+    bright_bins = c->room->support.bright_bins;
     return c->looked_as == bright_bins || look(c, ring, bright_bins) == DROGUE_OK;
 }
 
@@ -373,19 +347,22 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
                            const drogue_mask *mask, const drogue_config *config)
 {
     drogue_ellipse ring = out->fitted;
-    drogue_outline best;
+    drogue_outline *best;
+    drogue_outline *trial;
     context c;
     int k;
     memset(&c, 0, sizeof c);
     c.workspace = workspace;
+    c.room = workspace->outline;
     c.list = list;
     c.mask = mask;
     c.config = config;
-    drogue_collection_of_region(&c.sum);
-    best = *out;
-    best.cover_q16 = 0;
+    drogue_collection_of_region(&c.room->sum);
+    trial = &c.room->trial;
+    best = &c.room->best;
+    *best = *out;
+    best->cover_q16 = 0;
     for (k = 0; k < RINGS; k++) {
-        drogue_outline trial = *out;
         int covered;
         ring.a_px_q16 = drogue_q16_add(ring.a_px_q16, ring.a_px_q16 / 40);
         ring.b_px_q16 = drogue_q16_add(ring.b_px_q16, ring.b_px_q16 / 40);
@@ -396,17 +373,18 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
         if (!covered) {
             continue;
         }
-        trial.ellipse = ring;
-        refit(&trial, &c);
-        if (trial.cover_q16 >= best.cover_q16 && trial.cover_q16 >= config->min_cover_q16 &&
-            (int64_t)trial.ellipse.b_px_q16 * 50 > (int64_t)out->fitted.b_px_q16 * 51) {
-            best = trial;
+        *trial = *out;
+        trial->ellipse = ring;
+        refit(trial, &c);
+        if (trial->cover_q16 >= best->cover_q16 && trial->cover_q16 >= config->min_cover_q16 &&
+            (int64_t)trial->ellipse.b_px_q16 * 50 > (int64_t)out->fitted.b_px_q16 * 51) {
+            *best = *trial;
         }
     }
-    if (best.cover_q16 == 0) {
+    if (best->cover_q16 == 0) {
         return 0;
     }
-    *out = best;
+    *out = *best;
     out->fitted = out->ellipse;
     drogue_undo_blur(&out->ellipse, config);
     return 1;

@@ -43,7 +43,7 @@ drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_el
     int32_t c_ratio_q30;
     drogue_real inverse;
     if (ellipse->b_px_q16 < DROGUE_Q16_ONE || ellipse->a_px_q16 < ellipse->b_px_q16 || far(ellipse->xc_px_q16) ||
-        far(ellipse->yc_px_q16)) {
+        far(ellipse->yc_px_q16) || !drogue_ellipse_angle_valid(ellipse)) {
         return DROGUE_E_DOMAIN;
     }
     drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(ellipse->angle_rad_q16, 13));

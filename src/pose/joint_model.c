@@ -79,6 +79,8 @@ static void ratio_q16(drogue_real *out, int64_t num, drogue_q16 den)
     drogue_real_quotient(out, out, &d);
 }
 
+static int beyond(drogue_q16 v, drogue_q16 most) { return v > most || v < -most; }
+
 static drogue_status place(drogue_joint_state *s, const drogue_pose *pose, const drogue_model *model)
 {
     drogue_real position[3];
@@ -93,10 +95,14 @@ static drogue_status place(drogue_joint_state *s, const drogue_pose *pose, const
     for (k = 0; k < 3; k++) {
         s->position_q30[k] = drogue_real_to_s32(position[k], 30 - s->scale);
     }
+    if (s->scale > FARTHEST || beyond(pose->yaw_rad_q16, DROGUE_Q16_PI) ||
+        beyond(pose->pitch_rad_q16, DROGUE_Q16_HALF_PI)) {
+        return DROGUE_E_DOMAIN;
+    }
     s->angle_rad_q29[0] = (int32_t)drogue_shl_s64(pose->yaw_rad_q16, 13);
     s->angle_rad_q29[1] = (int32_t)drogue_shl_s64(pose->pitch_rad_q16, 13);
     drogue_joint_turn(s);
-    return s->scale <= FARTHEST ? DROGUE_OK : DROGUE_E_DOMAIN;
+    return DROGUE_OK;
 }
 
 static void disc_of(drogue_joint_frame *frame, const drogue_model *model)
@@ -127,6 +133,9 @@ drogue_status drogue_joint_begin(drogue_joint_state *state, drogue_joint_frame *
     int32_t s_q30;
     int32_t c_q30;
     int near_axis;
+    if (!drogue_ellipse_angle_valid(e)) {
+        return DROGUE_E_DOMAIN;
+    }
     drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
     memset(frame, 0, sizeof *frame);
     near_axis = put_ray(&frame->ray_q29[0][0], e->a_px_q16, c_q30, fx);
@@ -394,5 +403,6 @@ drogue_status drogue_inner_disc_image(drogue_ellipse *out, const drogue_pose *po
     drogue_real_root(&length, &length);
     drogue_real_quotient(&facing, &facing, &length);
     out->b_px_q16 = pixel_q16(&facing, out->a_px_q16, 0);
+    out->b_px_q16 = out->b_px_q16 > out->a_px_q16 ? out->a_px_q16 : out->b_px_q16; /* a cosine, rounded */
     return out->b_px_q16 > 0 ? DROGUE_OK : DROGUE_E_DOMAIN;
 }

@@ -27,11 +27,12 @@ static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, cont
         if (collect(x, &o->ellipse, &band, bright_bins, stride) != DROGUE_OK) {
             break;
         }
-        o->support = x->support;
+        o->support = x->room->support;
         if (o->support.bright_bins == bright_bins) {
-            if (drogue_collection_fit(&ellipse, &x->own) == DROGUE_OK && plausible(&ellipse, x->mask, x->config)) {
-                narrow(&band, &o->support, &ellipse, x->config);
-                done = band.half_width_px_q16 == width && stride == 1 && settled(&ellipse, &o->ellipse);
+            if (drogue_collection_fit(&ellipse, &x->room->own) == DROGUE_OK &&
+                plausible(&ellipse, x->mask, x->config)) {
+                drogue_band_narrow(&band, &o->support, &ellipse, x->config);
+                done = band.half_width_px_q16 == width && stride == 1 && drogue_ellipse_settled(&ellipse, &o->ellipse);
                 o->ellipse = ellipse;
             } else if (stride == 1) {
                 break;
@@ -52,6 +53,7 @@ int decisions_of_refit(decisions_round rounds[DECISIONS_MAX], const drogue_works
     uint32_t chosen = 0;
     int k;
     x.workspace = workspace;
+    x.room = workspace->outline;
     x.list = list;
     x.mask = mask;
     x.config = config;
@@ -75,10 +77,11 @@ int decisions_of_ring(decisions_round rounds[DECISIONS_MAX], const drogue_worksp
     context x;
     memset(&x, 0, sizeof x);
     x.workspace = workspace;
+    x.room = workspace->outline;
     x.list = list;
     x.mask = mask;
     x.config = config;
-    drogue_collection_of_region(&x.sum);
+    drogue_collection_of_region(&x.room->sum);
     memset(&outline, 0, sizeof outline);
     outline.ellipse = *ring;
     outline.support.bright_bins = bright_bins;
