@@ -162,23 +162,24 @@ void drogue_collect_edges(drogue_moments *moments, drogue_support *support, cons
     put_sums(support, &sums);
 }
 
-uint32_t drogue_collect_undistorted(drogue_collection *c, uint32_t bright_bins, const drogue_ellipse_frame *frame,
+uint32_t drogue_collect_undistorted(drogue_collection *c, drogue_support *support, const drogue_ellipse_frame *frame,
                                     const drogue_band *band, const drogue_edge *edges, uint32_t count,
                                     const drogue_region_lens *lens)
 {
-    uint32_t own = 0;
+    const uint32_t before = support->points;
+    drogue_moments distorted;
     uint32_t i;
+    drogue_moments_clear(&distorted);
     for (i = 0; i < count; i++) { /* bound: edge points; the lens undone takes longer than all else */
-        drogue_q16 x = drogue_edge_x_q16(&edges[i]);
-        drogue_q16 y = drogue_edge_y_q16(&edges[i]);
-        drogue_band_point p;
-        if (drogue_ellipse_band_holds(&p, frame, band, x, y, edges[i].gx, edges[i].gy) &&
-            ((bright_bins >> drogue_support_bin_of(p.u_q14, p.v_q14)) & 1u) == (uint32_t)p.polarity) {
-            own++;
+        const uint32_t points = support->points;
+        drogue_collect_edges(&distorted, support, frame, band, &edges[i], 1, 1, 0);
+        if (support->points > points) {
+            drogue_q16 x = drogue_edge_x_q16(&edges[i]);
+            drogue_q16 y = drogue_edge_y_q16(&edges[i]);
             if (undistort_edge(&x, &y, lens)) {
                 collect_point(c, x, y);
             }
         }
     }
-    return own;
+    return support->points - before;
 }

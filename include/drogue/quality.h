@@ -52,22 +52,6 @@ typedef struct drogue_band {
 /* Band of a half width in (0, 8] px and a least cosine in [0, 1]. */
 drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16);
 
-/* An edge point that belongs to an outline. */
-typedef struct drogue_band_point {
-    int32_t u_q14; /* its direction in the ellipse's frame, drogue_support_bin_of(): b / a times u, v */
-    int32_t v_q14;
-    int32_t offset_q16;       /* F / 2: how far it lies off the outline, along the radius, in semi-axes */
-    drogue_polarity polarity; /* DARK: the gradient points outward; BRIGHT: inward */
-} drogue_band_point;
-
-/* Does an edge point belong to the outline? Gradient y downward; 'out' is complete when it does.
- *
- *  x, y   px Q16 in the ellipse's coordinates, within 2^14 px
- *  error  of F times b: 2^-14 a / b px and 2^-20 of b; of the direction: 2^-12 a / b rad
- */
-int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
-                              drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy);
-
 /* Threshold Th_error of (10) that stands for a distance of fit_error pixels from the ellipse: 2 * fit_error / a, Q16. */
 drogue_q16 drogue_quality_threshold(const drogue_ellipse *ellipse, drogue_q16 fit_error_px_q16);
 

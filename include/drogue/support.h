@@ -42,17 +42,11 @@ void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse
 void drogue_support_judge_as(drogue_support *support, const drogue_ellipse *ellipse, uint32_t bright_bins,
                              uint32_t stride);
 
-/* Count a point that belongs; when its polarity is that of its bin also add it to the sums, and return 1. */
-int drogue_support_add(drogue_support *support, const drogue_band_point *point, const drogue_edge *edge);
-
 /* Covered share of the circumference, Q16. */
 static inline drogue_q16 drogue_support_cover(const drogue_support *support)
 {
     return (drogue_q16)(support->covered * (DROGUE_Q16_ONE / DROGUE_SUPPORT_BINS));
 }
-
-/* Index of the bin of a direction, |u| and |v| < 2^15 in any common unit; not (0, 0). */
-uint32_t drogue_support_bin_of(int32_t u, int32_t v);
 
 #ifdef __cplusplus
 }

@@ -135,8 +135,17 @@ static inline drogue_polarity polarity_of(int32_t along)
     return along > 0 ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT;
 }
 
-/* drogue_ellipse_band_holds() */
-static inline int band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
+/* An edge point that belongs to an outline. */
+typedef struct band_point {
+    int32_t u_q14; /* its direction in the ellipse's frame: b / a times u, v */
+    int32_t v_q14;
+    int32_t offset_q16;       /* F / 2: how far it lies off the outline, along the radius, in semi-axes */
+    drogue_polarity polarity; /* DARK: the gradient points outward; BRIGHT: inward */
+} band_point;
+
+/* Does an edge point belong to the outline? 'out' is complete when it does. Error of F times b: 2^-14 a / b px and 2^-20 of
+ * b; of the direction: 2^-13 a / b rad. */
+static inline int band_holds(band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
                              const band_reach *reach, drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy)
 {
     const band_place p = place_of(frame, x_px_q16, y_px_q16);
@@ -178,7 +187,7 @@ static inline int band_holds(drogue_band_point *out, const drogue_ellipse_frame 
 #define TAN_2 27146u
 #define TAN_3 43790u
 
-/* drogue_support_bin_of() */
+/* Index of the bin of a direction, |u| and |v| < 2^15 in any common unit; not (0, 0). */
 static inline uint32_t bin_of(int32_t u, int32_t v)
 {
     const uint32_t x = (uint32_t)(u < 0 ? -u : u);
@@ -216,7 +225,8 @@ static inline void put_sums(drogue_support *support, const support_sums *s)
     support->points = s->points;
 }
 
-/* drogue_support_add() where held is 1; nothing where it is 0. Without a branch. */
+/* Count a point where held is 1; when its polarity is that of its bin also add it to the sums, and return 1. Without a
+ * branch. */
 static inline uint32_t add_to_support(drogue_support_bin *bin, support_sums *s, uint32_t held, uint32_t bright_bin,
                                       int32_t off_q16, drogue_polarity polarity, int16_t gx, int16_t gy)
 {

@@ -34,7 +34,7 @@ void drogue_collect_edges(drogue_moments *moments, drogue_support *support, cons
 
 /* Add the same points to a collection, without the distortion of a lens: those within 16 bits of its origin. Returns how
  * many there are, with those that the lens model cannot undo. */
-uint32_t drogue_collect_undistorted(drogue_collection *c, uint32_t bright_bins, const drogue_ellipse_frame *frame,
+uint32_t drogue_collect_undistorted(drogue_collection *c, drogue_support *support, const drogue_ellipse_frame *frame,
                                     const drogue_band *band, const drogue_edge *edges, uint32_t count,
                                     const drogue_region_lens *lens);
 

@@ -109,13 +109,6 @@ drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16)
     return band;
 }
 
-int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
-                              drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy)
-{
-    const band_reach reach = reach_of(frame, band);
-    return band_holds(out, frame, band, &reach, x_px_q16, y_px_q16, gx, gy);
-}
-
 drogue_q16 drogue_quality_threshold(const drogue_ellipse *ellipse, drogue_q16 fit_error_px_q16)
 {
     return drogue_q16_div(drogue_q16_add(fit_error_px_q16, fit_error_px_q16), ellipse->a_px_q16);

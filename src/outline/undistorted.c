@@ -16,6 +16,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     drogue_ellipse centre = outline->fitted;
     drogue_collection c;
     drogue_status status;
+    drogue_support support = outline->support;
     drogue_region_lens l;
     uint32_t own;
     memset(out, 0, sizeof *out);
@@ -29,8 +30,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         return DROGUE_E_DEGENERATE;
     }
     drogue_collection_begin(&c, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
-    own = drogue_collect_undistorted(&c, outline->support.bright_bins, &frame, &band, workspace->edges,
-                                     list->edge_count, &l);
+    own = drogue_collect_undistorted(&c, &support, &frame, &band, workspace->edges, list->edge_count, &l);
     status = drogue_collection_fit(out, &c);
     if (status == DROGUE_OK && (c.moments.n * 4 < (int64_t)own * 3 || !drogue_round_enough(out, setup->config) ||
                                 out->b_px_q16 < DROGUE_Q16_ONE)) {

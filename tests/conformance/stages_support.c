@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "../support_count.h"
+#include "../band_points.h"
 #include "drogue/joint.h"
 
 /* Edge points from words x_q5 y_q5 gx gy; 0 when one is out of the front end's range. */
@@ -36,12 +36,11 @@ static void add_members(int32_t *members, drogue_support *support, const drogue_
     support->bright_bins = bright_bins;
     support->covered = covered;
     for (i = 0; i < count; i++) {
-        drogue_band_point p;
+        band_point p;
         members[i] = -1;
-        if (drogue_ellipse_band_holds(&p, frame, band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
-                                      edges[i].gx, edges[i].gy)) {
-            members[i] = (int32_t)(drogue_support_bin_of(p.u_q14, p.v_q14) + DROGUE_SUPPORT_BINS * p.polarity);
-            (void)drogue_support_add(support, &p, &edges[i]);
+        if (point_holds(&p, frame, band, &edges[i])) {
+            members[i] = (int32_t)(point_bin(&p) + DROGUE_SUPPORT_BINS * p.polarity);
+            (void)point_add(support, &p, &edges[i]);
         }
     }
 }

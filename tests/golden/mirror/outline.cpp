@@ -3,6 +3,8 @@
  * is exact; from there on every number is unrounded, and every threshold is the configuration's. */
 #include "outline.hpp"
 
+#include "../../band_points.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -28,17 +30,16 @@ BandPoint decide(const Ellipse &e, const reference::Band &band, const Edge &edge
                  const drogue_ellipse_frame *frame, const drogue_band *library)
 {
     BandPoint p = reference::band_point(e, band, edge);
-    drogue_band_point own;
+    band_point own = {};
     if (library == nullptr) {
         return p;
     }
-    const bool held =
-        drogue_ellipse_band_holds(&own, frame, library, drogue_edge_x_q16(&q), drogue_edge_y_q16(&q), q.gx, q.gy) != 0;
+    const bool held = point_holds(&own, frame, library, &q) != 0;
     if (p.undecided(Follow::width(e, band.width), Follow::cosine)) {
         p.held = held;
     }
     if (p.held && held && p.from_next_bin < Follow::angle(e)) {
-        p.bin = static_cast<int>(drogue_support_bin_of(own.u_q14, own.v_q14));
+        p.bin = static_cast<int>(point_bin(&own));
     }
     return p;
 }

@@ -3,6 +3,8 @@
  * hardware does. */
 #include "suite.h"
 
+#include "../../band_points.h"
+
 #include "../../../src/outline/near.h"
 
 #define drogue_near_count hardware_near_count
@@ -20,7 +22,7 @@ void drogue_collect_arc(drogue_moments *moments, const drogue_edge *edges, uint3
 void drogue_collect_edges(drogue_moments *moments, drogue_support *support, const drogue_ellipse_frame *frame,
                           const drogue_band *band, const drogue_edge *edges, uint32_t count, uint32_t stride,
                           uint32_t counted);
-uint32_t drogue_collect_undistorted(drogue_collection *c, uint32_t bright_bins, const drogue_ellipse_frame *frame,
+uint32_t drogue_collect_undistorted(drogue_collection *c, drogue_support *support, const drogue_ellipse_frame *frame,
                                     const drogue_band *band, const drogue_edge *edges, uint32_t count,
                                     const drogue_region_lens *lens);
 
@@ -114,11 +116,10 @@ static void pass_carries(drogue_moments *m)
 }
 
 /* Does edge point i belong, and is its polarity its bin's? */
-static int own_of(drogue_band_point *p, const scene *s, uint32_t i)
+static int own_of(band_point *p, const scene *s, uint32_t i)
 {
-    return drogue_ellipse_band_holds(p, &s->frame, &s->band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
-                                     edges[i].gx, edges[i].gy) &&
-           (s->support.bright_bins >> drogue_support_bin_of(p->u_q14, p->v_q14) & 1u) == (uint32_t)p->polarity;
+    return point_holds(p, &s->frame, &s->band, &edges[i]) &&
+           (s->support.bright_bins >> point_bin(p) & 1u) == (uint32_t)p->polarity;
 }
 
 /* The moments of the points that belong, apart from what they were and whether all were counted; returns how many. */
@@ -127,10 +128,8 @@ static uint32_t model(drogue_moments *m, drogue_support *support, const scene *s
     uint32_t own = 0, i;
     for (i = 0; i < s->count; i += stride) {
         const int32_t x = edges[i].x_q5 - 32768, y = edges[i].y_q5 - 32768;
-        drogue_band_point p;
-        if (drogue_ellipse_band_holds(&p, &s->frame, &s->band, drogue_edge_x_q16(&edges[i]),
-                                      drogue_edge_y_q16(&edges[i]), edges[i].gx, edges[i].gy) &&
-            drogue_support_add(support, &p, &edges[i])) {
+        band_point p;
+        if (point_holds(&p, &s->frame, &s->band, &edges[i]) && point_add(support, &p, &edges[i])) {
             own++;
             if (!counted && m->n < DROGUE_MAX_FIT_POINTS) {
                 drogue_moments_add_point(m, x, y);
@@ -149,7 +148,7 @@ static uint32_t model_lens(drogue_collection *c, const scene *s)
     for (i = 0; i < s->count; i++) {
         drogue_q16 x = drogue_q16_add(drogue_edge_x_q16(&edges[i]), s->lens.x_px_q16);
         drogue_q16 y = drogue_q16_add(drogue_edge_y_q16(&edges[i]), s->lens.y_px_q16);
-        drogue_band_point p;
+        band_point p;
         int64_t u, v;
         if (!own_of(&p, s, i)) {
             continue;
@@ -229,7 +228,7 @@ START_TEST(what_is_taken_out_leaves_no_trace)
         drogue_collect_arc(&all, edges, s.count);
         drogue_collect_edges(&all, &support, &s.frame, &s.band, edges, s.count, 1, 1);
         for (k = 0; k < s.count; k++) {
-            drogue_band_point p;
+            band_point p;
             if (own_of(&p, &s, k)) {
                 drogue_moments_add_point(&others, edges[k].x_q5 - 32768, edges[k].y_q5 - 32768);
             }
@@ -247,17 +246,18 @@ START_TEST(random_scenes_through_a_lens)
     for (i = 0; i < 400; i++) {
         static scene s;
         drogue_collection expected, own, hardware;
+        drogue_support own_support, hardware_support;
         uint32_t belong;
         draw_scene(&s, &rng);
+        own_support = hardware_support = s.support;
         expected = own = hardware = s.collection;
         belong = model_lens(&expected, &s);
         collected += (uint32_t)(expected.moments.n - s.collection.moments.n);
-        MUST(drogue_collect_undistorted(&own, s.support.bright_bins, &s.frame, &s.band, edges, s.count, &s.lens) ==
-                     belong &&
+        MUST(drogue_collect_undistorted(&own, &own_support, &s.frame, &s.band, edges, s.count, &s.lens) == belong &&
                  memcmp(&own, &expected, sizeof own) == 0,
              "scene %d", i);
-        MUST(hardware_collect_undistorted(&hardware, s.support.bright_bins, &s.frame, &s.band, edges, s.count,
-                                          &s.lens) == belong &&
+        MUST(hardware_collect_undistorted(&hardware, &hardware_support, &s.frame, &s.band, edges, s.count, &s.lens) ==
+                     belong &&
                  memcmp(&hardware, &expected, sizeof hardware) == 0,
              "scene %d, in hardware", i);
     }
@@ -324,7 +324,8 @@ START_TEST(borders_of_16_bits)
             edges[i].gy = 0;
         }
         own = s.collection;
-        ck_assert_uint_eq(drogue_collect_undistorted(&own, 0, &s.frame, &s.band, edges, s.count, &s.lens), s.count);
+        ck_assert_uint_eq(drogue_collect_undistorted(&own, &s.support, &s.frame, &s.band, edges, s.count, &s.lens),
+                          s.count);
         ck_assert_int_eq((int)own.moments.n, fit[k]);
     }
 }

@@ -3,7 +3,7 @@
  * every mixture. */
 #include "suite.h"
 
-#include "../../support_count.h"
+#include "../../band_points.h"
 #include "geometry.h"
 
 enum { MOST = 16384 };
@@ -20,8 +20,7 @@ START_TEST(bins_of_random_directions)
         double t = rng_real(&rng, 0, 2 * TEST_PI), r = rng_real(&rng, 0.5, 1.42), bin = t * 16 / TEST_PI;
         int32_t u = q14_of(r * cos(t)), v = q14_of(r * sin(t));
         if (fabs(bin - floor(bin + 0.5)) > 1e-3) { /* components are Q14 */
-            MUST(drogue_support_bin_of(u, v) == (uint32_t)bin, "direction %g is in bin %u", t,
-                 (unsigned)drogue_support_bin_of(u, v));
+            MUST(bin_of(u, v) == (uint32_t)bin, "direction %g is in bin %u", t, (unsigned)bin_of(u, v));
         }
     }
 }
@@ -35,17 +34,17 @@ START_TEST(bins_of_axes_and_diagonals)
     int scale;
     for (i = 0; i < sizeof at / sizeof at[0]; i++) {
         for (scale = 0; scale <= 14; scale += 7) {
-            uint32_t bin = drogue_support_bin_of(at[i][0] * (1 << scale), at[i][1] * (1 << scale));
+            uint32_t bin = bin_of(at[i][0] * (1 << scale), at[i][1] * (1 << scale));
             int apart = abs((int)bin - at[i][2]);
             /* on a border either neighbour is right, the same for every size */
             ck_assert(apart <= 1 || apart == 31);
-            ck_assert_uint_eq(bin, drogue_support_bin_of(at[i][0], at[i][1]));
+            ck_assert_uint_eq(bin, bin_of(at[i][0], at[i][1]));
         }
     }
-    ck_assert_uint_eq(drogue_support_bin_of(1 << 14, 1), 0);
-    ck_assert_uint_eq(drogue_support_bin_of(1 << 14, -1), 31);
-    ck_assert_uint_eq(drogue_support_bin_of(-(1 << 14), 1), 15);
-    ck_assert_uint_eq(drogue_support_bin_of(-(1 << 14), -1), 16);
+    ck_assert_uint_eq(bin_of(1 << 14, 1), 0);
+    ck_assert_uint_eq(bin_of(1 << 14, -1), 31);
+    ck_assert_uint_eq(bin_of(-(1 << 14), 1), 15);
+    ck_assert_uint_eq(bin_of(-(1 << 14), -1), 16);
 }
 END_TEST
 
@@ -56,7 +55,7 @@ START_TEST(bins_are_alike)
     int i;
     for (i = 0; i < 320000; i++) {
         double t = 2 * TEST_PI * (i + 0.5) / 320000;
-        count[drogue_support_bin_of(q14_of(cos(t)), q14_of(sin(t)))]++;
+        count[bin_of(q14_of(cos(t)), q14_of(sin(t)))]++;
     }
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
         MUST(count[k] >= 9990 && count[k] <= 10010, "bin %u holds %u of 10000", (unsigned)k, (unsigned)count[k]);
@@ -318,17 +317,16 @@ START_TEST(sums)
         memset(&s, 0, sizeof s);
         s.bright_bins = bright_bins;
         for (j = 0; j < count; j++) {
-            drogue_band_point p;
+            band_point p;
             double offset;
             uint32_t bin;
             int own;
-            if (!drogue_ellipse_band_holds(&p, &frame, &band, drogue_edge_x_q16(&edges[j]),
-                                           drogue_edge_y_q16(&edges[j]), edges[j].gx, edges[j].gy)) {
+            if (!point_holds(&p, &frame, &band, &edges[j])) {
                 continue;
             }
-            bin = drogue_support_bin_of(p.u_q14, p.v_q14);
+            bin = point_bin(&p);
             own = ((bright_bins >> bin) & 1u) == (uint32_t)p.polarity;
-            MUST(drogue_support_add(&s, &p, &edges[j]) == own, "case %d, point %u", i, (unsigned)j);
+            MUST(point_add(&s, &p, &edges[j]) == own, "case %d, point %u", i, (unsigned)j);
             if (own) {
                 offset = p.offset_q16;
                 sum[bin] += offset;

@@ -2,7 +2,7 @@
 /* The outline as a measurement: its covariance against refits of noisy points. */
 #include "suite.h"
 
-#include "../../support_count.h"
+#include "../../band_points.h"
 #include "drogue/ellipse.h"
 #include "drogue/joint.h"
 #include "joint_model.h"
@@ -59,11 +59,9 @@ static void refit_noisy(double m[5], drogue_joint_outline *outline, const ellips
     MUST(support.bright_bins == 0, "polarity");
     memset(&support, 0, sizeof support);
     for (i = 0; i < count; i++) {
-        drogue_band_point p;
-        MUST(drogue_ellipse_band_holds(&p, &frame, &band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
-                                       edges[i].gx, edges[i].gy) &&
-                 drogue_support_add(&support, &p, &edges[i]),
-             "point %u left out", (unsigned)i);
+        band_point p;
+        MUST(point_holds(&p, &frame, &band, &edges[i]) && point_add(&support, &p, &edges[i]), "point %u left out",
+             (unsigned)i);
     }
     MUST(drogue_joint_outline_covariance(outline, &support, 1, 0) == DROGUE_OK, "no covariance");
 }
