@@ -18,6 +18,13 @@ typedef struct drogue_pose {
     drogue_q16 pitch_rad_q16; /* asin(axis.y) */
 } drogue_pose;
 
+/* Is the yaw within pi and the pitch within pi / 2? */
+static inline int drogue_pose_angles_valid(const drogue_pose *p)
+{
+    return p->yaw_rad_q16 <= DROGUE_Q16_PI && p->yaw_rad_q16 >= -DROGUE_Q16_PI &&
+           p->pitch_rad_q16 <= DROGUE_Q16_HALF_PI && p->pitch_rad_q16 >= -DROGUE_Q16_HALF_PI;
+}
+
 /* Both poses that an ellipse allows.
  *
  *  out      the two poses, equal when the circle is seen head-on; their order carries no meaning

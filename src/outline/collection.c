@@ -55,17 +55,16 @@ void drogue_undo_blur(drogue_ellipse *e, const drogue_config *config)
 
 #define SETTLED_Q16 DROGUE_Q16(1, 64) /* px */
 
+static int stays(drogue_q16 p_px_q16, drogue_q16 q_px_q16)
+{
+    const drogue_q16 d = drogue_q16_sub(p_px_q16, q_px_q16);
+    return d <= SETTLED_Q16 && d >= -SETTLED_Q16;
+}
+
 int drogue_ellipse_settled(const drogue_ellipse *p, const drogue_ellipse *q)
 {
-    const int64_t d[4] = {(int64_t)p->xc_px_q16 - q->xc_px_q16, (int64_t)p->yc_px_q16 - q->yc_px_q16,
-                          (int64_t)p->a_px_q16 - q->a_px_q16, (int64_t)p->b_px_q16 - q->b_px_q16};
-    int k;
-    for (k = 0; k < 4; k++) {
-        if (d[k] > SETTLED_Q16 || d[k] < -SETTLED_Q16) {
-            return 0;
-        }
-    }
-    return 1;
+    return stays(p->xc_px_q16, q->xc_px_q16) && stays(p->yc_px_q16, q->yc_px_q16) && stays(p->a_px_q16, q->a_px_q16) &&
+           stays(p->b_px_q16, q->b_px_q16);
 }
 
 void drogue_band_narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,

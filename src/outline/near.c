@@ -21,11 +21,10 @@ uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 thresho
 
 #define BLOCK 4 /* points whose fourth powers 64 bits hold */
 
-void drogue_collect_arc(drogue_moments *moments, const drogue_edge *edges, uint32_t count)
+void drogue_collect_arc(drogue_moments *m, const drogue_edge *edges, uint32_t count)
 {
-    drogue_moments m = *moments; /* apart: a compiler would write it to memory for each point */
     uint32_t i = 0;
-    m.n += count;
+    m->n += count;
     while (i < count) { /* bound: points of an arc */
         const uint32_t end = count - i < BLOCK ? count : i + BLOCK;
         int64_t m40 = 0;
@@ -39,28 +38,27 @@ void drogue_collect_arc(drogue_moments *moments, const drogue_edge *edges, uint3
             const int32_t xx = x * x;
             const int32_t xy = x * y;
             const int32_t yy = y * y;
-            m.m10 += x;
-            m.m01 += y;
-            m.m20 += xx;
-            m.m11 += xy;
-            m.m02 += yy;
-            m.m30 += drogue_product(xx, x);
-            m.m21 += drogue_product(xx, y);
-            m.m12 += drogue_product(yy, x);
-            m.m03 += drogue_product(yy, y);
+            m->m10 += x;
+            m->m01 += y;
+            m->m20 += xx;
+            m->m11 += xy;
+            m->m02 += yy;
+            m->m30 += drogue_product(xx, x);
+            m->m21 += drogue_product(xx, y);
+            m->m12 += drogue_product(yy, x);
+            m->m03 += drogue_product(yy, y);
             m40 += drogue_product(xx, xx);
             m31 += drogue_product(xx, xy);
             m22 += drogue_product(xx, yy);
             m13 += drogue_product(xy, yy);
             m04 += drogue_product(yy, yy);
         }
-        drogue_long_sum_add(&m.m40, m40);
-        drogue_long_sum_add(&m.m31, m31);
-        drogue_long_sum_add(&m.m22, m22);
-        drogue_long_sum_add(&m.m13, m13);
-        drogue_long_sum_add(&m.m04, m04);
+        drogue_long_sum_add(&m->m40, m40);
+        drogue_long_sum_add(&m->m31, m31);
+        drogue_long_sum_add(&m->m22, m22);
+        drogue_long_sum_add(&m->m13, m13);
+        drogue_long_sum_add(&m->m04, m04);
     }
-    *moments = m;
 }
 
 void drogue_collect_edges(drogue_moments *moments, drogue_support *support, const drogue_ellipse_frame *frame,

@@ -14,9 +14,8 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     const drogue_band band = drogue_band_of(outline->band_px_q16, setup->config->refit_cos_q16);
     drogue_ellipse_frame frame;
     drogue_ellipse centre = outline->fitted;
-    drogue_collection c;
     drogue_status status;
-    drogue_support support = outline->support;
+    drogue_outline_room *room = workspace->outline; /* what found the outline has served */
     drogue_region_lens l;
     uint32_t own;
     memset(out, 0, sizeof *out);
@@ -29,11 +28,12 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         drogue_undistort_point(&centre.xc_px_q16, &centre.yc_px_q16, setup->camera) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
-    drogue_collection_begin(&c, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
-    own = drogue_collect_undistorted(&c, &support, &frame, &band, workspace->edges, list->edge_count, &l);
-    status = drogue_collection_fit(out, &c);
-    if (status == DROGUE_OK && (c.moments.n * 4 < (int64_t)own * 3 || !drogue_round_enough(out, setup->config) ||
-                                out->b_px_q16 < DROGUE_Q16_ONE)) {
+    drogue_collection_begin(&room->own, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
+    room->support = outline->support;
+    own = drogue_collect_undistorted(&room->own, &room->support, &frame, &band, workspace->edges, list->edge_count, &l);
+    status = drogue_collection_fit(out, &room->own);
+    if (status == DROGUE_OK && (room->own.moments.n * 4 < (int64_t)own * 3 ||
+                                !drogue_round_enough(out, setup->config) || out->b_px_q16 < DROGUE_Q16_ONE)) {
         status = DROGUE_E_DEGENERATE; /* most of the outline lies beyond what the lens model can undo */
     }
     if (status == DROGUE_OK) {

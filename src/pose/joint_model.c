@@ -79,8 +79,6 @@ static void ratio_q16(drogue_real *out, int64_t num, drogue_q16 den)
     drogue_real_quotient(out, out, &d);
 }
 
-static int beyond(drogue_q16 v, drogue_q16 most) { return v > most || v < -most; }
-
 static drogue_status place(drogue_joint_state *s, const drogue_pose *pose, const drogue_model *model)
 {
     drogue_real position[3];
@@ -95,8 +93,7 @@ static drogue_status place(drogue_joint_state *s, const drogue_pose *pose, const
     for (k = 0; k < 3; k++) {
         s->position_q30[k] = drogue_real_to_s32(position[k], 30 - s->scale);
     }
-    if (s->scale > FARTHEST || beyond(pose->yaw_rad_q16, DROGUE_Q16_PI) ||
-        beyond(pose->pitch_rad_q16, DROGUE_Q16_HALF_PI)) {
+    if (s->scale > FARTHEST || !drogue_pose_angles_valid(pose)) {
         return DROGUE_E_DOMAIN;
     }
     s->angle_rad_q29[0] = (int32_t)drogue_shl_s64(pose->yaw_rad_q16, 13);
@@ -133,12 +130,10 @@ drogue_status drogue_joint_begin(drogue_joint_state *state, drogue_joint_frame *
     int32_t s_q30;
     int32_t c_q30;
     int near_axis;
-    if (!drogue_ellipse_angle_valid(e)) {
-        return DROGUE_E_DOMAIN;
-    }
-    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
+    drogue_sincos_q30(&s_q30, &c_q30, drogue_ellipse_angle_valid(e) ? e->angle_rad_q16 * 8192 : 0);
     memset(frame, 0, sizeof *frame);
-    near_axis = put_ray(&frame->ray_q29[0][0], e->a_px_q16, c_q30, fx);
+    near_axis = drogue_ellipse_angle_valid(e);
+    near_axis &= put_ray(&frame->ray_q29[0][0], e->a_px_q16, c_q30, fx);
     near_axis &= put_ray(&frame->ray_q29[0][1], e->a_px_q16, s_q30, fy);
     near_axis &= put_ray(&frame->ray_q29[1][0], e->b_px_q16, -s_q30, fx);
     near_axis &= put_ray(&frame->ray_q29[1][1], e->b_px_q16, c_q30, fy);
@@ -344,12 +339,8 @@ drogue_status drogue_joint_inner_rows(drogue_joint_rows *out, const drogue_joint
     }
     for (i = 0; i < 2; i++) {
         drogue_real_difference(&out->column[DROGUE_JOINT_FIT].inner[i], &seen.image[i], &frame->inner[i]);
-        for (p = 0; p < 2; p++) {
-            drogue_real_copy(&out->column[p].inner[i], &seen.over_depth);
-            if (p != i) {
-                drogue_real_set(&out->column[p].inner[i], 0, 0);
-            }
-        }
+        drogue_real_copy(&out->column[i].inner[i], &seen.over_depth);
+        drogue_real_set(&out->column[1 - i].inner[i], 0, 0);
         drogue_real_product(&out->column[2].inner[i], &seen.image[i], &seen.over_depth);
         drogue_real_negate(&out->column[2].inner[i]);
         for (p = 3; p < DROGUE_JOINT_FIT; p++) { /* change of the disc's middle across and along the ray */

@@ -147,24 +147,15 @@ drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline)
     return DROGUE_OK;
 }
 
-void drogue_joint_weigh(drogue_joint_weights *out, const drogue_joint_outline *outline, const drogue_joint_inner *inner,
-                        const drogue_camera *camera)
+void drogue_joint_weigh_inner(real out[2], const drogue_joint_inner *inner, const drogue_camera *camera)
 {
     real std;
-    int i;
-    int j;
-    for (i = 0; i < DROGUE_JOINT_FIT; i++) {
-        for (j = 0; j < DROGUE_JOINT_FIT; j++) {
-            out->outline[i][j] = outline->weight[DROGUE_PACKED(i, j)];
-        }
-    }
-    out->exponent = outline->weight_exponent;
-    memset(out->inner, 0, sizeof out->inner);
+    memset(out, 0, 2 * sizeof *out);
     if (inner->std_px_q16 > 0) { /* its rows are rays */
         drogue_real_set_q16(&std, inner->std_px_q16);
-        drogue_real_set_q16(&out->inner[0], camera->fx_px_q16);
-        drogue_real_set_q16(&out->inner[1], camera->fy_px_q16);
-        square_ratio(&out->inner[0], &out->inner[0], &std);
-        square_ratio(&out->inner[1], &out->inner[1], &std);
+        drogue_real_set_q16(&out[0], camera->fx_px_q16);
+        drogue_real_set_q16(&out[1], camera->fy_px_q16);
+        square_ratio(&out[0], &out[0], &std);
+        square_ratio(&out[1], &out[1], &std);
     }
 }
