@@ -126,7 +126,8 @@ enum drogue_hls_outline_word {
     DROGUE_HLS_O_POINTS = DROGUE_HLS_O_GRADIENT + 2,
     DROGUE_HLS_O_BRIGHT_BINS,
     DROGUE_HLS_O_COVERED,
-    DROGUE_HLS_OUTLINE_WORDS
+    DROGUE_HLS_O_PULL, /* five words, Q24 */
+    DROGUE_HLS_OUTLINE_WORDS = DROGUE_HLS_O_PULL + 5
 };
 
 /* What drogue_hls_edge() leaves. */
@@ -179,6 +180,8 @@ enum drogue_hls_result_word {
     DROGUE_HLS_R_ALTERNATIVE = DROGUE_HLS_R_POSE + 8,
     DROGUE_HLS_R_RESOLVED = DROGUE_HLS_R_ALTERNATIVE + 8,
     DROGUE_HLS_R_AMBIGUITY,
+    DROGUE_HLS_R_TOO_LARGE, /* 1: the inner disc is too large for the outline, which drogue_measure() refuses unless
+                               another try finds better */
     DROGUE_HLS_RESULT_WORDS
 };
 

@@ -35,10 +35,10 @@ void drogue_config_default(drogue_config *config)
     config->min_inner_contrast = 6;
     config->inner_gate_px_q16 = DROGUE_Q16(15, 10);
     config->inner_gate_q16 = DROGUE_Q16(5, 100);
-    config->min_inner_cover_q16 = DROGUE_Q16(4, 10);
+    config->min_inner_cover_q16 = DROGUE_Q16(5, 10);
     config->inner_rms_px_q16 = DROGUE_Q16(65, 100);
     config->inner_size_px_q16 = DROGUE_Q16(1, 1);
-    config->inner_size_q16 = DROGUE_Q16(125, 1000);
+    config->inner_size_q16 = DROGUE_Q16(1, 10);
     config->outline_shading_q16 = DROGUE_Q16(38, 10);
     config->optics_blur_std_px2_q16 = DROGUE_Q16(12, 100);
     config->inner_std_px_q16 = DROGUE_Q16(5, 100);

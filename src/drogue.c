@@ -103,6 +103,7 @@ typedef struct frame {
     int32_t canny_low;
     int32_t canny_high;
     int32_t tried;
+    int32_t too_large;    /* the inner disc is seen, but too large for the outline */
     drogue_q16 doubt_q16; /* by what share the inner disc's size is off; 1 and more: not seen, or no outline */
 } frame;
 
@@ -209,7 +210,7 @@ static void find_inner(drogue_evidence *evidence, frame *f)
     drogue_inner_expected expected;
     drogue_inner_edge edge;
     memset(&inner, 0, sizeof inner);
-    drogue_inner_expect(&expected, outline, evidence->poses, f->setup, out->region.x_px, out->region.y_px);
+    drogue_inner_expect(&expected, evidence->poses, f->setup, out->region.x_px, out->region.y_px);
     if (drogue_inner_edge_find(&edge, f->workspace->rays, &f->view, &expected, outline, f->setup->config) ==
         DROGUE_OK) {
         drogue_inner_weigh(&inner, &edge, &out->region, &expected, outline, evidence->poses, f->setup);
@@ -218,6 +219,7 @@ static void find_inner(drogue_evidence *evidence, frame *f)
         out->inner = inner.part;
         out->has_inner = inner.weighed.std_px_q16 > 0;
         out->ambiguity_q16 = inner.ambiguity_q16;
+        f->too_large = inner.too_large;
     }
     f->doubt_q16 = DROGUE_Q16_ONE;
     if (out->has_inner) {
@@ -293,6 +295,7 @@ static drogue_status try_out(frame *f, const drogue_region *region, int what, in
     drogue_status status = DROGUE_OK;
     f->doubt_q16 = DROGUE_Q16_MAX;
     f->tried = what;
+    f->too_large = 0;
     if (!looked) {
         clear(f->out);
         status = find_outline_twice(f, region);
@@ -325,7 +328,20 @@ static int lower_thresholds(frame *f)
     return high < config->canny_high;
 }
 
-#define SURE_Q16 DROGUE_Q16(4, 100) /* the inner disc is of its size to this */
+#define SURE_Q16 DROGUE_Q16(4, 100)    /* the inner disc is of its size to this */
+#define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
+
+/* Take back what was measured. */
+static void refuse(drogue_result *out)
+{
+    const drogue_region used = out->region;
+    const drogue_edge_list list = out->list;
+    const int32_t tried = out->tried;
+    clear(out);
+    out->region = used;
+    out->list = list;
+    out->tried = tried;
+}
 
 /* Measure; while the inner disc is not seen or not of its size, try what else the outline may be. What has the disc
  * nearest to its size stands. */
@@ -353,7 +369,7 @@ static drogue_status measure(frame *f, const drogue_region *region)
             status != DROGUE_E_NO_ARCS) {
             return status;
         }
-        if (f->doubt_q16 < least_q16) {
+        if (f->doubt_q16 < least_q16 - CLEARLY_Q16) {
             least_q16 = f->doubt_q16;
             best = what;
         }
@@ -364,6 +380,10 @@ static drogue_status measure(frame *f, const drogue_region *region)
             f->canny_high = config->canny_high;
         }
         status = try_out(f, region, best, 0);
+    }
+    if (status == DROGUE_OK && f->too_large) { /* an edge within the drogue: the canopy's inner one, or its wall's */
+        refuse(f->out);
+        return DROGUE_E_NO_ELLIPSE;
     }
     return status;
 }

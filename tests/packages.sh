@@ -11,18 +11,19 @@ riscv_packages=(gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system
 hls_packages=("${accuracy_packages[@]}" clang llvm python3 tcl)
 fuzz_packages=("${demo_packages[@]}" clang libclang-rt-dev zlib1g-dev)
 packaging_packages=(python3 python3-venv python3-kconfiglib python3-lxml)
+site_packages=(doxygen python3)
 dpi_packages=(g++ make python3 verilator)
 python_packages=(g++ python3-dev python3-venv iverilog chromium)
-study_packages=("${accuracy_packages[@]}" libopencv-contrib-dev gnuplot-nox)
+study_packages=("${accuracy_packages[@]}" libopencv-contrib-dev gnuplot-nox libapriltag-dev)
 # gcc-multilib proper conflicts with every cross compiler; the one of the compiler's version does not
 multilib() { echo "gcc-$(gcc -dumpversion 2>/dev/null || echo 12)-multilib"; }
 matrix_ci_packages=("${accuracy_packages[@]}" binutils clang "$(multilib)" gcc-s390x-linux-gnu libc6-dev-s390x-cross
     qemu-user "${arm_packages[@]}" "${riscv_packages[@]}")
 matrix_packages=("${matrix_ci_packages[@]}" gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-arm-linux-gnueabihf
     libc6-dev-armhf-cross gcc-riscv64-linux-gnu libc6-dev-riscv64-cross)
-test_packages=("${matrix_ci_packages[@]}" "${packaging_packages[@]}" "${python_packages[@]}" "${dpi_packages[@]}"
-    libopencv-contrib-dev gnuplot-nox clang-format-14 valgrind gcc-arm-linux-gnueabihf libc6-dev-armhf-cross
-    python3-jsonschema llvm tcl libclang-rt-dev zlib1g-dev)
+test_packages=("${matrix_ci_packages[@]}" "${packaging_packages[@]}" "${python_packages[@]}" "${dpi_packages[@]}" "${site_packages[@]}"
+    libopencv-contrib-dev libapriltag-dev gnuplot-nox clang-format-14 valgrind gcc-arm-linux-gnueabihf libc6-dev-armhf-cross
+    python3-jsonschema man-db llvm tcl libclang-rt-dev zlib1g-dev)
 
 most_s=900 # to wait for another apt-get
 

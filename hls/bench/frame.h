@@ -148,6 +148,7 @@ static inline void frame_put_outline(frame *f, const drogue_pose poses[2], const
     w[DROGUE_HLS_O_POINTS] = (int32_t)o->support.points;
     w[DROGUE_HLS_O_BRIGHT_BINS] = (int32_t)o->support.bright_bins;
     w[DROGUE_HLS_O_COVERED] = (int32_t)o->support.covered;
+    memcpy(w + DROGUE_HLS_O_PULL, o->support.pull_q24, sizeof o->support.pull_q24);
 }
 
 /* The first half of the back end, after the front end; also puts its words. */
@@ -176,8 +177,8 @@ static inline void frame_find_outline(frame *f)
         if (!drogue_mask_valid(&disc)) {
             memset(&disc, 0, sizeof disc);
         }
-        drogue_inner_expect(&expected, &f->outline.ellipse, poses,
-                            &(drogue_setup){&f->p.camera, &f->p.model, &f->p.config}, f->p.x_px, f->p.y_px);
+        drogue_inner_expect(&expected, poses, &(drogue_setup){&f->p.camera, &f->p.model, &f->p.config}, f->p.x_px,
+                            f->p.y_px);
         f->words[DROGUE_HLS_O_EXPECTED_COUNT] = (int32_t)expected.count;
     }
     f->words[DROGUE_HLS_O_STATUS] = (int32_t)status;

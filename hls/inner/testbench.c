@@ -90,7 +90,7 @@ static void question_of(question *q, const drogue_result *r, const drogue_camera
     q->disc = drogue_inner_disc(&outline);
     if (outline.b_px_q16 > 0 && model->inner_radius_m_q16 > 0 &&
         drogue_pose_from_ellipse(poses, &r->ideal, camera, model->rim_radius_m_q16) == DROGUE_OK) {
-        drogue_inner_expect(&q->expected, &outline, poses, &(drogue_setup){camera, model, config}, r->region.x_px,
+        drogue_inner_expect(&q->expected, poses, &(drogue_setup){camera, model, config}, r->region.x_px,
                             r->region.y_px);
     } else {
         q->disc = drogue_mask_of_size(q->image.width_px, q->image.height_px);

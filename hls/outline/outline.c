@@ -72,7 +72,7 @@ static drogue_status find(frame *f, const drogue_workspace *workspace, const dro
         if (!drogue_mask_valid(&f->disc)) {
             memset(&f->disc, 0, sizeof f->disc);
         }
-        drogue_inner_expect(&f->expected, &f->outline.ellipse, f->poses, &setup, p->x_px, p->y_px);
+        drogue_inner_expect(&f->expected, f->poses, &setup, p->x_px, p->y_px);
     }
     return status;
 }
@@ -90,6 +90,9 @@ static void put_support(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const drogue_su
     words[DROGUE_HLS_O_POINTS] = (int32_t)support->points;
     words[DROGUE_HLS_O_BRIGHT_BINS] = (int32_t)support->bright_bins;
     words[DROGUE_HLS_O_COVERED] = (int32_t)support->covered;
+    for (k = 0; k < 5; k++) {
+        words[DROGUE_HLS_O_PULL + k] = support->pull_q24[k];
+    }
 }
 
 static void put(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const frame *f)

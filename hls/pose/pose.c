@@ -20,6 +20,9 @@ static void get_support(drogue_support *support, const int32_t words[DROGUE_HLS_
     support->points = (uint32_t)words[DROGUE_HLS_O_POINTS];
     support->bright_bins = (uint32_t)words[DROGUE_HLS_O_BRIGHT_BINS];
     support->covered = (uint32_t)words[DROGUE_HLS_O_COVERED];
+    for (k = 0; k < 5; k++) {
+        support->pull_q24[k] = words[DROGUE_HLS_O_PULL + k];
+    }
 }
 
 static void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS],
@@ -38,6 +41,7 @@ static void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covariance[DROGU
     drogue_hls_pack_pose(words + DROGUE_HLS_R_ALTERNATIVE, &r->alternative);
     words[DROGUE_HLS_R_RESOLVED] = r->orientation_resolved;
     words[DROGUE_HLS_R_AMBIGUITY] = inner->ambiguity_q16;
+    words[DROGUE_HLS_R_TOO_LARGE] = inner->too_large;
     for (i = 0; i < 5; i++) {
         for (j = 0; j <= i; j++) {
             covariance[i * (i + 1) / 2 + j] = r->covariance_q48[i][j];

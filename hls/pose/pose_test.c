@@ -9,6 +9,7 @@
 
 static int32_t parameters[DROGUE_HLS_PARAMETERS];
 static int32_t dark[DROGUE_HLS_EDGE_WORDS];
+static int32_t too_large; /* what drogue_inner_weigh() says */
 static int32_t result[DROGUE_HLS_RESULT_WORDS];
 static int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS];
 static int64_t std_q32[DROGUE_HLS_STD_WORDS];
@@ -22,6 +23,7 @@ static void find_pose(frame *f)
     drogue_decision decision;
     drogue_result *r = &f->result;
     drogue_status status;
+    too_large = 0;
     if (r->status != DROGUE_OK) {
         return;
     }
@@ -45,6 +47,7 @@ static void find_pose(frame *f)
         r->inner = inner.part;
         r->has_inner = inner.weighed.std_px_q16 > 0;
         r->ambiguity_q16 = inner.ambiguity_q16;
+        too_large = inner.too_large;
     }
     r->status = status == DROGUE_E_NO_INNER_PART ? DROGUE_OK : status;
     if (r->status == DROGUE_OK) {
@@ -78,6 +81,7 @@ static void compare(bench *b, const drogue_result *r)
     drogue_hls_pack_pose(expected + DROGUE_HLS_R_ALTERNATIVE, &r->alternative);
     expected[DROGUE_HLS_R_RESOLVED] = r->orientation_resolved;
     expected[DROGUE_HLS_R_AMBIGUITY] = r->ambiguity_q16;
+    expected[DROGUE_HLS_R_TOO_LARGE] = too_large;
     for (i = 0; i < DROGUE_HLS_RESULT_WORDS; i++) {
         (void)bench_word(b, "result", result[i], expected[i]);
     }

@@ -12,8 +12,9 @@ extern "C" {
 
 #define DROGUE_BANK_MODELS 3 /* from the calmest to the most agile */
 
+/* All parameters' filters, the same from model to model but for their process noise. */
 typedef struct drogue_bank {
-    drogue_kalman model[DROGUE_BANK_MODELS];
+    drogue_kalman model[DROGUE_BANK_MODELS]; /* from calm to agile */
     drogue_real error2[DROGUE_BANK_MODELS]
                       [DROGUE_PARAMETERS]; /* mean squared error of prediction, fading over 16 frames */
     int32_t chosen[DROGUE_PARAMETERS];     /* model of each parameter */

@@ -33,6 +33,7 @@ static inline drogue_sector drogue_canny_sector_by(int16_t gx, int16_t gy, uint3
     return flat ? DROGUE_SECTOR_HORIZONTAL : steep ? DROGUE_SECTOR_VERTICAL : slanted;
 }
 
+/* Sector of a gradient by itself; (0, 0), which is no edge, counts as diagonal. */
 static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
 {
     const uint32_t ax = (uint32_t)(gx < 0 ? -gx : gx);
@@ -51,7 +52,7 @@ static inline int32_t drogue_canny_step_x(drogue_sector sector)
 {
     return sector == DROGUE_SECTOR_VERTICAL ? 0 : sector == DROGUE_SECTOR_ANTIDIAGONAL ? -1 : 1;
 }
-
+/* Downward. */
 static inline int32_t drogue_canny_step_y(drogue_sector sector) { return sector == DROGUE_SECTOR_HORIZONTAL ? 0 : 1; }
 
 /* Magnitudes on both sides of the edge at column x; 0 beyond the left and right border. */
@@ -90,14 +91,15 @@ static inline int drogue_canny_is_maximum(drogue_sector sector, int32_t before, 
  */
 int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after);
 
-/* The division that gives the offset, begun; then a step for each bit of the quotient, 4 down to 0; then the offset. */
+/* The division that gives drogue_canny_offset_q5(), a bit at a time. */
 typedef struct drogue_canny_vertex {
-    int32_t curvature;
-    int32_t slope;
-    int32_t rest;
-    int32_t quotient;
+    int32_t curvature; /* 2 m - before - after */
+    int32_t slope;     /* after - before */
+    int32_t rest;      /* what is not divided yet */
+    int32_t quotient;  /* its bits found so far */
 } drogue_canny_vertex;
 
+/* Begin the division. */
 static inline drogue_canny_vertex drogue_canny_vertex_begin(int32_t before, int32_t m, int32_t after)
 {
     drogue_canny_vertex v;
@@ -108,6 +110,7 @@ static inline drogue_canny_vertex drogue_canny_vertex_begin(int32_t before, int3
     return v;
 }
 
+/* Find a bit of the quotient; called for bits 4 down to 0. */
 static inline void drogue_canny_vertex_step(drogue_canny_vertex *v, int32_t bit)
 {
     const int32_t part = v->curvature * (2 << bit);
@@ -116,6 +119,7 @@ static inline void drogue_canny_vertex_step(drogue_canny_vertex *v, int32_t bit)
     v->quotient += fits ? 1 << bit : 0;
 }
 
+/* The offset, px Q5 in [-15, 15], once all bits are found. */
 static inline int32_t drogue_canny_vertex_offset(const drogue_canny_vertex *v)
 {
     const int32_t offset = v->quotient - 16; /* where |slope| < curvature: quotient in [0, 32) */

@@ -14,6 +14,7 @@ extern "C" {
 
 #define DROGUE_CHOLESKY_MAX 5 /* largest n */
 #define DROGUE_PACKED_MAX 15  /* entries of a packed matrix of that size */
+/* Index of entry (i, j) or (j, i) in a packed matrix. */
 #define DROGUE_PACKED(i, j) ((i) >= (j) ? (i) * ((i) + 1) / 2 + (j) : (j) * ((j) + 1) / 2 + (i))
 
 /* Factor in place: A = L L'.

@@ -11,13 +11,14 @@ extern "C" {
 
 #define DROGUE_MAX_CANDIDATES 25 /* 6 pairs of quadrants with two arcs each, and the first arcs of all quadrants */
 
+/* An ellipse that may be the outline. */
 typedef struct drogue_candidate {
-    drogue_ellipse ellipse;
-    drogue_q16 reliability_q16;
-    drogue_q16 fit_ratio_q16; /* what the reliability was computed from: quality.h */
-    drogue_q16 cover_q16;
-    uint32_t polarity; /* candidates of unlike polarity never share a cluster */
-    uint32_t arcs;     /* which arcs were fitted */
+    drogue_ellipse ellipse;     /* region coordinates */
+    drogue_q16 reliability_q16; /* S_reliable (15), [0, 1] */
+    drogue_q16 fit_ratio_q16;   /* what the reliability was computed from: quality.h */
+    drogue_q16 cover_q16;       /* covered share of the circumference, [0, 1] */
+    uint32_t polarity;          /* candidates of unlike polarity never share a cluster */
+    uint32_t arcs;              /* which arcs were fitted */
 } drogue_candidate;
 
 /* Do two candidates describe one ellipse (16)? */

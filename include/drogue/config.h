@@ -59,11 +59,10 @@ typedef struct drogue_config {
     int32_t min_inner_contrast;    /* 6 grey levels, [0, 255]: less contrast with its surround is no inner part */
     drogue_q16 inner_gate_px_q16;  /* 1.5 px, 0.05: the inner part is believed when it lies within so many pixels and */
     drogue_q16 inner_gate_q16;     /* this share of the major semi-axis of where a pose expects it */
-    drogue_q16 min_inner_cover_q16; /* 0.4: and when this share of the rays across its edge agrees */
+    drogue_q16 min_inner_cover_q16; /* 0.5: and when this share of the rays across its edge agrees */
     drogue_q16 inner_rms_px_q16;    /* 0.65 px: and these lie about it by no more, root mean square */
-    drogue_q16
-        inner_size_px_q16;     /* 1 px, 0.125: and its semi-axis is the expected one within so many pixels and this */
-    drogue_q16 inner_size_q16; /* share */
+    drogue_q16 inner_size_px_q16; /* 1 px, 0.1: and its semi-axis is the expected one within so many pixels and this */
+    drogue_q16 inner_size_q16;    /* share */
     drogue_q16 outline_shading_q16; /* 3.8 px grey * 8: error of the outline that its own residuals cannot show, over
                                        the gradient along it (joint.h) */
     drogue_q16 optics_blur_std_px2_q16; /* 0.12 px^2: uncertainty of half the variance of the optics' blur */
@@ -73,6 +72,7 @@ typedef struct drogue_config {
     drogue_q16 min_chi2_gap_q16;        /* 9: the orientation is resolved when the other pose is worse by so much */
 } drogue_config;
 
+/* Fill in the defaults given above. */
 void drogue_config_default(drogue_config *config);
 
 /* 1 when every threshold is within its range: counts and lengths not negative, fit_error to 1024 px, low <= high, shares of a
@@ -82,9 +82,9 @@ int drogue_config_valid(const drogue_config *config);
 
 /* What stays the same from frame to frame, made once and passed from stage to stage. */
 typedef struct drogue_setup {
-    const drogue_camera *camera;
-    const drogue_model *model;
-    const drogue_config *config;
+    const drogue_camera *camera; /* whose images these are */
+    const drogue_model *model;   /* of the drogue looked for */
+    const drogue_config *config; /* thresholds */
 } drogue_setup;
 
 #ifdef __cplusplus

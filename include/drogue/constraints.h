@@ -15,18 +15,18 @@ extern "C" {
 
 /* Point of a convex hull, whole pixels. */
 typedef struct drogue_point {
-    int32_t x;
-    int32_t y;
+    int32_t x; /* column */
+    int32_t y; /* row, downward */
 } drogue_point;
 
 typedef char drogue_assume_hull_fits[DROGUE_HULL_MAX * sizeof(drogue_point) <= DROGUE_SCRATCH_BYTES ? 1 : -1];
 
 /* Smallest rotated rectangle around an arc's pixels. */
 typedef struct drogue_min_rect {
-    drogue_q16 xc_px_q16; /* centre, region coordinates */
-    drogue_q16 yc_px_q16;
+    drogue_q16 xc_px_q16;    /* centre, region coordinates */
+    drogue_q16 yc_px_q16;    /* downward */
     drogue_q16 short_px_q16; /* short side, between pixel centres */
-    drogue_q16 long_px_q16;
+    drogue_q16 long_px_q16;  /* long side, the same way */
 } drogue_min_rect;
 
 /* Smallest-area bounding rectangle by rotating calipers on the convex hull, exact up to the final rounding.
@@ -47,7 +47,7 @@ int drogue_quadrant(drogue_q16 dx_px_q16, drogue_q16 dy_px_q16);
 
 /* Verdict on one arc. */
 typedef struct drogue_arc_verdict {
-    drogue_min_rect rect;
+    drogue_min_rect rect;     /* about the arc */
     int32_t quadrant;         /* of the rectangle's centre about the mask's centre, -1: rejected */
     drogue_polarity polarity; /* DARK: the direction class equals the quadrant; BRIGHT: is opposite; BOTH: neither */
     int64_t distance2_q32;    /* squared distance of the rectangle's centre from the mask's centre, px^2 Q32 */
@@ -66,7 +66,7 @@ void drogue_judge_arc(drogue_arc_verdict *out, drogue_point *hull, const drogue_
 
 /* Arcs that may be the outline's, by quadrant: indices into the arc table, or DROGUE_NO_ARC. */
 typedef struct drogue_arc_choices {
-    uint32_t arc[4][DROGUE_ARC_CHOICES];
+    uint32_t arc[4][DROGUE_ARC_CHOICES]; /* the better choice first */
 } drogue_arc_choices;
 
 /* Select arcs of each quadrant: first the farthest of those, among the four longest, with at least half as many points as the longest

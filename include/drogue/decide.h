@@ -19,6 +19,7 @@ typedef struct drogue_evidence {
     drogue_joint_inner inner;      /* std_px_q16 is 0 when there is none */
 } drogue_evidence;
 
+/* The pose that a result gives. */
 typedef struct drogue_decision {
     drogue_pose pose;              /* unresolved: the nearer one */
     drogue_pose alternative;       /* the other one that the outline allows */

@@ -30,6 +30,7 @@
 extern "C" {
 #endif
 
+/* Version of these headers. */
 #define DROGUE_VERSION_MAJOR 0
 #define DROGUE_VERSION_MINOR 1
 #define DROGUE_VERSION_PATCH 0
@@ -37,6 +38,7 @@ extern "C" {
 /* "MAJOR.MINOR.PATCH" of the library. */
 const char *drogue_version(void);
 
+/* Initialiser of a drogue_capacity that suits a region of the given longest side: frontend.h. */
 #define DROGUE_CAPACITY_FOR(side_px)                                                                    \
     {                                                                                                   \
         (uint32_t)(side_px), (uint32_t)DROGUE_EDGES_FOR(side_px), (uint32_t)DROGUE_LABELS_FOR(side_px), \

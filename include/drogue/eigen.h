@@ -9,6 +9,7 @@
 extern "C" {
 #endif
 
+/* Eigenvalues and their vectors. */
 typedef struct drogue_eigen3 {
     drogue_real value[3];     /* descending */
     int32_t vector_q30[3][3]; /* vector_q30[k] belongs to value[k]; orthonormal, right-handed; the component of largest

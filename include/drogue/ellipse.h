@@ -15,20 +15,21 @@ extern "C" {
 
 /* A sum of up to DROGUE_MAX_FIT_POINTS 64-bit terms, high * 2^32 + low: 96 bits, carries not yet passed on. */
 typedef struct drogue_long_sum {
-    int64_t high;
-    uint64_t low;
+    int64_t high; /* sum of the terms' upper 32 bits */
+    uint64_t low; /* sum of their lower 32 bits */
 } drogue_long_sum;
 
 /* Sums over points of x^p y^q for p + q <= 4, exact integers; coordinates are 16-bit. m[p][q] would be sparse:
  * the members name p and q. */
 typedef struct drogue_moments {
-    int64_t n;
-    int64_t m10, m01;
-    int64_t m20, m11, m02;
-    int64_t m30, m21, m12, m03;
-    drogue_long_sum m40, m31, m22, m13, m04;
+    int64_t n;                               /* points */
+    int64_t m10, m01;                        /* sums of x and of y */
+    int64_t m20, m11, m02;                   /* of x^2, x y, y^2 */
+    int64_t m30, m21, m12, m03;              /* of third degree, from x^3 to y^3 */
+    drogue_long_sum m40, m31, m22, m13, m04; /* of fourth degree, from x^4 to y^4 */
 } drogue_moments;
 
+/* Sums over no points. */
 void drogue_moments_clear(drogue_moments *m);
 
 /* Add a product of four coordinates. */
@@ -75,9 +76,9 @@ static inline void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_
 /* Scatter matrix of the monomials 1, x, y, x^2, xy, y^2 about the points' centre, packed by rows of its lower triangle
  * (cholesky.h). From each of the last three, 'taken' times 1, x and y is taken in the exact sums. */
 typedef struct drogue_scatter {
-    drogue_real entry[21];
-    int32_t centre[2]; /* mean of x and of y, rounded */
-    int32_t taken[3][3];
+    drogue_real entry[21]; /* packed */
+    int32_t centre[2];     /* mean of x and of y, rounded */
+    int32_t taken[3][3];   /* of x^2, x y, y^2: times 1, x, y */
 } drogue_scatter;
 
 /* Sums of 96 bits until all that whole numbers explain has been taken, then rounded.
@@ -93,6 +94,14 @@ int drogue_moments_scatter(drogue_scatter *out, const drogue_moments *m);
  *  return  DROGUE_OK, DROGUE_E_DEGENERATE (no ellipse, or one whose parameters leave Q16)
  */
 drogue_status drogue_conic_ellipse(drogue_ellipse *out, const drogue_real q[6], const int32_t centre[2], int frac_bits);
+
+/* Ellipse about the origin of the points S^(1/2) (cos t, sin t): its squared semi-axes are the eigenvalues of S.
+ *
+ *  out     zero on failure
+ *  shape   entries xx, xy, yy of S, px^2
+ *  return  DROGUE_OK, DROGUE_E_DEGENERATE (S is not positive, or a semi-axis leaves Q16)
+ */
+drogue_status drogue_shape_ellipse(drogue_ellipse *out, const drogue_real shape[3]);
 
 /* Fit an ellipse to summed moments.
  *

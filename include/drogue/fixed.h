@@ -14,9 +14,9 @@ extern "C" {
 
 typedef int32_t drogue_q16; /* value * 2^16, range [-32768, 32768) */
 
-#define DROGUE_Q16_ONE 65536
-#define DROGUE_Q16_MAX INT32_MAX
-#define DROGUE_Q16_MIN INT32_MIN
+#define DROGUE_Q16_ONE 65536      /* 1.0 */
+#define DROGUE_Q16_MAX INT32_MAX  /* what overflow saturates to */
+#define DROGUE_Q16_MIN INT32_MIN  /* the same below 0 */
 #define DROGUE_Q16_PI 205887      /* pi, rad Q16 */
 #define DROGUE_Q16_HALF_PI 102944 /* pi / 2, rad Q16 */
 
@@ -52,6 +52,11 @@ static inline int64_t drogue_product(int32_t a, int32_t b) { return (int64_t)a *
 #endif
 
 /* Saturate to 32 bits. */
+static inline int32_t drogue_clamp_s32(int32_t v, int32_t least, int32_t most)
+{
+    return v < least ? least : v > most ? most : v;
+}
+
 static inline int32_t drogue_sat_s32(int64_t v)
 {
     return v > INT32_MAX ? INT32_MAX : v < INT32_MIN ? INT32_MIN : (int32_t)v;
@@ -81,7 +86,7 @@ static inline int drogue_clz_u64(uint64_t v)
 /* 2^62 / d for 2^30 <= d < 2^31, from below, to 2^-29 of it: one 32-bit division and two products. */
 uint32_t drogue_reciprocal_u32(uint32_t d);
 
-/* Saturated. */
+/* Whole number, sum, difference and rounded product as Q16; all saturate. */
 drogue_q16 drogue_q16_from_int(int32_t v);
 drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b);
 drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b);

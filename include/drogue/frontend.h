@@ -41,7 +41,7 @@ typedef struct drogue_capacity {
 #define DROGUE_ROWS_BYTES(width_px)                      \
     ((size_t)(width_px) * (sizeof(drogue_merge) + 16u) + \
      DROGUE_HALF(width_px) * (5u * 2u + 3u * 4u + 4u * 4u + 32u + 4u) + 5u * 4u + 7u * 8u)
-#define DROGUE_SCRATCH_BYTES ((size_t)4608)
+#define DROGUE_SCRATCH_BYTES ((size_t)4608) /* that the outline, the candidates and the rays need at most */
 
 /* Bytes of memory for a workspace: usable in a static array's size. */
 #define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                         \
@@ -59,7 +59,7 @@ struct drogue_ray;          /* rays.h */
 /* Line buffers, tables and lists in the caller's memory; set by drogue_workspace_init(). After a frame
  * 'edges' and 'arcs' hold its edge points and arcs; everything else is scratch. */
 typedef struct drogue_workspace {
-    drogue_capacity capacity;
+    drogue_capacity capacity;            /* what it was laid out for */
     drogue_edge *edges;                  /* edges */
     drogue_arc *arcs;                    /* arcs */
     uint32_t *component_parent;          /* labels; these four also serve the inner part's components */
@@ -104,16 +104,16 @@ typedef struct drogue_frontend_config {
 
 /* A frame in progress; the members are the front end's own. */
 typedef struct drogue_frontend {
-    drogue_workspace *workspace;
-    drogue_frontend_config config;
-    int32_t width_px;
-    int32_t height_px;
-    int32_t rows_in;
-    drogue_labels components;
-    drogue_labels arc_labels;
-    uint32_t edge_count;
-    uint32_t edges_full;
-    uint32_t slope_count[2]; /* noted in the even and in the odd row */
+    drogue_workspace *workspace;   /* the caller's */
+    drogue_frontend_config config; /* as given */
+    int32_t width_px;              /* of the frame */
+    int32_t height_px;             /* of the frame */
+    int32_t rows_in;               /* fed so far */
+    drogue_labels components;      /* of candidates: hysteresis */
+    drogue_labels arc_labels;      /* of one direction class */
+    uint32_t edge_count;           /* listed so far, weak ones too */
+    uint32_t edges_full;           /* 1 after a point was refused */
+    uint32_t slope_count[2];       /* noted in the even and in the odd row */
 } drogue_frontend;
 
 /* The lists a frame leaves in the workspace. */

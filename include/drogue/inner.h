@@ -26,8 +26,8 @@ uint8_t drogue_otsu(const uint32_t *histogram);
 
 /* The inner part as found in the image. In brackets what a result of drogue_measure() holds. */
 typedef struct drogue_inner_part {
-    drogue_q16 x_px_q16; /* centroid, region coordinates [centre of the edge, px of the whole image] */
-    drogue_q16 y_px_q16;
+    drogue_q16 x_px_q16;      /* centroid, region coordinates [centre of the edge, px of the whole image] */
+    drogue_q16 y_px_q16;      /* downward */
     uint32_t area_px;         /* pixels; drogue_inner_find(): sum of darkness [of the ellipse] */
     drogue_q16 spread_px_q16; /* drogue_inner_find(): between the centroids at a lower and a higher threshold [root mean
                                  square of the rays' residuals] */
@@ -73,14 +73,13 @@ drogue_status drogue_inner_find(drogue_inner_part *out, uint32_t *which, drogue_
 /* Area of an inner part over that of an expected disc, Q16, saturated. */
 drogue_q16 drogue_inner_fill(const drogue_inner_part *part, const drogue_ellipse *expected);
 
-/* Images of the inner disc for both poses, as seen: a pose whose disc is behind the camera, edge-on or under a pixel has
- * none.
+/* Images of the inner disc for both poses, through the lens: a pose whose disc is behind the camera, edge-on or under a
+ * pixel has none.
  *
  *  expected  out, coordinates of the region whose pixel (0, 0) is pixel (x_px, y_px) of the image
- *  outline   as seen: the disc's major axis lies as its does
  */
-void drogue_inner_expect(drogue_inner_expected *expected, const drogue_ellipse *outline, const drogue_pose poses[2],
-                         const drogue_setup *setup, int32_t x_px, int32_t y_px);
+void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose poses[2], const drogue_setup *setup,
+                         int32_t x_px, int32_t y_px);
 
 /* Where to look: a disc about the outline's centre of 5/6 of its semi-minor axis. */
 drogue_mask drogue_inner_disc(const drogue_ellipse *outline);
@@ -89,13 +88,13 @@ typedef char drogue_assume_rays_fit[DROGUE_RAYS * sizeof(drogue_ray) <= DROGUE_S
 
 /* The inner disc as its own edge shows it. */
 typedef struct drogue_inner_edge {
-    drogue_q16 x_px_q16; /* centre, region coordinates */
-    drogue_q16 y_px_q16;
+    drogue_q16 x_px_q16;     /* centre, region coordinates */
+    drogue_q16 y_px_q16;     /* downward */
     drogue_q16 grown_px_q16; /* by how much its semi-axes are larger than expected */
     drogue_q16 std_px_q16;   /* standard deviation of either coordinate, from the rays' residuals */
     drogue_q16 rms_px_q16;   /* of the residuals */
     uint32_t rays;           /* that agree */
-    uint32_t which;          /* of the expected discs */
+    uint32_t which;          /* of the expected discs: the nearer one */
     uint8_t level;           /* mean grey at the edge */
     uint8_t contrast;        /* mean step of grey across the edge */
 } drogue_inner_edge;
@@ -117,7 +116,7 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[DRO
  *
  *  expected, outline  region coordinates
  *  return             px Q16; 0 when it is not to be believed: of another size, in another place, cut by the rim, or too
- *                     few rays agree
+ *                     few rays agree; -1 when it is too large, and nothing else speaks against it
  */
 drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse *expected,
                             const drogue_ellipse *outline, const drogue_config *config);
@@ -128,7 +127,9 @@ typedef struct drogue_inner_evidence {
     drogue_joint_inner weighed; /* its centroid without distortion; std 0 when it is not believed */
     drogue_q16
         ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 when not believed */
-    uint32_t nearer;   /* index of the pose whose projected inner centre is nearer, believed or not */
+    int32_t
+        too_large;   /* 1: a disc is seen that would be believed but for its size, which is too large for the outline */
+    uint32_t nearer; /* index of the pose whose projected inner centre is nearer, believed or not */
 } drogue_inner_evidence;
 
 /* Weigh the disc, and see which pose it is nearer to.

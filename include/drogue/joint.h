@@ -25,13 +25,14 @@ typedef struct drogue_joint_outline {
 
 /* The inner part as a measurement. */
 typedef struct drogue_joint_inner {
-    drogue_q16 x_px_q16; /* centroid of the inner disc, undistorted, px of the whole image */
-    drogue_q16 y_px_q16;
+    drogue_q16 x_px_q16;   /* centroid of the inner disc, undistorted, px of the whole image */
+    drogue_q16 y_px_q16;   /* downward */
     drogue_q16 std_px_q16; /* of either coordinate; 0: there is none */
 } drogue_joint_inner;
 
+/* Pose from outline and inner part. */
 typedef struct drogue_joint {
-    drogue_pose pose;
+    drogue_pose pose;                          /* that both agree with best */
     drogue_real covariance[DROGUE_PACKED_MAX]; /* of x, y, z (m), yaw, pitch (rad), packed */
     drogue_real chi2;                          /* squared residuals over their variances: 2 degrees of freedom */
 } drogue_joint;
@@ -74,8 +75,9 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
 
 /* Image of the inner disc of a pose.
  *
- *  out     ellipse in ideal pixels: centre exact (it is not the image of the disc's centre), semi-axes to first order
- *  return  DROGUE_OK; DROGUE_E_BEHIND_CAMERA; DROGUE_E_DOMAIN when it is seen edge-on
+ *  out     ellipse in ideal pixels, that of the perspective: its centre is not the image of the disc's centre, and off the
+ *          optical axis it is longer than it would be there; zero on failure
+ *  return  DROGUE_OK; DROGUE_E_BEHIND_CAMERA; DROGUE_E_DOMAIN when it is seen edge-on or from behind
  */
 drogue_status drogue_inner_disc_image(drogue_ellipse *out, const drogue_pose *pose, const drogue_camera *camera,
                                       const drogue_model *model);

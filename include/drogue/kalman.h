@@ -21,14 +21,15 @@ enum { DROGUE_X = 0, DROGUE_Y = 1, DROGUE_Z = 2, DROGUE_PITCH = 3, DROGUE_YAW = 
 
 /* One parameter: value, rate, acceleration, and the factors of their covariance. variance[0] is that of the value. */
 typedef struct drogue_kalman3 {
-    drogue_real state[3];
+    drogue_real state[3];    /* value, rate, acceleration; m or rad, and s */
     drogue_real rest;        /* of the value, below its last place: rates are differences of values over short times */
     drogue_real variance[3]; /* D: of the value; of the rate given the value; of the acceleration given both */
     drogue_real slope[3];    /* L: of the rate over the value, of the acceleration over the value and over the rate */
 } drogue_kalman3;
 
+/* The filter: one of three states for each parameter. */
 typedef struct drogue_kalman {
-    drogue_kalman3 parameter[DROGUE_PARAMETERS];
+    drogue_kalman3 parameter[DROGUE_PARAMETERS]; /* in the order above */
 } drogue_kalman;
 
 /* Start from a measurement: rate and acceleration 0.

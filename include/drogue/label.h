@@ -24,8 +24,8 @@ typedef struct drogue_labels {
 
 /* Two labels of one component, found in a row. */
 typedef struct drogue_merge {
-    uint32_t a;
-    uint32_t b;
+    uint32_t a; /* one label */
+    uint32_t b; /* the other one */
 } drogue_merge;
 
 /* Start with no label given; capacity >= 1. */
@@ -47,10 +47,11 @@ static inline uint32_t drogue_label_choose(uint32_t *merge_with, uint32_t above,
 
 /* What the last two steps of drogue_labels_resolve() wrote. */
 typedef struct drogue_recent_parents {
-    uint32_t label[2];
-    uint32_t parent[2];
+    uint32_t label[2];  /* the last first */
+    uint32_t parent[2]; /* what was written there */
 } drogue_recent_parents;
 
+/* Parent of a label, through what was just written. */
 static inline uint32_t drogue_parent_of(const uint32_t *parent, const drogue_recent_parents *recent, uint32_t label)
 {
     const uint32_t last = 0u - (uint32_t)(label == recent->label[0]); /* masks: no branch about the look */
@@ -58,6 +59,7 @@ static inline uint32_t drogue_parent_of(const uint32_t *parent, const drogue_rec
     return (recent->parent[0] & last) | (((recent->parent[1] & before) | (parent[label] & ~before)) & ~last);
 }
 
+/* Write a parent and remember it. */
 static inline void drogue_set_parent(uint32_t *parent, drogue_recent_parents *recent, uint32_t label, uint32_t to)
 {
     recent->label[1] = recent->label[0];

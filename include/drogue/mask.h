@@ -11,11 +11,12 @@ extern "C" {
 
 /* Circle family of a region: centre ((w-1)/2, (h-1)/2) and longest side, kept exact by doubling. */
 typedef struct drogue_mask {
-    int32_t centre2_x; /* twice the centre, px, [-2^15, 2^15] */
-    int32_t centre2_y;
+    int32_t centre2_x;  /* twice the centre, px, [-2^15, 2^15] */
+    int32_t centre2_y;  /* the same downward */
     int32_t longest_px; /* longest side of the region, [1, 2^20] */
 } drogue_mask;
 
+/* Are the members within their ranges? */
 static inline int drogue_mask_valid(const drogue_mask *mask)
 {
     const int32_t most = 1 << 15;
@@ -25,9 +26,9 @@ static inline int drogue_mask_valid(const drogue_mask *mask)
 
 /* What the ring leaves to the columns of one row: bounds of (2x - centre2_x)^2. */
 typedef struct drogue_ring_row {
-    int64_t least_x9;
-    int64_t most;
-    int32_t centre2_x;
+    int64_t least_x9;  /* nine times the least one */
+    int64_t most;      /* the largest one */
+    int32_t centre2_x; /* of the mask */
 } drogue_ring_row;
 
 /* Ring: longest / 3 <= distance <= longest / 2 (paper, section III-A-1). */
@@ -55,6 +56,7 @@ static inline int drogue_ring_row_holds(const drogue_ring_row *row, int32_t x)
     return drogue_ring_row_holds_square(row, (int64_t)dx * dx);
 }
 
+/* Is a pixel in the ring?  x as above, y in [-2^29, 2^29]. */
 static inline int drogue_mask_in_ring(const drogue_mask *mask, int32_t x, int32_t y)
 {
     drogue_ring_row row = drogue_mask_ring_row(mask, y);
@@ -68,12 +70,14 @@ static inline int64_t drogue_mask_disc_row(const drogue_mask *mask, int32_t y)
     return 4 * (int64_t)mask->longest_px * mask->longest_px - 9 * dy * dy;
 }
 
+/* Is a column in the disc, by what drogue_mask_disc_row() gave? */
 static inline int drogue_disc_row_holds(int64_t most_x9, int32_t centre2_x, int32_t x)
 {
     const int64_t dx = 2 * (int64_t)x - centre2_x;
     return 9 * dx * dx <= most_x9;
 }
 
+/* Is a pixel in the disc? */
 static inline int drogue_mask_in_disc(const drogue_mask *mask, int32_t x, int32_t y)
 {
     return drogue_disc_row_holds(drogue_mask_disc_row(mask, y), mask->centre2_x, x);

@@ -16,6 +16,7 @@
 extern "C" {
 #endif
 
+/* The outline of the end plane and what speaks for it. */
 typedef struct drogue_outline {
     drogue_ellipse ellipse;   /* region coordinates, as seen, what blur took put back */
     drogue_ellipse fitted;    /* the same before the blur was put back: what edge points lie about */

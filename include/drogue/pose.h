@@ -12,10 +12,10 @@ extern "C" {
 
 /* Pose: centre of the end plane and unit axis into the drogue, camera frame (x right, y down, z forward). */
 typedef struct drogue_pose {
-    drogue_q16 position_m_q16[3];
-    drogue_q16 axis_q16[3];
-    drogue_q16 yaw_rad_q16;   /* atan2(axis.x, axis.z) */
-    drogue_q16 pitch_rad_q16; /* asin(axis.y) */
+    drogue_q16 position_m_q16[3]; /* x, y, z of the centre */
+    drogue_q16 axis_q16[3];       /* unit vector into the drogue */
+    drogue_q16 yaw_rad_q16;       /* atan2(axis.x, axis.z) */
+    drogue_q16 pitch_rad_q16;     /* asin(axis.y) */
 } drogue_pose;
 
 /* Is the yaw within pi and the pitch within pi / 2? */

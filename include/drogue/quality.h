@@ -11,21 +11,21 @@ extern "C" {
 
 /* The ellipse F = 0 in the form that points are tested with; c, s are cosine and sine of its angle. */
 typedef struct drogue_ellipse_frame {
-    drogue_q16 xc_px_q16;
-    drogue_q16 yc_px_q16;
-    drogue_q16 b_px_q16;
+    drogue_q16 xc_px_q16;    /* centre */
+    drogue_q16 yc_px_q16;    /* centre, downward */
+    drogue_q16 b_px_q16;     /* semi-minor axis */
     int32_t half_over_b_q31; /* 1 / (2 b), 1/px */
     int32_t xx_q30;          /* b times the matrix of F's quadratic part, 1/px */
-    int32_t xy_q30;
-    int32_t yy_q30;
-    int32_t cos_over_a_q30; /* 1/px */
-    int32_t sin_over_a_q30;
-    int32_t cos_over_b_q30;
-    int32_t sin_over_b_q30;
-    int32_t cos_q14;
-    int32_t sin_q14;
-    int32_t cos_ratio_q14; /* c * b / a */
-    int32_t sin_ratio_q14; /* s * b / a */
+    int32_t xy_q30;          /* 1/px */
+    int32_t yy_q30;          /* 1/px */
+    int32_t cos_over_a_q30;  /* 1/px */
+    int32_t sin_over_a_q30;  /* 1/px */
+    int32_t cos_over_b_q30;  /* 1/px */
+    int32_t sin_over_b_q30;  /* 1/px */
+    int32_t cos_q14;         /* c */
+    int32_t sin_q14;         /* s */
+    int32_t cos_ratio_q14;   /* c * b / a */
+    int32_t sin_ratio_q14;   /* s * b / a */
 } drogue_ellipse_frame;
 
 /* Prepare an ellipse for point tests.
@@ -61,6 +61,7 @@ drogue_q16 drogue_ellipse_circumference(const drogue_ellipse *ellipse);
 /* Points over circumference (12), Q16, at most 1. A whole outline of 8-connected pixels gives about 0.9. */
 drogue_q16 drogue_length_ratio(uint32_t points, const drogue_ellipse *ellipse);
 
+/* Scores of a fit. */
 typedef struct drogue_quality {
     drogue_q16 fit_ratio_q16;    /* phi (11), [0, 1] */
     drogue_q16 length_ratio_q16; /* l_r (12), clamped to [0, 1] */

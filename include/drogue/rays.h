@@ -19,30 +19,44 @@ typedef struct drogue_ray_edge {
     int32_t level_q8;     /* grey on it */
 } drogue_ray_edge;
 
-#define DROGUE_RAY_WEIGHT 12
+#define DROGUE_RAY_WEIGHT 12 /* a slope over the step of grey that it stands for */
 
+/* A ray and the edges on it. */
 typedef struct drogue_ray {
-    drogue_q16 x_px_q16; /* on the ellipse */
-    drogue_q16 y_px_q16;
-    int32_t nx_q14; /* outward normal */
-    int32_t ny_q14;
-    drogue_q16 step_px_q16; /* between samples */
-    drogue_ray_edge edges[DROGUE_RAY_EDGES];
-    uint32_t count;
+    drogue_q16 x_px_q16;                     /* on the ellipse */
+    drogue_q16 y_px_q16;                     /* downward */
+    int32_t nx_q14;                          /* outward normal */
+    int32_t ny_q14;                          /* downward */
+    drogue_q16 step_px_q16;                  /* between samples */
+    drogue_ray_edge edges[DROGUE_RAY_EDGES]; /* in the order of the ray */
+    uint32_t count;                          /* of edges */
 } drogue_ray;
 
-/* Find the edges.
+/* Place rays, half a pixel between their samples, without edges.
  *
- *  image    region's pixels; beyond its border the border's grey stands
  *  ellipse  region coordinates; b >= 1 px
- *  reach    how far from the ellipse edges are looked for; at least 16 px are, samples half a pixel apart or as far as
- *           the reach asks for
  *  phase    [0, 8): eighths of the angle between two rays by which they are turned; 4 puts two evenly into each bin
- *  falling  bit k: on rays 2 k and 2 k + 1 the grey falls outwards at the edge looked for; it rises on the others
- *  least    least step of grey, grey levels
+ */
+void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *ellipse, int32_t phase);
+
+/* Grey along a ray.
+ *
+ *  grey   out, Q8: 'count' samples from 'from' outwards; beyond the image the grey of its border stands
+ *  image  region's pixels
+ *  from   px Q16 from the ellipse outwards, below 2^10 px
+ */
+void drogue_ray_read(int32_t *grey_q8, const drogue_ray *ray, const drogue_image *image, drogue_q16 from_px_q16,
+                     int32_t count);
+
+/* Place rays and find where the grey rises outwards along them.
+ *
+ *  reach   how far from the ellipse edges are looked for, [2, 512] px and limited to that; samples are half a pixel apart
+ *          or, beyond 16 px, 32 to the reach
+ *  least   least step of grey, grey levels
+ *  image, ellipse, phase  as above
  */
 void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *ellipse,
-                      drogue_q16 reach_px_q16, int32_t phase, uint32_t falling, int32_t least);
+                      drogue_q16 reach_px_q16, int32_t phase, int32_t least);
 
 #ifdef __cplusplus
 }

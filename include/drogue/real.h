@@ -21,15 +21,18 @@
 extern "C" {
 #endif
 
+/* A real number, as above. */
 typedef struct drogue_real {
-    int32_t mantissa;
-    int32_t exponent;
+    int32_t mantissa; /* 0, or 2^30 and more in magnitude */
+    int32_t exponent; /* of two */
 } drogue_real;
 
 /* v * 2^exponent, rounded to 31 bits */
 void drogue_real_set(drogue_real *out, int64_t v, int32_t exponent);
+/* The same of a Q16 number. */
 void drogue_real_set_q16(drogue_real *out, drogue_q16 v);
 
+/* a + b, a - b, a b */
 void drogue_real_sum(drogue_real *out, const drogue_real *a, const drogue_real *b);
 void drogue_real_difference(drogue_real *out, const drogue_real *a, const drogue_real *b);
 void drogue_real_product(drogue_real *out, const drogue_real *a, const drogue_real *b);

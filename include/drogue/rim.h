@@ -14,22 +14,24 @@ extern "C" {
 #define DROGUE_SEARCH_ROWS 48    /* rows that a level keeps: two reaches and what a dark disc waits */
 #define DROGUE_SEARCH_PENDING 32 /* dark discs of a level that may still grow with the next row */
 
+/* A dark disc in a level. */
 typedef struct drogue_search_disc {
-    int32_t x; /* cells */
-    int32_t y;
+    int32_t x;        /* cells */
+    int32_t y;        /* cells, downward */
     int32_t ring_q4;  /* radius of the circle that is brighter, cells Q4; the rim's is about twice as large */
     int32_t contrast; /* grey levels */
 } drogue_search_disc;
 
 /* Block means of a frame in a ring of rows. */
 typedef struct drogue_search_level {
-    uint8_t *rows; /* DROGUE_SEARCH_ROWS x width */
-    int32_t width; /* cells */
-    int32_t rows_in;
-    int32_t pending_count;
-    drogue_search_disc pending[DROGUE_SEARCH_PENDING];
+    uint8_t *rows;                                     /* DROGUE_SEARCH_ROWS x width */
+    int32_t width;                                     /* cells */
+    int32_t rows_in;                                   /* fed so far */
+    int32_t pending_count;                             /* of the list below */
+    drogue_search_disc pending[DROGUE_SEARCH_PENDING]; /* in the order they were met */
 } drogue_search_level;
 
+/* Row y, one of the last DROGUE_SEARCH_ROWS. */
 static inline const uint8_t *drogue_search_level_row(const drogue_search_level *level, int32_t y)
 {
     return level->rows + (y % DROGUE_SEARCH_ROWS) * level->width;
@@ -39,10 +41,10 @@ static inline const uint8_t *drogue_search_level_row(const drogue_search_level *
 
 /* Circle relative to the disc, cells Q4. */
 typedef struct drogue_rim {
-    int32_t x_q4;
-    int32_t y_q4;
-    int32_t radius_q4;
-    uint32_t score; /* the square of the number of rays that meet it, times the mean contrast of disc and rim */
+    int32_t x_q4;      /* centre */
+    int32_t y_q4;      /* centre, downward */
+    int32_t radius_q4; /* of the circle */
+    uint32_t score;    /* the square of the number of rays that meet it, times the mean contrast of disc and rim */
 } drogue_rim;
 
 /* The score that no circle about a disc exceeds. */

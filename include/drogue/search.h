@@ -26,22 +26,22 @@ extern "C" {
 typedef struct drogue_sighting {
     drogue_region region; /* for drogue_measure() */
     int32_t x_px;         /* middle of the outline, about */
-    int32_t y_px;
-    int32_t radius_px;
-    uint32_t score; /* by evenness and contrast of disc and rim; compares sightings of one frame */
+    int32_t y_px;         /* downward */
+    int32_t radius_px;    /* of the outline, about */
+    uint32_t score;       /* by evenness and contrast of disc and rim; compares sightings of one frame */
 } drogue_sighting;
 
 /* A search in progress; set by drogue_search_init(). */
 typedef struct drogue_search {
-    uint8_t *memory;
+    uint8_t *memory;     /* the caller's */
     int32_t capacity_px; /* widest frame */
     int32_t
         min_contrast; /* 6 grey levels: least contrast of inner part and canopy, [0, 255]; the caller may change it */
-    int32_t width_px;
-    int32_t rows_in;
-    int32_t count;
-    drogue_search_level levels[DROGUE_SEARCH_LEVELS];
-    drogue_sighting best[DROGUE_SEARCH_MAX]; /* by falling score */
+    int32_t width_px; /* of the frame in progress */
+    int32_t rows_in;  /* fed so far */
+    int32_t count;    /* of sightings */
+    drogue_search_level levels[DROGUE_SEARCH_LEVELS]; /* from 2 to 64 px a cell */
+    drogue_sighting best[DROGUE_SEARCH_MAX];          /* by falling score */
 } drogue_search;
 
 /* Lay a search out in the caller's memory, which must live as long as the search.

@@ -7,6 +7,7 @@
 extern "C" {
 #endif
 
+/* Status of a call. */
 typedef enum drogue_status {
     DROGUE_OK = 0,
     DROGUE_E_ARGUMENT,       /* an argument is outside its documented range */

@@ -19,13 +19,17 @@ typedef struct drogue_support_bin {
     int32_t sum_q16;   /* of (u^2 + v^2 - 1) / 2 over those of the bin's own polarity: radial offsets in semi-axes */
 } drogue_support_bin;
 
+/* The edge points about an ellipse, by bins. */
 typedef struct drogue_support {
-    drogue_support_bin bin[DROGUE_SUPPORT_BINS];
-    int64_t squares_q32;  /* of the same offsets, over all bins */
-    uint64_t gradient;    /* sum of |gx| + |gy| over them, grey levels * 8 */
-    uint32_t points;      /* in these sums */
+    drogue_support_bin bin[DROGUE_SUPPORT_BINS]; /* round the outline */
+    int64_t squares_q32;                         /* of the same offsets, over all bins */
+    uint64_t gradient;                           /* sum of |gx| + |gy| over them, grey levels * 8 */
+    uint32_t points;                             /* in these sums */
     uint32_t bright_bins; /* bit k: bin k is brighter inside; all 0 or all 1 for an outline of one polarity */
-    uint32_t covered;     /* bins that hold enough points, less the changes of polarity round the outline beyond none */
+    int32_t
+        pull_q24[5];  /* by how much opposite edges nearby moved the outline: coefficients of 1, cos t, sin t, cos 2t,
+                             sin 2t over the eccentric angle t, in semi-axes */
+    uint32_t covered; /* bins that hold enough points, less the changes of polarity round the outline beyond none */
 } drogue_support;
 
 /* From the counts, decide the polarity of each bin and how many bins are covered.
@@ -47,6 +51,9 @@ static inline drogue_q16 drogue_support_cover(const drogue_support *support)
 {
     return (drogue_q16)(support->covered * (DROGUE_Q16_ONE / DROGUE_SUPPORT_BINS));
 }
+
+/* 1, cos t, sin t, cos 2t, sin 2t in the middle of a bin. */
+void drogue_support_basis(int64_t basis_q30[5], uint32_t k);
 
 #ifdef __cplusplus
 }

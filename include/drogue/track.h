@@ -30,6 +30,7 @@
 extern "C" {
 #endif
 
+/* What the estimate rests on. */
 typedef enum drogue_track_state {
     DROGUE_LOST = 0,     /* no estimate: the first region, or the whole frame, is searched */
     DROGUE_TRACKING = 1, /* this frame was measured and believed */
@@ -39,19 +40,21 @@ typedef enum drogue_track_state {
 /* Name of a state: "lost", "tracking", "coasting"; never NULL. */
 const char *drogue_track_state_name(drogue_track_state state);
 
+/* Thresholds of tracking; drogue_track_config_default() fills in the defaults given here. */
 typedef struct drogue_track_config {
-    uint32_t max_missed;          /* 10 frames: after more in a row, missed or refused, the track is lost */
-    uint32_t agree_frames;        /* 4: so many refused measurements that agree are believed, frames without one between
+    uint32_t max_missed;        /* 10 frames: after more in a row, missed or refused, the track is lost */
+    uint32_t agree_frames;      /* 4: so many refused measurements that agree are believed, frames without one between
                                         them not counted; at least 1 */
-    uint32_t reconsider_frames;   /* 50 frames: after so many in a row whose inner part, known to the model, does not
+    uint32_t reconsider_frames; /* 50 frames: after so many in a row whose inner part, known to the model, does not
                                    decide, drogue_track_frame() searches the whole frame for one that does; 0: never */
-    drogue_q16 gate_q16;          /* 20.515: chi-square of 5 degrees of freedom at 0.1 % */
-    drogue_q16 position_gate_q16; /* 16.266: the same of 3, where the angles are not compared */
-    drogue_q16 region_scale_q16;  /* 2.5: side of the next region in predicted major semi-axes */
-    drogue_q16 region_sigmas_q16; /* 3: standard deviations that region and search allow for */
-    int32_t min_region_px;        /* 32 px */
-    int32_t max_region_px;        /* DROGUE_MAX_SIDE; what the workspace holds */
-    drogue_q16 lateral_std_q16;   /* 0.0005: standard deviation of x and y, share of the distance; this and the */
+    drogue_q16 min_reliability_q16; /* 0, [0, 1]: a measurement of less reliability counts as missed */
+    drogue_q16 gate_q16;            /* 20.515: chi-square of 5 degrees of freedom at 0.1 % */
+    drogue_q16 position_gate_q16;   /* 16.266: the same of 3, where the angles are not compared */
+    drogue_q16 region_scale_q16;    /* 2.5: side of the next region in predicted major semi-axes */
+    drogue_q16 region_sigmas_q16;   /* 3: standard deviations that region and search allow for */
+    int32_t min_region_px;          /* 32 px */
+    int32_t max_region_px;          /* DROGUE_MAX_SIDE; what the workspace holds */
+    drogue_q16 lateral_std_q16;     /* 0.0005: standard deviation of x and y, share of the distance; this and the */
     drogue_q16 depth_std_q16;     /* 0.002: of z, share of the distance; next two where a result has no covariance; the
                                      gate allows for it, too */
     drogue_q16 angle_std_rad_q16; /* 0.02 rad: of pitch and yaw */
@@ -71,21 +74,23 @@ typedef struct drogue_track_config {
     drogue_q16 start_accel_std_q16; /* 15 m/s^2 and rad/s^2 */
 } drogue_track_config;
 
+/* Fill in the defaults given above. */
 void drogue_track_config_default(drogue_track_config *config);
 
-/* 1 when agree_frames and region_scale_q16 are above 0, process_step is at least 1, lasting_share at most 1, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and
+/* 1 when agree_frames and region_scale_q16 are above 0, process_step is at least 1, lasting_share and min_reliability at most 1, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and
  * nothing else is negative. */
 int drogue_track_config_valid(const drogue_track_config *config);
 
+/* A track: what is kept from frame to frame. */
 typedef struct drogue_track {
-    drogue_track_config config;
-    drogue_camera camera;
-    drogue_model model;
+    drogue_track_config config; /* as given */
+    drogue_camera camera;       /* as given */
+    drogue_model model;         /* as given */
     drogue_region first_region; /* width 0: none, the whole frame */
-    drogue_track_state state;
-    uint32_t missed;     /* frames in a row, missed or refused */
-    int32_t gated;       /* 1: this frame's measurement was refused */
-    int32_t search;      /* 1: the drogue may be anywhere in 'reach', more than drogue_measure() can cover */
+    drogue_track_state state;   /* after the last frame */
+    uint32_t missed;            /* frames in a row, missed or refused */
+    int32_t gated;              /* 1: this frame's measurement was refused */
+    int32_t search;             /* 1: the drogue may be anywhere in 'reach', more than drogue_measure() can cover */
     drogue_region reach; /* square that holds the predicted outline to region_sigmas; like first_region when lost */
     int32_t orientation_known; /* 1: a resolved measurement has chosen between the twin poses */
     uint32_t open_frames;      /* unresolved measurements believed in a row */
@@ -93,24 +98,24 @@ typedef struct drogue_track {
     uint32_t trial;            /* measurements left in which what began the track must show its inner part again */
     uint32_t agreeing;         /* refused measurements in a row that agree; 'second' holds them */
     int32_t second_known;      /* orientation_known of 'second' */
-    drogue_bank bank;
-    drogue_kalman filter;                 /* of the bank's chosen models */
-    drogue_kalman second;                 /* follows what is refused, as the most agile model */
+    drogue_bank bank;          /* of filters, one more agile than the other */
+    drogue_kalman filter;      /* of the bank's chosen models */
+    drogue_kalman second;      /* follows what is refused, as the most agile model */
     drogue_real noise[DROGUE_PARAMETERS]; /* variances of the last measurement believed */
 } drogue_track;
 
 /* The filter's estimate, Q16, with standard deviations, Q32. */
 typedef struct drogue_track_estimate {
-    drogue_q16 position_m_q16[3];
-    drogue_q16 velocity_mps_q16[3];
-    drogue_q16 axis_q16[3];
-    drogue_q16 yaw_rad_q16;
-    drogue_q16 pitch_rad_q16;
-    int32_t orientation_resolved; /* 1: known, and not contradicted by the last measurement that decided */
-    int64_t position_std_m_q32[3];
-    int64_t yaw_std_rad_q32;
-    int64_t pitch_std_rad_q32;
-    int64_t axis_std_rad_q32; /* root mean square angle between estimated and true axis */
+    drogue_q16 position_m_q16[3];   /* x, y, z of the end plane's centre */
+    drogue_q16 velocity_mps_q16[3]; /* their rates */
+    drogue_q16 axis_q16[3];         /* unit vector into the drogue */
+    drogue_q16 yaw_rad_q16;         /* atan2(axis.x, axis.z) */
+    drogue_q16 pitch_rad_q16;       /* asin(axis.y) */
+    int32_t orientation_resolved;   /* 1: known, and not contradicted by the last measurement that decided */
+    int64_t position_std_m_q32[3];  /* of x, y, z */
+    int64_t yaw_std_rad_q32;        /* of yaw */
+    int64_t pitch_std_rad_q32;      /* of pitch */
+    int64_t axis_std_rad_q32;       /* root mean square angle between estimated and true axis */
 } drogue_track_estimate;
 
 /* Start lost.

@@ -5,6 +5,8 @@
 
 #include "drogue/status.h"
 
+#define EXPLAIN_UNRELIABLE "its reliability is below --min-reliability"
+
 /* The sentence without a full stop; never NULL. */
 const char *explain_status(drogue_status status);
 

@@ -212,3 +212,8 @@ int frame_track(drogue_result *out, drogue_region *region, drogue_track *track, 
     }
     return EXIT_MEASURED;
 }
+
+int frame_unreliable(const options *o, const drogue_result *result)
+{
+    return result->status == DROGUE_OK && result->quality.reliability_q16 < o->min_reliability_q16;
+}

@@ -68,4 +68,7 @@ int frame_track(drogue_result *out, drogue_region *region, drogue_track *track, 
 int frame_measure(drogue_result *out, int *searched, frame_workspace *w, const options *o, const char *path,
                   const picture *grey, const drogue_region *region);
 
+/* Was it measured, but with a reliability below --min-reliability? */
+int frame_unreliable(const options *o, const drogue_result *result);
+
 #endif

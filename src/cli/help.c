@@ -33,7 +33,7 @@ static const char *const PARTS[] = {
     "  --csv                      a line of names, then a line a frame\n"
     "  --overlay OUT.png          draw what was found; track numbers the files OUT-0001.png, OUT-0002.png ... With\n"
     "                             --overlay - measure writes the picture alone to standard output\n"
-    "  --min-reliability R        measure: a reliability below R, 0 to 1, is no measurement but \"unreliable\"\n"
+    "  --min-reliability R        a reliability below R, 0 to 1, is no measurement but \"unreliable\"\n"
     "  --set NAME=VALUE           change a threshold; --help-config lists them\n"
     "  --raw W,H,FORMAT           track: frames of raw video, FORMAT gray8, nv12 or yuyv\n"
     "  --fps N                    track: frames a second, 30 by default\n"

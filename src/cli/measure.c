@@ -37,7 +37,7 @@ static void print(const options *o, const measurement *m)
 static void remark(const options *o, const measurement *m)
 {
     if (m->unreliable) {
-        complain(m->path, "unreliable: its reliability is below --min-reliability");
+        complain(m->path, "unreliable: %s", EXPLAIN_UNRELIABLE);
     } else if (m->result->status != DROGUE_OK) {
         complain(m->path, "%s: %s", drogue_status_name(m->result->status), explain_status(m->result->status));
     } else if (o->region_given && m->searched) {
@@ -56,7 +56,7 @@ static int measure(const options *o, frame_workspace *w, const picture *grey)
         return EXIT_BAD;
     }
     m.result = &result;
-    m.unreliable = result.status == DROGUE_OK && result.quality.reliability_q16 < o->min_reliability_q16;
+    m.unreliable = frame_unreliable(o, &result);
     if (o->overlay == NULL || strcmp(o->overlay, "-") != 0) { /* the picture has standard output for itself */
         print(o, &m);
     }

@@ -62,7 +62,7 @@ static const char SHORT_OPTIONS[] = ":hV";
 #define BIT(option) (1u << (option))
 #define POSE_OPTIONS                                                                                         \
     (BIT(OPTION_CAMERA) | BIT(OPTION_DISTORTION) | BIT(OPTION_ROI) | BIT(OPTION_DROGUE) | BIT(OPTION_JSON) | \
-     BIT(OPTION_CSV) | BIT(OPTION_SET) | BIT(OPTION_OVERLAY))
+     BIT(OPTION_CSV) | BIT(OPTION_SET) | BIT(OPTION_OVERLAY) | BIT(OPTION_MIN_RELIABILITY))
 
 typedef struct command_use {
     const char *name;
@@ -75,7 +75,7 @@ typedef struct command_use {
 } command_use;
 
 static const command_use COMMANDS[] = {
-    {"measure", COMMAND_MEASURE, 1, 1, POSE_OPTIONS | BIT(OPTION_MIN_RELIABILITY), BIT(OPTION_CAMERA), "one image"},
+    {"measure", COMMAND_MEASURE, 1, 1, POSE_OPTIONS, BIT(OPTION_CAMERA), "one image"},
     {"track", COMMAND_TRACK, 1, 0, POSE_OPTIONS | BIT(OPTION_FPS) | BIT(OPTION_MAX_MISSED) | BIT(OPTION_RAW),
      BIT(OPTION_CAMERA), "at least one image"},
     {"edges", COMMAND_EDGES, 2, 2, BIT(OPTION_LOW) | BIT(OPTION_HIGH) | BIT(OPTION_SMOOTH),

@@ -6,8 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "cli.h"
+
+#define MOST_FRAMES 99999 /* of a stream, whose length nobody knows beforehand, that are looked at */
 
 typedef struct identity {
     dev_t device;
@@ -44,11 +47,13 @@ static int compare(const void *a, const void *b)
     return x->inode < y->inode ? -1 : x->inode > y->inode;
 }
 
-/* What a path names: 1 for a file that writing would change, 0 for what is not there or a device. */
-static int identify(identity *out, const char *path)
+/* What a path or, where that is "-", a stream names: 1 for a file that writing would change, 0 for what is not there, a
+ * device or a pipe. */
+static int identify(identity *out, const char *path, int stream)
 {
     struct stat s;
-    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode)) {
+    const int named = strcmp(path, "-") == 0 ? fstat(stream, &s) : stat(path, &s);
+    if (named != 0 || !S_ISREG(s.st_mode)) {
         return 0;
     }
     memset(out, 0, sizeof *out);
@@ -60,7 +65,8 @@ static int identify(identity *out, const char *path)
 static int is_input(const inputs *in, const char *path)
 {
     identity id;
-    return in->count > 0 && identify(&id, path) && bsearch(&id, in->files, in->count, sizeof id, compare) != NULL;
+    return in->count > 0 && identify(&id, path, STDOUT_FILENO) &&
+           bsearch(&id, in->files, in->count, sizeof id, compare) != NULL;
 }
 
 static int check(const inputs *in, const char *path)
@@ -70,6 +76,7 @@ static int check(const inputs *in, const char *path)
 
 static int check_all(const options *o, const inputs *in)
 {
+    int count = o->file_count;
     int bad = 0;
     int i;
     if (o->command == COMMAND_EDGES) {
@@ -81,7 +88,12 @@ static int check_all(const options *o, const inputs *in)
     if (o->command == COMMAND_MEASURE) {
         return check(in, o->overlay);
     }
-    for (i = 0; i < o->file_count && !bad; i++) {
+    for (i = 0; i < o->file_count; i++) {
+        if (o->raw.kind != RAW_NONE || strcmp(o->files[i], "-") == 0) {
+            count = MOST_FRAMES;
+        }
+    }
+    for (i = 0; i < count && !bad; i++) {
         char *path = output_numbered(o->overlay, i + 1);
         bad = path == NULL || check(in, path);
         free(path);
@@ -100,10 +112,10 @@ int outputs_check(const options *o)
         return complain("input", "out of memory");
     }
     for (i = 0; i < count; i++) {
-        in.count += (size_t)identify(&in.files[in.count], o->files[i]);
+        in.count += (size_t)identify(&in.files[in.count], o->files[i], STDIN_FILENO);
     }
     if (o->camera_file != NULL) {
-        in.count += (size_t)identify(&in.files[in.count], o->camera_file);
+        in.count += (size_t)identify(&in.files[in.count], o->camera_file, STDIN_FILENO);
     }
     qsort(in.files, in.count, sizeof *in.files, compare);
     code = check_all(o, &in);

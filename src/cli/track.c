@@ -24,6 +24,7 @@ typedef struct tracker {
     int32_t height_px;
     long frames;
     long of_status[DROGUE_STATUS_COUNT]; /* frames of each */
+    long unreliable;                     /* frames measured, but below --min-reliability */
 } tracker;
 
 /* One camera takes frames of one size, and the first region is a part of them. */
@@ -38,6 +39,7 @@ static int begin_track(tracker *s, const char *path, const picture *grey)
     if (s->o->max_missed_given) {
         config.max_missed = s->o->max_missed;
     }
+    config.min_reliability_q16 = s->o->min_reliability_q16;
     (void)drogue_track_init(&s->track, &config, &s->o->camera, &s->o->model, s->o->region_given ? &first : NULL);
     s->width_px = grey->width_px;
     s->height_px = grey->height_px;
@@ -67,7 +69,7 @@ static void print_line(const tracker *s, const char *path, const drogue_result *
     line.raw.result = result;
     line.raw.length_unit = options_length_unit(s->o);
     line.raw.searched = -1; /* the tracker does not say */
-    line.raw.unreliable = 0;
+    line.raw.unreliable = frame_unreliable(s->o, result);
     line.frame = s->frames;
     line.time_us = (uint64_t)(s->frames - 1) * s->o->frame_us;
     line.track = &s->track;
@@ -98,6 +100,7 @@ static int track_frame(tracker *s, const char *path, const picture *grey)
     state = s->track.state;
     s->frames++;
     s->of_status[result.status]++;
+    s->unreliable += frame_unreliable(s->o, &result);
     print_line(s, path, &result, &region);
     if (flush_output()) {
         return EXIT_BAD;
@@ -114,6 +117,9 @@ static void remark(const tracker *s)
             fprintf(stderr, "drogue: %ld of %ld frames: %s: %s\n", s->of_status[i], s->frames,
                     drogue_status_name((drogue_status)i), explain_status((drogue_status)i));
         }
+    }
+    if (s->unreliable > 0) {
+        fprintf(stderr, "drogue: %ld of %ld frames: unreliable: %s\n", s->unreliable, s->frames, EXPLAIN_UNRELIABLE);
     }
 }
 
@@ -156,5 +162,5 @@ int command_track(const options *o)
         return complain(o->files[0], "holds no frame");
     }
     remark(&s);
-    return s.of_status[DROGUE_OK] > 0 ? EXIT_MEASURED : EXIT_NOTHING;
+    return s.of_status[DROGUE_OK] > s.unreliable ? EXIT_MEASURED : EXIT_NOTHING;
 }

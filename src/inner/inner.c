@@ -4,12 +4,65 @@
 
 #include <string.h>
 
+#include "drogue/ellipse.h"
 #include "drogue/quality.h"
 #include "drogue/real.h"
 #include "drogue/undistort.h"
 
-void drogue_inner_expect(drogue_inner_expected *expected, const drogue_ellipse *outline, const drogue_pose poses[2],
-                         const drogue_setup *setup, int32_t x_px, int32_t y_px)
+/* Half the way between the images of two points to either side of an ellipse's centre along a vector, px Q16. */
+static drogue_status half_chord(drogue_q16 out_px_q16[2], const drogue_ellipse *e, int64_t dx_q16, int64_t dy_q16,
+                                const drogue_camera *camera)
+{
+    drogue_q16 x = drogue_sat_s32(e->xc_px_q16 + dx_q16);
+    drogue_q16 y = drogue_sat_s32(e->yc_px_q16 + dy_q16);
+    drogue_q16 u = drogue_sat_s32(e->xc_px_q16 - dx_q16);
+    drogue_q16 v = drogue_sat_s32(e->yc_px_q16 - dy_q16);
+    if (drogue_distort_point(&x, &y, camera) != DROGUE_OK || drogue_distort_point(&u, &v, camera) != DROGUE_OK) {
+        return DROGUE_E_DOMAIN;
+    }
+    out_px_q16[0] = drogue_q16_sub(x, u) / 2;
+    out_px_q16[1] = drogue_q16_sub(y, v) / 2;
+    return DROGUE_OK;
+}
+
+/* An ideal ellipse as the lens shows it: its axes become conjugate diameters. */
+static drogue_status distort_ellipse(drogue_ellipse *e, const drogue_camera *camera)
+{
+    drogue_ellipse as_seen;
+    drogue_real shape[3];
+    drogue_real p[2][2];
+    drogue_q16 half[2][2];
+    int32_t s_q30;
+    int32_t c_q30;
+    int i;
+    if (!drogue_camera_distorts(camera)) {
+        return DROGUE_OK;
+    }
+    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
+    if (half_chord(half[0], e, drogue_shr_round_s64((int64_t)e->a_px_q16 * c_q30, 30),
+                   drogue_shr_round_s64((int64_t)e->a_px_q16 * s_q30, 30), camera) != DROGUE_OK ||
+        half_chord(half[1], e, -drogue_shr_round_s64((int64_t)e->b_px_q16 * s_q30, 30),
+                   drogue_shr_round_s64((int64_t)e->b_px_q16 * c_q30, 30), camera) != DROGUE_OK) {
+        return DROGUE_E_DOMAIN;
+    }
+    for (i = 0; i < 2; i++) {
+        drogue_real_set_q16(&p[i][0], half[i][0]);
+        drogue_real_set_q16(&p[i][1], half[i][1]);
+    }
+    drogue_real_products(&shape[0], &p[0][0], &p[0][0], &p[1][0], &p[1][0]);
+    drogue_real_products(&shape[1], &p[0][0], &p[0][1], &p[1][0], &p[1][1]);
+    drogue_real_products(&shape[2], &p[0][1], &p[0][1], &p[1][1], &p[1][1]);
+    if (drogue_shape_ellipse(&as_seen, shape) != DROGUE_OK) {
+        return DROGUE_E_DOMAIN;
+    }
+    as_seen.xc_px_q16 = e->xc_px_q16;
+    as_seen.yc_px_q16 = e->yc_px_q16;
+    *e = as_seen;
+    return drogue_distort_point(&e->xc_px_q16, &e->yc_px_q16, camera);
+}
+
+void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose poses[2], const drogue_setup *setup,
+                         int32_t x_px, int32_t y_px)
 {
     int i;
     memset(expected, 0, sizeof *expected);
@@ -17,11 +70,9 @@ void drogue_inner_expect(drogue_inner_expected *expected, const drogue_ellipse *
     for (i = 0; i < 2; i++) {
         drogue_ellipse *e = &expected->disc[expected->count];
         if (drogue_inner_disc_image(e, &poses[i], setup->camera, setup->model) == DROGUE_OK &&
-            e->b_px_q16 >= DROGUE_Q16_ONE &&
-            drogue_distort_point(&e->xc_px_q16, &e->yc_px_q16, setup->camera) == DROGUE_OK) {
+            e->b_px_q16 >= DROGUE_Q16_ONE && distort_ellipse(e, setup->camera) == DROGUE_OK) {
             e->xc_px_q16 = drogue_q16_sub(e->xc_px_q16, drogue_q16_from_int(x_px));
             e->yc_px_q16 = drogue_q16_sub(e->yc_px_q16, drogue_q16_from_int(y_px));
-            e->angle_rad_q16 = outline->angle_rad_q16;
             expected->count++;
         }
     }
@@ -68,9 +119,12 @@ drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse 
     const drogue_q16 share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
     if (edge->contrast < config->min_inner_contrast ||
         (int64_t)edge->rays * DROGUE_Q16_ONE < (int64_t)config->min_inner_cover_q16 * DROGUE_RAYS ||
-        edge->rms_px_q16 > config->inner_rms_px_q16 || edge->grown_px_q16 > room || edge->grown_px_q16 < -room ||
+        edge->rms_px_q16 > config->inner_rms_px_q16 || edge->grown_px_q16 < -room ||
         away2_q32 > drogue_square_sum(gate, 0) || !within_outline(edge, expected, outline)) {
         return 0;
+    }
+    if (edge->grown_px_q16 > room) {
+        return -1;
     }
     return drogue_sat_s32(
         drogue_isqrt_u64(drogue_square_sum(share, config->inner_std_px_q16) + drogue_square_sum(edge->std_px_q16, 0)));
@@ -107,13 +161,16 @@ void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge
     drogue_choice choice;
     describe(&evidence->part, edge, disc, region);
     weighed->std_px_q16 = drogue_inner_std(edge, disc, outline, setup->config);
+    evidence->too_large = weighed->std_px_q16 < 0;
+    weighed->std_px_q16 = evidence->too_large ? 0 : weighed->std_px_q16;
     weighed->x_px_q16 = evidence->part.x_px_q16;
     weighed->y_px_q16 = evidence->part.y_px_q16;
     if (evidence->part.area_px < setup->config->min_inner_area_px ||
         drogue_undistort_point(&weighed->x_px_q16, &weighed->y_px_q16, setup->camera) != DROGUE_OK ||
         drogue_choose_pose(&choice, poses, weighed->x_px_q16, weighed->y_px_q16, setup->model->inner_depth_m_q16,
                            setup->camera) != DROGUE_OK) {
-        weighed->std_px_q16 = 0; /* too small, beyond the lens model, or behind the camera for one of the poses */
+        weighed->std_px_q16 = 0;
+        evidence->too_large = 0; /* too small, beyond the lens model, or behind the camera for one of the poses */
         choice.index = 0;
     }
     evidence->nearer = choice.index;

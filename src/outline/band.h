@@ -67,6 +67,12 @@ static inline int32_t offset_q16_of(const drogue_ellipse_frame *frame, int32_t f
     return low_shr_round(drogue_product(f_b_px_q16, frame->half_over_b_q31), 31);
 }
 
+/* F of F b within reach */
+static inline int32_t f_q24_of(const drogue_ellipse_frame *frame, int32_t f_b_px_q16)
+{
+    return low_shr_round(drogue_product(f_b_px_q16, frame->half_over_b_q31), 22);
+}
+
 static inline int32_t q14_of_q22(int32_t n_q22) { return (n_q22 + 128) >> 8; }
 
 /* Direction of a point from its normal, in the ellipse's frame. */
@@ -141,6 +147,8 @@ typedef struct band_point {
     int32_t v_q14;
     int32_t offset_q16;       /* F / 2: how far it lies off the outline, along the radius, in semi-axes */
     drogue_polarity polarity; /* DARK: the gradient points outward; BRIGHT: inward */
+    int32_t f_b_px_q16;       /* F b */
+    int32_t n2_q28;           /* half the gradient of F times b, squared */
 } band_point;
 
 /* Does an edge point belong to the outline? 'out' is complete when it does. Error of F times b: 2^-14 a / b px and 2^-20 of
@@ -179,6 +187,8 @@ static inline int band_holds(band_point *out, const drogue_ellipse_frame *frame,
     out->v_q14 = v_q14_of(frame, nx, ny);
     out->offset_q16 = offset_q16_of(frame, f_b_px_q16);
     out->polarity = polarity_of(along);
+    out->f_b_px_q16 = f_b_px_q16;
+    out->n2_q28 = n2_q28;
     return 1;
 }
 

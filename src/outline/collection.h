@@ -29,6 +29,13 @@ int drogue_ellipse_settled(const drogue_ellipse *p, const drogue_ellipse *q);
 void drogue_band_narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
                         const drogue_config *config);
 
+/* How edges of opposite sense near a fitted outline moved it, into its support. */
+void drogue_outline_pull(drogue_support *support, const drogue_ellipse *fitted, const drogue_edge *edges,
+                         uint32_t count, const drogue_config *config);
+
+/* Put back what they did. */
+void drogue_outline_put_back(drogue_ellipse *e, const int32_t pull_q24[5]);
+
 /* Is an ellipse round enough to be the drogue's? */
 static inline int drogue_round_enough(const drogue_ellipse *e, const drogue_config *config)
 {

@@ -2,6 +2,8 @@
 /* Centre, semi-axes and angle of an ellipse from its conic (paper (8), (9)). */
 #include "drogue/ellipse.h"
 
+#include <string.h>
+
 /* Value of a length or coordinate (v + whole) 2^-frac_bits in Q16; 0 return when it leaves the format. */
 static int fits_q16(drogue_q16 *out, const drogue_real *v, int32_t whole, int frac_bits)
 {
@@ -86,4 +88,25 @@ drogue_status drogue_conic_ellipse(drogue_ellipse *out, const drogue_real q[6], 
         out->angle_rad_q16 = 0; /* a circle has no angle */
     }
     return ok && out->b_px_q16 > 0 ? DROGUE_OK : DROGUE_E_DEGENERATE;
+}
+
+drogue_status drogue_shape_ellipse(drogue_ellipse *out, const drogue_real shape[3])
+{
+    static const int32_t origin[2] = {0, 0};
+    drogue_real q[6]; /* (x, y) S^-1 (x, y)' = 1, times the determinant */
+    drogue_status status;
+    memset(out, 0, sizeof *out);
+    drogue_real_set(&q[1], 0, 0);
+    drogue_real_set(&q[2], 0, 0);
+    drogue_real_copy(&q[3], &shape[2]);
+    drogue_real_copy(&q[4], &shape[1]);
+    drogue_real_shift(&q[4], 1);
+    drogue_real_negate(&q[4]);
+    drogue_real_copy(&q[5], &shape[0]);
+    drogue_real_determinant(&q[0], &shape[1], &shape[1], &shape[0], &shape[2]);
+    status = drogue_conic_ellipse(out, q, origin, 0);
+    if (status != DROGUE_OK) {
+        memset(out, 0, sizeof *out);
+    }
+    return status;
 }

@@ -5,11 +5,10 @@
 #include "drogue/fixed.h"
 
 #define REACH 4    /* samples on either side that a slope is made of */
-#define SAMPLES 65 /* slopes along a ray */
+#define SAMPLES 65 /* most slopes along a ray */
 #define HALF DROGUE_Q16(1, 2)
-#define FARTHEST DROGUE_Q16(512, 1) /* px: reach */
-
-static int32_t clamped(int32_t v, int32_t most) { return v < 0 ? 0 : v > most ? most : v; }
+#define NEAREST DROGUE_Q16(2, 1) /* px: reach */
+#define FARTHEST DROGUE_Q16(512, 1)
 
 /* A place as far out as 2^14 px, where every image has ended. */
 static int32_t placed(int64_t v_px_q16)
@@ -21,8 +20,8 @@ static int32_t placed(int64_t v_px_q16)
 /* Grey between pixels, Q8; beyond the image as at its border. */
 static int32_t grey_q8(const drogue_image *image, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
-    const int32_t x = clamped(x_px_q16, (image->width_px - 1) * DROGUE_Q16_ONE);
-    const int32_t y = clamped(y_px_q16, (image->height_px - 1) * DROGUE_Q16_ONE);
+    const int32_t x = drogue_clamp_s32(x_px_q16, 0, (image->width_px - 1) * DROGUE_Q16_ONE);
+    const int32_t y = drogue_clamp_s32(y_px_q16, 0, (image->height_px - 1) * DROGUE_Q16_ONE);
     const int32_t fx = (x >> 8) & 255;
     const int32_t fy = (y >> 8) & 255;
     const int32_t right = fx > 0;
@@ -51,34 +50,45 @@ static void keep(drogue_ray *r, const drogue_ray_edge *e)
     r->edges[at] = *e;
 }
 
-/* Slopes along a ray by a derivative of Gaussian of two samples, and their peaks to a share of a sample. */
-static void find_edges(drogue_ray *r, const drogue_image *image, int falling, int32_t least_q8)
+void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_image *image, drogue_q16 from_px_q16,
+                     int32_t count)
 {
-    static const int32_t taps[REACH] = {3, 4, 3, 2};
-    const int32_t middle = SAMPLES / 2;
     const int32_t dx = (int32_t)drogue_shr_round_s64((int64_t)r->nx_q14 * r->step_px_q16, 14);
     const int32_t dy = (int32_t)drogue_shr_round_s64((int64_t)r->ny_q14 * r->step_px_q16, 14);
+    int32_t x = r->x_px_q16 + (int32_t)drogue_shr_round_s64((int64_t)r->nx_q14 * from_px_q16, 14);
+    int32_t y = r->y_px_q16 + (int32_t)drogue_shr_round_s64((int64_t)r->ny_q14 * from_px_q16, 14);
+    int32_t i;
+    for (i = 0; i < count; i++) {
+        grey_q8_out[i] = grey_q8(image, x, y);
+        x += dx;
+        y += dy;
+    }
+}
+
+/* Slopes along a ray by a derivative of Gaussian of two samples, and their peaks to a share of a sample: 'out' samples to
+ * either side. */
+static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, int32_t least_q8)
+{
+    static const int32_t taps[REACH] = {3, 4, 3, 2};
     int32_t grey[SAMPLES + 2 * REACH];
     int32_t slope[SAMPLES];
+    const int32_t slopes = 2 * out + 1;
     int32_t i;
     int32_t k;
-    for (i = 0; i < SAMPLES + 2 * REACH; i++) {
-        grey[i] = grey_q8(image, r->x_px_q16 + (i - middle - REACH) * dx, r->y_px_q16 + (i - middle - REACH) * dy);
-    }
-    for (i = 0; i < SAMPLES; i++) {
+    drogue_ray_read(grey, r, image, -(out + REACH) * r->step_px_q16, slopes + 2 * REACH);
+    for (i = 0; i < slopes; i++) {
         slope[i] = 0;
         for (k = 0; k < REACH; k++) {
             slope[i] += taps[k] * (grey[i + REACH + 1 + k] - grey[i + REACH - 1 - k]);
         }
-        slope[i] = falling ? -slope[i] : slope[i];
     }
     r->count = 0;
-    for (i = 1; i + 1 < SAMPLES; i++) {
+    for (i = 1; i + 1 < slopes; i++) {
         if (slope[i] >= least_q8 && slope[i] > slope[i - 1] && slope[i] >= slope[i + 1]) {
             const int32_t bend = 2 * slope[i] - slope[i - 1] - slope[i + 1]; /* > 0 */
             const int64_t part_q16 = drogue_div_round_s64((int64_t)(slope[i + 1] - slope[i - 1]) * HALF, bend);
             drogue_ray_edge e;
-            e.at_px_q16 = (i - middle) * r->step_px_q16 + (int32_t)drogue_shr_round_s64(part_q16 * r->step_px_q16, 16);
+            e.at_px_q16 = (i - out) * r->step_px_q16 + (int32_t)drogue_shr_round_s64(part_q16 * r->step_px_q16, 16);
             e.slope_q8 = slope[i];
             e.level_q8 = grey[i + REACH];
             keep(r, &e);
@@ -86,18 +96,15 @@ static void find_edges(drogue_ray *r, const drogue_image *image, int falling, in
     }
 }
 
-void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *e,
-                      drogue_q16 reach_px_q16, int32_t phase, uint32_t falling, int32_t least)
+void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase)
 {
     const int64_t turn_q29 = 52707179; /* 2 pi / 64 */
     int32_t sin_q30;
     int32_t cos_q30;
     int32_t k;
-    reach_px_q16 = reach_px_q16 < FARTHEST ? reach_px_q16 : FARTHEST;
     drogue_sincos_q30(&sin_q30, &cos_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
     for (k = 0; k < DROGUE_RAYS; k++) {
         const int32_t eighths = 8 * k + phase - (k < DROGUE_RAYS / 2 ? 0 : 8 * DROGUE_RAYS); /* of the turn */
-        const drogue_q16 least_step = reach_px_q16 / (SAMPLES / 2);
         drogue_ray *r = &rays[k];
         int32_t s_q30;
         int32_t c_q30;
@@ -116,7 +123,22 @@ void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, c
         v = drogue_div_round_s64(v * (1 << 14), length);
         r->nx_q14 = (int32_t)drogue_shr_round_s64(u * cos_q30 - v * sin_q30, 30);
         r->ny_q14 = (int32_t)drogue_shr_round_s64(u * sin_q30 + v * cos_q30, 30);
-        r->step_px_q16 = HALF < least_step ? least_step : HALF;
-        find_edges(r, image, (falling >> (k / 2)) & 1u, least * DROGUE_RAY_WEIGHT * 128); /* blur may halve a slope */
+        r->step_px_q16 = HALF;
+        r->count = 0;
+    }
+}
+
+void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *e,
+                      drogue_q16 reach_px_q16, int32_t phase, int32_t least)
+{
+    const drogue_q16 reach = drogue_clamp_s32(reach_px_q16, NEAREST, FARTHEST);
+    const drogue_q16 least_step = reach / (SAMPLES / 2);
+    const drogue_q16 step = HALF < least_step ? least_step : HALF;
+    const int32_t out = drogue_clamp_s32(reach / step + 1, 1, SAMPLES / 2);
+    int32_t k;
+    drogue_rays_aim(rays, e, phase);
+    for (k = 0; k < DROGUE_RAYS; k++) {
+        rays[k].step_px_q16 = step;
+        find_edges(&rays[k], image, out, least * DROGUE_RAY_WEIGHT * 128); /* blur may halve a slope */
     }
 }

@@ -95,3 +95,21 @@ void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse
         }
     }
 }
+
+void drogue_support_basis(int64_t basis_q30[5], uint32_t k)
+{
+    /* cos of 5.625 + 11.25 i degrees */
+    static const int32_t quarter_q30[8] = {1068571464, 1027506862, 946955747, 830013654,
+                                           681174602,  506158392,  311690799, 105245103};
+    const uint32_t i = k & 7u;
+    const uint32_t quadrant = k >> 3;
+    int64_t c = quarter_q30[quadrant & 1u ? 7 - i : i];
+    int64_t s = quarter_q30[quadrant & 1u ? i : 7 - i];
+    c = quadrant == 1 || quadrant == 2 ? -c : c;
+    s = quadrant >= 2 ? -s : s;
+    basis_q30[0] = INT64_C(1) << 30;
+    basis_q30[1] = c;
+    basis_q30[2] = s;
+    basis_q30[3] = drogue_shr_round_s64(c * c - s * s, 30);
+    basis_q30[4] = drogue_shr_round_s64(c * s, 29);
+}

@@ -37,6 +37,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         status = DROGUE_E_DEGENERATE; /* most of the outline lies beyond what the lens model can undo */
     }
     if (status == DROGUE_OK) {
+        drogue_outline_put_back(out, outline->support.pull_q24);
         drogue_undo_blur(out, setup->config);
     }
     return status;

@@ -20,7 +20,7 @@ static py::array_t<double> from_vector_q32(const int64_t v[3])
 class Tracker {
 public:
     Tracker(const py::sequence &camera, const py::sequence &model, const py::object &region, const py::dict &config_,
-            uint32_t max_missed)
+            uint32_t max_missed, double min_reliability)
         : config(to_config(config_))
     {
         drogue_track_config track_config;
@@ -30,7 +30,10 @@ public:
         const drogue_model m = to_model(model);
         drogue_track_config_default(&track_config);
         track_config.max_missed = max_missed;
-        drogue_track_init(&track, &track_config, &c, &m, whole ? nullptr : &first);
+        track_config.min_reliability_q16 = to_q16(min_reliability, "min_reliability");
+        if (drogue_track_init(&track, &track_config, &c, &m, whole ? nullptr : &first) != DROGUE_OK) {
+            throw py::value_error("min_reliability is from 0 to 1");
+        }
     }
 
     py::tuple frame(const py::array &array, uint32_t dt_us)
@@ -78,7 +81,8 @@ private:
 void add_tracker(py::module_ &module)
 {
     py::class_<Tracker>(module, "Tracker")
-        .def(py::init<const py::sequence &, const py::sequence &, const py::object &, const py::dict &, uint32_t>())
+        .def(py::init<const py::sequence &, const py::sequence &, const py::object &, const py::dict &, uint32_t,
+                      double>())
         .def("frame", &Tracker::frame);
 }
 

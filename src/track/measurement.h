@@ -14,6 +14,12 @@ typedef struct drogue_measurement {
     int solid;                            /* shows the inner part, or the model has none */
 } drogue_measurement;
 
+/* Is it a measurement, and reliable enough? */
+static inline int drogue_measurement_counts(const drogue_result *result, const drogue_track_config *c)
+{
+    return result->status == DROGUE_OK && result->quality.reliability_q16 >= c->min_reliability_q16;
+}
+
 /* Standard deviations are never 0. */
 static inline drogue_q16 drogue_at_least_one(drogue_q16 v) { return v < 1 ? 1 : v; }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "drogue/undistort.h"
+#include "measurement.h"
 
 #define MOST_APART DROGUE_Q16(6, 10) /* semi-axes between two predictions that one region holds */
 
@@ -23,6 +24,7 @@ void drogue_track_config_default(drogue_track_config *config)
     config->max_missed = 10;
     config->agree_frames = 4;
     config->reconsider_frames = 50;
+    config->min_reliability_q16 = 0;
     config->gate_q16 = DROGUE_Q16(20515, 1000);
     config->position_gate_q16 = DROGUE_Q16(16266, 1000);
     config->region_scale_q16 = DROGUE_Q16(5, 2);
@@ -51,14 +53,15 @@ int drogue_track_config_valid(const drogue_track_config *c)
     /* the sign of all */
     int32_t any = c->gate_q16 | c->position_gate_q16 | c->region_sigmas_q16 | c->lateral_std_q16 | c->depth_std_q16 |
                   c->angle_std_rad_q16 | c->position_floor_m_q16 | c->angle_floor_rad_q16 | c->start_rate_std_q16 |
-                  c->start_accel_std_q16;
+                  c->start_accel_std_q16 | c->min_reliability_q16;
     int p;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         any |= c->process_std_q16[p];
     }
-    return any >= 0 && c->process_step_q16 >= DROGUE_Q16_ONE && c->lasting_share_q16 >= 0 &&
-           c->lasting_share_q16 <= DROGUE_Q16_ONE && c->agree_frames > 0 && c->region_scale_q16 > 0 &&
-           c->min_region_px > 0 && c->min_region_px <= c->max_region_px && c->max_region_px <= DROGUE_MAX_SIDE;
+    return any >= 0 && c->min_reliability_q16 <= DROGUE_Q16_ONE && c->process_step_q16 >= DROGUE_Q16_ONE &&
+           c->lasting_share_q16 >= 0 && c->lasting_share_q16 <= DROGUE_Q16_ONE && c->agree_frames > 0 &&
+           c->region_scale_q16 > 0 && c->min_region_px > 0 && c->min_region_px <= c->max_region_px &&
+           c->max_region_px <= DROGUE_MAX_SIDE;
 }
 
 drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *config, const drogue_camera *camera,
@@ -330,11 +333,11 @@ static void look(drogue_result *result, const drogue_region *region, const drogu
     if (result->status == DROGUE_OK && !lost && track->search && !whole(result, &track->model)) {
         result->status = DROGUE_E_UNSURE;
     }
-    if (result->status == DROGUE_OK || (!lost && !track->search)) {
+    if (drogue_measurement_counts(result, &track->config) || (!lost && !track->search)) {
         return;
     }
     (void)drogue_acquire(&found, search, workspace, setup, image, lost ? NULL : &track->reach);
-    if (found.status == DROGUE_OK || region->width_px <= 0) {
+    if (drogue_measurement_counts(&found, &track->config) || region->width_px <= 0) {
         *result = found;
     }
 }
@@ -360,7 +363,7 @@ drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *regi
     setup.config = config;
     drogue_track_begin(region, track, dt_us);
     if (in_doubt(track) && drogue_acquire(result, search, workspace, &setup, image, NULL) == DROGUE_OK &&
-        result->orientation_resolved) {
+        drogue_measurement_counts(result, &track->config) && result->orientation_resolved) {
         track->state = DROGUE_LOST; /* begin anew from this */
         return drogue_track_end(track, result);
     }

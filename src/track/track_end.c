@@ -272,7 +272,7 @@ drogue_track_state drogue_track_end(drogue_track *track, const drogue_result *re
     const int inner_known = track->model.inner_radius_m_q16 > 0;
     drogue_measurement pose;
     drogue_measurement twin;
-    if (result->status != DROGUE_OK) {
+    if (!drogue_measurement_counts(result, &track->config)) {
         return end_missed(track);
     }
     drogue_measurement_read(&pose, result, 0, &track->model, &track->config);

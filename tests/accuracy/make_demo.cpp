@@ -27,6 +27,7 @@ struct Frame {
 };
 
 double radians(double degrees) { return degrees * CV_PI / 180; }
+double degrees(double radians) { return radians * 180 / CV_PI; }
 
 std::array<Frame, 4> frames()
 {
@@ -95,10 +96,10 @@ std::string sidecar(const Frame &frame)
                   cvRound(e.xc_px - (side - 1) / 2.0), cvRound(e.yc_px - (side - 1) / 2.0), side, side) +
            format("  \"position_m\": [%.6f, %.6f, %.6f],\n  \"axis\": [%.6f, %.6f, %.6f],\n", p[0], p[1], p[2], n[0],
                   n[1], n[2]) +
-           format("  \"yaw_rad\": %.6f,\n  \"pitch_rad\": %.6f,\n", yaw_of(n), pitch_of(n)) +
+           format("  \"yaw_deg\": %.6f,\n  \"pitch_deg\": %.6f,\n", degrees(yaw_of(n)), degrees(pitch_of(n))) +
            format("  \"ellipse\": { \"xc_px\": %.6f, \"yc_px\": %.6f, \"a_px\": %.6f, \"b_px\": %.6f, "
-                  "\"angle_rad\": %.6f },\n",
-                  e.xc_px, e.yc_px, e.a_px, e.b_px, e.angle_rad) +
+                  "\"angle_deg\": %.6f },\n",
+                  e.xc_px, e.yc_px, e.a_px, e.b_px, degrees(e.angle_rad)) +
            format("  \"inner_centre_px\": [%.6f, %.6f]\n}\n", inner.x, inner.y);
 }
 

@@ -109,7 +109,7 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
     if (result.status != DROGUE_OK) {
         return;
     }
-    drogue_inner_expect(&expected, &ellipse, evidence.poses, &setup, edges.origin_px.x, edges.origin_px.y);
+    drogue_inner_expect(&expected, evidence.poses, &setup, edges.origin_px.x, edges.origin_px.y);
     if (expected.count > 0 && result.has_inner != 0) { /* its place stands, the standard deviation is the edge's */
         const drogue_image view = {edges.view.data, edges.view.cols, edges.view.rows,
                                    static_cast<int32_t>(edges.view.step)};

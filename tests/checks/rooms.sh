@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # No stage knows one that comes after it: each file of the library includes what rooms.txt lets it.
-# usage: rooms.sh ROOT [LIST]
+# usage: rooms.sh [ROOT [LIST]]
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-root=$1
+root=${1:-$here/../..}
 list=$(realpath "${2:-$here/rooms.txt}")
 . "$here/../../src/sources.sh"
 {

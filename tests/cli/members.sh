@@ -90,6 +90,23 @@ same "$(json position_m)" null
 near "$(json reliability)" "$reliability" 0
 says 'unreliable: '
 
+# A frame of a track below it is missed; of one that is reliable enough nothing changes.
+cut='track scene_cut.png scene_cut.png --roi 0,-30,200,200'
+# shellcheck disable=SC2086
+run 0 $cut $camera
+cp out plain
+same "$(json state | tr '\n' ' ')" '"tracking" "tracking" '
+reliability=$(json raw.reliability | sort -g | head -n 1)
+# shellcheck disable=SC2086
+run 0 $cut $camera --min-reliability "$(awk "BEGIN { print $reliability - 0.001 }")"
+cmp -s out plain || fail 'a least reliability that all frames have changes a track'
+# shellcheck disable=SC2086
+run 1 $cut $camera --min-reliability "$(awk "BEGIN { print $reliability + 0.001 }")"
+same "$(json state | tr '\n' ' ')" '"lost" "lost" '
+same "$(json raw.status | tr '\n' ' ')" '"unreliable" "unreliable" '
+same "$(json raw.position_m | tr '\n' ' ')" 'null null '
+says '2 of 2 frames: unreliable: its reliability is below --min-reliability'
+
 # The twins alike: each has all of a pose.
 run 0 measure scene.png $camera $roi --drogue 0.35 --json
 for key in position_m axis yaw_deg pitch_deg; do

@@ -34,6 +34,18 @@ for i in 1 2 3; do
     kept f-000$i.png
 done
 
+# Standard input is a file, too, and a stream has more frames than files.
+run 2 measure - $camera $roi $model --overlay same.png <same.png
+says 'drogue: same.png: is read as input'
+run 2 edges - same.png --low 40 --high 100 <same.png
+kept same.png
+run 2 track - $camera $roi $model --overlay f.png <f-0003.png
+says 'drogue: f-0003.png: is read as input'
+run 2 track f-0002.png --raw 16,16,gray8 $camera --overlay f.png
+says 'drogue: f-0002.png: is read as input'
+kept f-0002.png
+kept f-0003.png
+
 # What is there but not read is replaced as ever.
 run 0 track scene.png same.png $camera $roi $model --overlay f.png
 cmp -s f-0001.png scene.png && fail 'an overlay was not written'

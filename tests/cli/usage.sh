@@ -61,13 +61,13 @@ run 2 measure scene.png --camera 800,5,800,5,159,5,119,5
 says 'behind a point, not a comma'
 run 2 measure scene.png $camera --json --csv
 says 'excludes'
-run 2 track scene.png $camera --min-reliability 0.5
 run 2 measure scene.png $camera --raw 1,1,gray8
 run 2 measure scene.png --camera 800,800,5000,119.5
 says 'principal point'
 run 2 track scene.png --camera 800,800,159.5,-4500
 says 'principal point'
 for r in -0.1 1.1 x '' 0.5,0.5; do
+    run 2 track scene.png $camera --min-reliability "$r"
     run 2 measure scene.png $camera --min-reliability "$r"
     says '--min-reliability'
 done

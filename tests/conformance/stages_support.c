@@ -154,7 +154,7 @@ int stage_joint(stage_run *r)
     const drogue_model model = {p[0], p[1], p[2]};
     const drogue_joint_inner inner = {p[8], p[9], p[10]};
     int32_t *out = stage_output32(r, "joint", 10);
-    int32_t *disc = stage_output32(r, "disc", 5);
+    int32_t *disc = stage_output32(r, "disc", 6);
     int64_t *covariance = (int64_t *)stage_output(r, "covariance", 64, DROGUE_PACKED_MAX);
     int64_t *outline_covariance = (int64_t *)stage_output(r, "outline", 64, DROGUE_PACKED_MAX);
     drogue_joint_outline outline;
@@ -185,6 +185,7 @@ int stage_joint(stage_run *r)
         disc[2] = image.yc_px_q16;
         disc[3] = image.a_px_q16;
         disc[4] = image.b_px_q16;
+        disc[5] = image.angle_rad_q16;
     }
     out[0] = (int32_t)drogue_joint_outline_covariance(&outline, &support, p[11], p[12]);
     if (out[0] == DROGUE_OK) {

@@ -139,7 +139,8 @@ struct Support {
     std::array<Real, SUPPORT_BINS> sum = {}; /* of f / 2 over the points of the bin's polarity */
     Real squares = 0, gradient = 0;
     int points = 0;
-    uint32_t bright = 0; /* bit set of the bins that are brighter inside */
+    std::array<Real, 5> pull = {}; /* by edges of the other sense nearby: harmonics, in semi-axes */
+    uint32_t bright = 0;           /* bit set of the bins that are brighter inside */
     int covered = 0;
 };
 /* Count a point; add it to the sums when its polarity is that of its bin. */
@@ -173,8 +174,13 @@ Eigen3 eigen(const std::array<int64_t, 6> &matrix);
 struct Camera {
     Real fx, fy, cx, cy, k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;
 };
+/* Ellipse of a conic A x^2 + B xy + C y^2 + D x + E y + F = 0, A + C > 0. */
+Ellipse conic_ellipse(const std::array<Real, 6> &theta);
+
 /* Brown-Conrady; false (p unchanged) where the domain of drogue/undistort.h ends. */
 bool distort(const Camera &c, Point &p);
+/* An ellipse as the lens shows it: halves of what lies between the images of its axes' ends are conjugate radii. */
+bool distort(const Camera &c, Ellipse &e);
 /* Its inverse, followed from the axis without a step across a fold; false (p unchanged) when that ends before p. */
 bool undistort(const Camera &c, Point &p);
 
@@ -219,7 +225,7 @@ struct Joint {
 /* Gauss-Newton from a pose, at most 'steps' after the first; 0: none at all. */
 Joint solve_joint(const Pose &start, const Ellipse &e, const Covariance &outline, const Inner &inner, const Camera &c,
                   const Model &model, int steps);
-/* Image of the inner disc of a pose: centre exact, semi-axes to first order. */
+/* Image of the inner disc of a pose. */
 Solved disc_image(Ellipse &out, const Pose &pose, const Camera &c, const Model &model);
 
 /* cv::KalmanFilter(15, 5, 0, CV_64F) with the model of drogue/kalman.h; pitch and yaw compared modulo 2 pi. */

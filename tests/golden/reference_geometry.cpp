@@ -211,6 +211,13 @@ bool is_round(const Ellipse &e, Real ratio) { return e.b > ratio * e.a; }
 
 } // namespace
 
+Ellipse conic_ellipse(const std::array<Real, 6> &theta)
+{
+    quad q[6];
+    std::copy(theta.begin(), theta.end(), q);
+    return ellipse_of_conic(q, 0, 0);
+}
+
 bool in_q16(Real v)
 {
     const Real r = std::floor(v * 65536 + 0.5L);

@@ -285,6 +285,10 @@ bool outline_covariance(Covariance &out, const Ellipse &e, const Support &s, Rea
     out = static_cast<double>(scatter / (bins - PARAMETERS)) * information.inv(cv::DECOMP_CHOLESKY) +
           static_cast<double>(shade * shade) * Covariance::eye();
     out(0, 0) += static_cast<double>(blurred * blurred);
+    for (int i = 0; i < PARAMETERS; i++) {
+        const Real left = s.pull[static_cast<size_t>(i)] / 2;
+        out(i, i) += static_cast<double>(left * left);
+    }
     return true;
 }
 
@@ -366,6 +370,8 @@ Joint solve_joint(const Pose &start, const Ellipse &e, const Covariance &outline
 Solved disc_image(Ellipse &out, const Pose &pose, const Camera &c, const Model &model)
 {
     const Frame f = frame_of({pose.position[0], pose.position[1], pose.position[2], pose.yaw, pose.pitch});
+    const std::array<Vector, 3> pixels = {Vector{1 / c.fx, Dual(0), Dual(0)}, Vector{Dual(0), 1 / c.fy, Dual(0)},
+                                          Vector{Dual(0), Dual(0), Dual(1)}};
     std::array<Dual, 2> centre;
     Vector middle;
     const Solved solved = disc_centre(centre, middle, f, model);
@@ -373,9 +379,13 @@ Solved disc_image(Ellipse &out, const Pose &pose, const Camera &c, const Model &
     if (solved != Solved::ok) {
         return solved;
     }
-    const Real far = std::sqrt(dot(middle, middle).v), size = model.inner_radius * (c.fx + c.fy) / 2 / middle[2].v;
-    out = {c.fx * centre[0].v + c.cx, c.fy * centre[1].v + c.cy, size, size * dot(f.axis, middle).v / far, 0, true};
-    return q16(out.b) > 0 ? Solved::ok : Solved::domain;
+    const std::array<Dual, 6> q = conic_of(f, middle, model.inner_radius, pixels);
+    const Ellipse e = conic_ellipse({q[0].v, 2 * q[1].v, q[2].v, 2 * q[3].v, 2 * q[4].v, q[5].v});
+    if (!(dot(f.axis, middle).v > 0) || !e.ok) {
+        return Solved::domain;
+    }
+    out = {e.xc + c.cx, e.yc + c.cy, e.a, e.b, e.angle, true};
+    return Solved::ok;
 }
 
 } // namespace reference

@@ -150,6 +150,33 @@ bool distort(const Camera &c, Point &p)
     return leave(c, p, d.x, d.y);
 }
 
+bool distort(const Camera &c, Ellipse &e)
+{
+    Real radius[2][2];
+    Point centre = {e.xc, e.yc};
+    if (c.k1 == 0 && c.k2 == 0 && c.p1 == 0 && c.p2 == 0 && c.k3 == 0) {
+        return true;
+    }
+    for (int i = 0; i < 2; i++) {
+        const Real x = i == 0 ? e.a * std::cos(e.angle) : -e.b * std::sin(e.angle);
+        const Real y = i == 0 ? e.a * std::sin(e.angle) : e.b * std::cos(e.angle);
+        Point ahead = {e.xc + x, e.yc + y}, behind = {e.xc - x, e.yc - y};
+        if (!distort(c, ahead) || !distort(c, behind)) {
+            return false;
+        }
+        radius[i][0] = (ahead.x - behind.x) / 2;
+        radius[i][1] = (ahead.y - behind.y) / 2;
+    }
+    const Real det = radius[0][0] * radius[1][1] - radius[0][1] * radius[1][0];
+    const auto sum = [&](int i, int k) { return radius[0][i] * radius[0][k] + radius[1][i] * radius[1][k]; };
+    const Ellipse seen = conic_ellipse({sum(1, 1), -2 * sum(0, 1), sum(0, 0), 0, 0, -det * det});
+    if (!seen.ok || !distort(c, centre)) {
+        return false;
+    }
+    e = {centre.x, centre.y, seen.a, seen.b, seen.angle, true};
+    return true;
+}
+
 bool undistort(const Camera &c, Point &p)
 {
     Real u, v, x = 0, y = 0, part = 0, step = 1 / 64.0L;

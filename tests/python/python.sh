@@ -16,6 +16,13 @@ pip=("$work/venv/bin/pip" -q)
 python=$work/venv/bin/python
 "${pip[@]}" wheel --no-deps -w "$work" .
 wheel=$(echo "$work"/drogue-*.whl)
+"${pip[@]}" install "$wheel"
+
+# The three lines of docs/python.md, from the folder that they name, with no more than 'pip install .' brings.
+awk '/^```python/ { inside = 1; next } /^```/ { inside = 0 } inside' docs/python.md >"$work/three_lines.py"
+[ "$(wc -l <"$work/three_lines.py")" -eq 3 ]
+"$python" "$work/three_lines.py" | grep 'position_m=array'
+
 "${pip[@]}" install "$wheel[report]" pytest mypy cocotb
 
 if ! { cmake --preset release && cmake --build --preset release; } >"$work/log"; then
@@ -24,11 +31,6 @@ if ! { cmake --preset release && cmake --build --preset release; } >"$work/log";
 fi
 cd "$work" # not the tree: what is installed is what counts
 DROGUE_PROGRAM=$root/build/release/src/cli/drogue "$python" -m pytest -q -p no:cacheprovider "$root/tests/python/test_drogue.py"
-
-# The three lines of docs/python.md, from the folder that they name.
-awk '/^```python/ { inside = 1; next } /^```/ { inside = 0 } inside' "$root/docs/python.md" >three_lines.py
-[ "$(wc -l <three_lines.py)" -eq 3 ]
-(cd "$root" && "$python" "$work/three_lines.py" | grep 'position_m=array')
 
 "$work/venv/bin/mypy" --strict --ignore-missing-imports --cache-dir "$work/mypy" -p drogue | tail -n 1
 

@@ -119,6 +119,10 @@ def test_tracker():
     black = np.zeros_like(image)
     assert [tracker.frame(black).state for _ in range(3)] == ['coasting', 'coasting', 'lost']
     assert tracker.frame(black).filtered is None
+    assert drogue.Tracker(DEMO, MODEL, REGION, min_reliability=0.9).frame(image).state == 'tracking'
+    assert drogue.Tracker(DEMO, MODEL, REGION, min_reliability=1).frame(image).state == 'lost'  # it is 0.9999
+    with pytest.raises(ValueError, match='min_reliability'):
+        drogue.Tracker(DEMO, MODEL, REGION, min_reliability=1.5)
 
 
 def test_search_and_canny():

@@ -70,12 +70,14 @@ class Tracker:
 
     region      of the first frame, as of measure(); None: the whole image is searched
     max_missed  frames in a row without the drogue that a track survives
+    min_reliability  a measurement of less counts as missed
     """
 
     def __init__(self, camera: Camera, model: Optional[Model] = None, region: Optional[Sequence[int]] = None,
-                 config: Optional[Mapping[str, float]] = None, max_missed: int = 10) -> None:
+                 config: Optional[Mapping[str, float]] = None, max_missed: int = 10,
+                 min_reliability: float = 0.0) -> None:
         self._native = _native.Tracker(camera.numbers(), (model or Model(1.0)).numbers(), region, dict(config or {}),
-                                       max_missed)
+                                       max_missed, min_reliability)
 
     def frame(self, image: npt.NDArray[np.uint8], dt_s: float = 1 / 30) -> Frame:
         """Track one frame, dt_s seconds after the one before (rounded down to microseconds)."""

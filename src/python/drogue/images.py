@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Images and videos as grey arrays, through Pillow or OpenCV, whichever the user has."""
+"""Images as grey arrays through Pillow, or OpenCV where that alone is there; videos through OpenCV."""
 from __future__ import annotations
 
 import pathlib

@@ -236,6 +236,10 @@ void add_refusals(Set &set)
     w.params[1] = q16(30);
     add_words(set, "inner-around-the-camera", Tier::must_reject, {"domain"}, w);
     w = good;
+    w.params[3] = q16(12);
+    w.params[6] = q16(-1.4);
+    add_words(set, "inner-from-behind", Tier::must_reject, {"domain"}, w);
+    w = good;
     w.params[13] = 0;
     add_words(set, "no-gradient", Tier::must_reject, {"degenerate"}, w);
     w = good;

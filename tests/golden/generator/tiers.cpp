@@ -195,18 +195,20 @@ Tiers joint_tier(const Arrays &in, const Arrays &exact)
         support.points += as_int(bins[2 * k]);
     }
     support.gradient = static_cast<Real>(p[13]);
-    Words joint(10, 0), disc(5, 0);
-    std::vector<Real> more(10, 0);
+    Words joint(10, 0), disc(6, 0);
+    std::vector<Real> more(10, 0), disc_more(6, 0);
     reference::Ellipse image;
     const reference::Solved seen = reference::disc_image(image, start, camera, model);
     disc[0] = status_of(seen);
     if (seen == reference::Solved::ok) {
-        disc = {DROGUE_OK, q16(image.xc), q16(image.yc), q16(image.a), q16(image.b)};
+        disc = {DROGUE_OK, q16(image.xc), q16(image.yc), q16(image.a), q16(image.b), q16(image.angle)};
+        disc_more[5] = angle_turn(image.a, image.b, 4);
     }
-    Tiers tiers = {{like(exact[0], joint), {}},
-                   {like(exact[1], disc), disc[0] == DROGUE_OK ? bounds("joint", like(exact[1], disc)) : Bound()},
-                   {like(exact[2], Words(15, 0)), {}},
-                   {like(exact[3], Words(15, 0)), {}}};
+    Tiers tiers = {
+        {like(exact[0], joint), {}},
+        {like(exact[1], disc), disc[0] == DROGUE_OK ? bounds("joint", like(exact[1], disc), disc_more) : Bound()},
+        {like(exact[2], Words(15, 0)), {}},
+        {like(exact[3], Words(15, 0)), {}}};
     reference::Covariance outline;
     if (!reference::outline_covariance(outline, e, support, real(p[11]), real(p[12]))) {
         tiers[0].array.words[0] = DROGUE_E_DEGENERATE;

@@ -2,8 +2,10 @@
 /* Fits to the edges along rays, in floating point. */
 #include "edge.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace mirror {
 
@@ -22,32 +24,48 @@ struct Sums {
     int rays = 0;
 };
 
+Real along(const drogue_ray &r, const Offset &v)
+{
+    return r.nx_q14 / 16384.0L * v[0] + r.ny_q14 / 16384.0L * v[1] + v[2];
+}
+
+/* The edge that an offset is about; NULL when there is none. */
+const drogue_ray_edge *chosen(const drogue_ray &r, Real at, Real within)
+{
+    const drogue_ray_edge *best = nullptr;
+    Real most = 0;
+    for (uint32_t i = 0; i < r.count; i++) {
+        const Real room = within - std::fabs(real(r.edges[i].at_px_q16) - at);
+        if (room > 0 && room * r.edges[i].slope_q8 > most) {
+            most = room * r.edges[i].slope_q8;
+            best = &r.edges[i];
+        }
+    }
+    return best;
+}
+
+void add_ray(Sums &s, const drogue_ray &r, Real weight, Real off)
+{
+    const cv::Vec3d row(r.nx_q14 / 16384.0, r.ny_q14 / 16384.0, 1);
+    s.normal += static_cast<double>(weight) * (row * row.t());
+    s.right += static_cast<double>(weight * off) * row;
+    s.squares += off * off;
+    s.rays++;
+}
+
 void add_rays(Sums &s, const Rays &rays, const Offset &v, Real within, bool by_slope)
 {
     for (size_t k = 0; k < rays.size(); k++) {
-        const drogue_ray &r = rays[k];
-        const cv::Vec3d row(r.nx_q14 / 16384.0, r.ny_q14 / 16384.0, 1);
-        const Real at = row[0] * v[0] + row[1] * v[1] + v[2];
-        const drogue_ray_edge *best = nullptr;
-        Real most = 0;
-        for (uint32_t i = 0; i < r.count; i++) {
-            const Real room = within - std::fabs(real(r.edges[i].at_px_q16) - at);
-            if (room > 0 && room * r.edges[i].slope_q8 > most) {
-                most = room * r.edges[i].slope_q8;
-                best = &r.edges[i];
-            }
-        }
+        const Real at = along(rays[k], v);
+        const drogue_ray_edge *best = chosen(rays[k], at, within);
         if (best != nullptr) {
             const Real off = real(best->at_px_q16) - at;
             const int grey =
                 std::min(best->slope_q8 / (DROGUE_RAY_WEIGHT * 256), 254) + 1; /* whole levels, by definition */
             const Real weight = by_slope ? grey * grey : 1;
-            s.normal += static_cast<double>(weight) * (row * row.t());
-            s.right += static_cast<double>(weight * off) * row;
-            s.squares += off * off;
+            add_ray(s, rays[k], weight, off);
             s.slopes += best->slope_q8;
             s.levels += best->level_q8;
-            s.rays++;
             s.bin[k / 4] += weight * off;
             s.bin_weight[k / 4] += weight;
         }
@@ -74,11 +92,107 @@ bool solve(Offset &v, const Sums &s, bool size)
 Rays cast(const drogue_image &view, const drogue_ellipse &e, drogue_q16 reach, int phase, int least)
 {
     Rays rays;
-    drogue_rays_cast(rays.data(), &view, &e, reach, phase, 0, least);
+    drogue_rays_cast(rays.data(), &view, &e, reach, phase, least);
     return rays;
 }
 
 Real rms_of(const Sums &s) { return std::sqrt(s.squares / s.rays); }
+
+bool narrow(Sums &s, Offset &v, Real &within, const Rays &rays)
+{
+    for (int round = 0; round < 3; round++) {
+        s = Sums();
+        add_rays(s, rays, v, within, false);
+        if (!solve(v, s, true)) {
+            return false;
+        }
+        within = std::max<Real>(0.25, std::min(3 * rms_of(s), within));
+    }
+    return true;
+}
+
+/* Grey about an edge: half a pixel apart from 3.5 to 4 px within it outwards. */
+using Profile = std::array<int32_t, 13>;
+Real begin_of(Real at) { return std::floor(2 * (at - 3.5L)) / 2; } /* a multiple of the distance of samples */
+
+Profile profile_of(const drogue_ray &r, const drogue_image &view, Real at)
+{
+    Profile p;
+    drogue_ray_read(p.data(), &r, &view, reference::q16(begin_of(at)), static_cast<int32_t>(p.size()));
+    return p;
+}
+
+/* Grey of the disc as a plane over the normal, and the rise above it to the level looked for. */
+struct Shade {
+    Offset dark = {0, 0, 0};
+    Real rise = 0;
+};
+
+Real median_of(std::vector<Real> v)
+{
+    std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+    return v[v.size() / 2];
+}
+
+bool find_shade(Shade &out, const Rays &rays, const drogue_image &view, const Offset &v, Real within)
+{
+    struct Seen {
+        const drogue_ray *ray;
+        Real dark, beyond;
+    };
+    std::vector<Seen> seen;
+    for (const drogue_ray &r : rays) {
+        const Real at = along(r, v);
+        if (chosen(r, at, within) != nullptr) {
+            const Profile p = profile_of(r, view, at);
+            const Real part = 2 * (at - 3.5L - begin_of(at));
+            seen.push_back({&r, (p[0] + (p[4] - p[0]) * part + p[1] + p[2] + p[3]) / 1024,
+                            (p[11] + (p[12] - p[11]) * part) / 256});
+        }
+    }
+    Real room = 256;
+    Sums s;
+    for (int round = 0; round < 4; round++) {
+        s = Sums();
+        for (const Seen &at : seen) {
+            const Real off = at.dark - along(*at.ray, out.dark);
+            if (std::fabs(off) <= room) {
+                add_ray(s, *at.ray, 1, off);
+            }
+        }
+        if (!solve(out.dark, s, true)) {
+            return false;
+        }
+        room = std::max<Real>(2, 2 * rms_of(s));
+    }
+    const Real change = out.dark[0] * out.dark[0] + out.dark[1] * out.dark[1];
+    const Real kept = change > 0 ? change / (change + 50 * s.squares / s.rays / s.rays) : 0;
+    out.dark[0] *= kept;
+    out.dark[1] *= kept;
+    std::vector<Real> rises;
+    for (const Seen &at : seen) {
+        rises.push_back(at.beyond - along(*at.ray, out.dark));
+    }
+    out.rise = median_of(rises) / 4;
+    return out.rise > 0;
+}
+
+/* Where the grey passes the level, as the rays' edges. */
+void cross(Rays &rays, const drogue_image &view, const Shade &shade, const Offset &v)
+{
+    for (drogue_ray &r : rays) {
+        const Real at = along(r, v), level = 256 * (along(r, shade.dark) + shade.rise);
+        const Profile p = profile_of(r, view, at);
+        r.count = 0;
+        for (size_t i = 3; i <= 9; i++) {
+            if (p[i] < level && p[i + 1] >= level && r.count < DROGUE_RAY_EDGES) {
+                const Real step = p[i + 1] - p[i];
+                r.edges[r.count++] = {reference::q16(begin_of(at) + (static_cast<Real>(i) + (level - p[i]) / step) / 2),
+                                      static_cast<int32_t>(DROGUE_RAY_WEIGHT * 2 * step), p[i]};
+            }
+        }
+    }
+}
 
 } // namespace
 
@@ -112,30 +226,40 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     if (steepest == 0) {
         return out;
     }
+    const auto whole = [](Real v) { return static_cast<drogue_q16>(std::floor(256 * v + 0.5L)) * 256; };
     drogue_ellipse at = expected.disc[out.which];
-    at.xc_px_q16 += reference::q16(first[0]);
-    at.yc_px_q16 += reference::q16(first[1]);
-    at.a_px_q16 += reference::q16(first[2]);
-    at.b_px_q16 += reference::q16(first[2]);
+    at.xc_px_q16 = whole(real(at.xc_px_q16) + first[0]);
+    at.yc_px_q16 = whole(real(at.yc_px_q16) + first[1]);
+    at.a_px_q16 += whole(first[2]);
+    at.b_px_q16 += whole(first[2]);
     if (at.b_px_q16 < 65536) {
         return out;
     }
     const int phases = std::min(std::max(at.a_px_q16 / (10 * 65536), 1), 8);
-    const Rays rays = cast(view, at, 0, 4, least);
+    Rays rays = cast(view, at, 0, 4, least);
     Offset v = {0, 0, 0};
+    Shade shade;
     Sums s;
     Real within = 1.5;
-    for (int round = 0; round < 3; round++) {
-        s = Sums();
-        add_rays(s, rays, v, within, false);
-        if (!solve(v, s, true)) {
-            return out;
-        }
-        within = std::max<Real>(0.25, std::min(3 * rms_of(s), within));
+    if (!narrow(s, v, within, rays) || !find_shade(shade, rays, view, v, within)) {
+        return out;
+    }
+    const auto grey = [&](Real sum, Real per) {
+        return static_cast<int>(std::min<Real>(255, std::floor(sum / (s.rays * per) + 0.5L)));
+    };
+    out.contrast = grey(s.slopes, DROGUE_RAY_WEIGHT * 256);
+    out.level = grey(s.levels, 256);
+    const Real size = v[2];
+    cross(rays, view, shade, v);
+    within = 1.5;
+    if (!narrow(s, v, within, rays)) {
+        return out;
     }
     s = Sums();
     for (int k = 0; k < phases; k++) {
-        add_rays(s, cast(view, at, 0, (8 * k + 4) / phases % 8, least), v, within, true);
+        drogue_rays_aim(rays.data(), &at, (8 * k + 4) / phases % 8);
+        cross(rays, view, shade, {v[0], v[1], size});
+        add_rays(s, rays, v, within, true);
     }
     Real scatter = 0;
     int bins = 0;
@@ -154,13 +278,16 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     out.rms = rms_of(s);
     out.x = real(at.xc_px_q16) + v[0];
     out.y = real(at.yc_px_q16) + v[1];
-    out.grown = real(reference::q16(first[2])) + v[2];
-    out.rays = (s.rays + phases / 2) / phases;
-    const auto grey = [&](Real sum, Real per) {
-        return static_cast<int>(std::min<Real>(255, std::floor(sum / (s.rays * per) + 0.5L)));
+    out.grown = real(whole(first[2])) + v[2] + 0.45L;
+    const auto away = [&](const drogue_ellipse &e) {
+        return std::hypot(out.x - real(e.xc_px_q16), out.y - real(e.yc_px_q16));
     };
-    out.contrast = grey(s.slopes, DROGUE_RAY_WEIGHT * 256);
-    out.level = grey(s.levels, 256);
+    const drogue_ellipse &reached = expected.disc[out.which], &other = expected.disc[1 - out.which];
+    if (expected.count == 2 && away(other) < away(reached)) {
+        out.which = 1 - out.which;
+        out.grown += real(reached.a_px_q16) - real(other.a_px_q16);
+    }
+    out.rays = (s.rays + phases / 2) / phases;
     return out;
 }
 

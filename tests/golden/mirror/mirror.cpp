@@ -137,20 +137,16 @@ drogue_inner_expected expect(const Result &out, const Frame &f, const std::array
              drogue_outline_undistorted(&ideal, &f.decided, &f.front->workspace, &f.front->list, &setup, out.region.x,
                                         out.region.y) == DROGUE_OK) &&
             drogue_pose_from_ellipse(poses, &ideal, &camera, model.rim_radius_m_q16) == DROGUE_OK) {
-            drogue_inner_expect(&expected, &rim, poses, &setup, out.region.x, out.region.y);
+            drogue_inner_expect(&expected, poses, &setup, out.region.x, out.region.y);
         }
         return expected;
     }
     for (const Pose &pose : pair) {
         Ellipse e;
-        Point at;
-        if (reference::disc_image(e, pose, task.camera, task.model) != reference::Solved::ok || e.a < 1) {
-            continue;
-        }
-        at = {e.xc, e.yc};
-        if (reference::distort(task.camera, at)) {
+        if (reference::disc_image(e, pose, task.camera, task.model) == reference::Solved::ok && e.b >= 1 &&
+            reference::distort(task.camera, e)) {
             expected.disc[expected.count++] =
-                rounded_ellipse({at.x - out.region.x, at.y - out.region.y, e.a, e.b, out.outline.ellipse.angle, true});
+                rounded_ellipse({e.xc - out.region.x, e.yc - out.region.y, e.a, e.b, e.angle, true});
         }
     }
     return expected;
@@ -171,17 +167,22 @@ void find_inner(Result &out, Ellipse &expected, const Frame &f, const std::array
     }
 }
 
-/* Of about the expected size, near the expected place, not cut by the rim, and seen by enough rays? */
+Real room_of(const Ellipse &expected, const drogue_config &config)
+{
+    return real(config.inner_size_px_q16) + real(config.inner_size_q16) * expected.a;
+}
+
+/* Of about the expected size or larger, near the expected place, not cut by the rim, and seen by enough rays? */
 bool trust(const Result &out, const Ellipse &expected, const drogue_config &config)
 {
     const Ellipse &rim = out.outline.ellipse;
     const Real c = std::cos(rim.angle), s = std::sin(rim.angle), dx = out.part.x - rim.xc, dy = out.part.y - rim.yc;
     const Real u = (dx * c + dy * s) / rim.a, v = (dy * c - dx * s) / rim.b, room = 1 - expected.a / rim.b;
     const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * rim.a;
-    const Real size = real(config.inner_size_px_q16) + real(config.inner_size_q16) * expected.a;
+    const Real size = room_of(expected, config);
     return out.part.contrast >= config.min_inner_contrast && out.area >= config.min_inner_area_px &&
            static_cast<Real>(out.part.rays) >= real(config.min_inner_cover_q16) * DROGUE_RAYS &&
-           out.part.rms <= real(config.inner_rms_px_q16) && std::fabs(out.part.grown) <= size &&
+           out.part.rms <= real(config.inner_rms_px_q16) && out.part.grown >= -size &&
            std::hypot(out.part.x - expected.xc, out.part.y - expected.yc) <= gate && room > 0 &&
            std::hypot(u, v) <= room;
 }
@@ -328,6 +329,8 @@ Real judge(Result &out, Features &from, const Frame &f, const Task &task, const 
             from.inner = {out.inner, inner_std(out, expected, task.config)};
             from.placed = reference::undistort(camera, from.inner.at);
             from.trusted = from.trusted && from.placed;
+            out.too_large = from.trusted && out.part.grown > room_of(expected, task.config);
+            from.trusted = from.trusted && !out.too_large;
         }
         doubt = !from.trusted ? 1 : std::fabs(out.part.grown) <= 0.5L ? 0 : std::fabs(out.part.grown) / expected.a;
     }
@@ -395,13 +398,20 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
                 return best;
             }
         }
-        if (doubt < least) {
+        if (doubt < least - 1 / 256.0L) {
             least = doubt;
             best = out;
             if (features != nullptr) {
                 *features = from;
             }
         }
+    }
+    if (best.status == DROGUE_OK && best.too_large) {
+        Result refused;
+        refused.status = DROGUE_E_NO_ELLIPSE;
+        refused.region = best.region;
+        refused.outline.arcs.fill(DROGUE_NO_ARC);
+        return refused;
     }
     return best;
 }

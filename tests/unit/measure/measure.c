@@ -130,6 +130,31 @@ START_TEST(drawn_drogues)
 }
 END_TEST
 
+START_TEST(a_disc_too_large_refuses_the_outline)
+{
+    test_workspace t = usual_workspace();
+    drogue_model smaller = model; /* what is drawn is its canopy's inner edge: the rim is not in the image */
+    drogue_config config;
+    drogue_result r;
+    scene s = usual;
+    s.yaw = s.pitch = 0.02; /* seen from ahead the disc's place says nothing */
+    s.position[0] = s.position[1] = 0;
+    draw(&s);
+    drogue_config_default(&config);
+    ck_assert_int_eq(measure(&r, &t, &config, &model, &whole), DROGUE_OK);
+    ck_assert_int_eq(r.has_inner, 1);
+    smaller.inner_radius_m_q16 = q16_of(0.2 * 0.87);
+    smaller.inner_depth_m_q16 = q16_of(0.25);
+    ck_assert_int_eq(measure(&r, &t, &config, &smaller, &whole), DROGUE_E_NO_ELLIPSE);
+    ck_assert_int_eq(r.ellipse.a_px_q16, 0);
+    ck_assert_int_eq(r.has_inner, 0);
+    smaller.inner_radius_m_q16 = q16_of(0.2 * 1.3); /* too small a disc may be another thing: not believed */
+    ck_assert_int_eq(measure(&r, &t, &config, &smaller, &whole), DROGUE_OK);
+    ck_assert_int_eq(r.has_inner, 0);
+    test_workspace_free(&t);
+}
+END_TEST
+
 START_TEST(without_inner_part)
 {
     test_workspace t = usual_workspace();
@@ -691,8 +716,8 @@ START_TEST(capacity_by_macro_is_capacity_by_function)
 }
 END_TEST
 
-SUITE_MAIN("measure", drawn_drogues, without_inner_part, regions_of_one_image, ring_of_a_clipped_region, arguments,
-           regions_that_miss, full_tables, nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide,
-           inner_part_that_contradicts, covariance_of_the_result, off_centre_region, second_look_that_fails,
-           second_look_is_told, background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
-           capacity_by_macro_is_capacity_by_function)
+SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline, without_inner_part, regions_of_one_image,
+           ring_of_a_clipped_region, arguments, regions_that_miss, full_tables, nothing_to_measure,
+           geometry_out_of_range, inner_part_that_cannot_decide, inner_part_that_contradicts, covariance_of_the_result,
+           off_centre_region, second_look_that_fails, second_look_is_told, background_across_the_canopys_grey,
+           outline_across_a_fold, version_is_the_macros, capacity_by_macro_is_capacity_by_function)

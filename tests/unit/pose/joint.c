@@ -331,12 +331,12 @@ START_TEST(what_cannot_be_solved)
 }
 END_TEST
 
-/* Image of the inner disc: centre as computed in double, semi-axes to first order. */
+/* Image of the inner disc as computed in double. */
 START_TEST(image_of_the_inner_disc)
 {
     const field f = usual_field();
     uint64_t rng = 10;
-    double centre = 0, size = 0;
+    double centre = 0, size = 0, outline = 0;
     int i, k, seen = 0;
     for (i = 0; i < 5000; i++) {
         const pose_real p = random_pose(&rng, 0.5);
@@ -357,11 +357,14 @@ START_TEST(image_of_the_inner_disc)
         centre = fmax(centre, hypot(real_of_q16(got.xc_px_q16) - e.xc, real_of_q16(got.yc_px_q16) - e.yc) /
                                   (1 + 1500 / p.v[2]) * 65536);
         size = fmax(size, fmax(fabs(real_of_q16(got.a_px_q16) / e.a - 1), fabs(real_of_q16(got.b_px_q16) / e.b - 1)));
+        /* and with its angle: what is off along the outline, as a share */
+        outline = fmax(outline, fabs(sin(real_of_q16(got.angle_rad_q16) - e.angle)) * (1 - e.b / e.a));
         seen++;
     }
     ck_assert_int_gt(seen, 4500);
     MUST(centre < 2, "centre off by %g LSB", centre);
-    MUST(size < 0.15, "size off by a share of %g", size);
+    MUST(size < 2e-5, "size off by a share of %g", size);
+    MUST(outline < 2e-5, "turned by a share of %g", outline);
 }
 END_TEST
 

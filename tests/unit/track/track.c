@@ -61,6 +61,7 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.process_step_q16, q16_of(6));
     ck_assert_int_eq(c.lasting_share_q16, q16_of(0.75));
     ck_assert_uint_eq(c.known_frames, 25);
+    ck_assert_int_eq(c.min_reliability_q16, 0);
 }
 END_TEST
 
@@ -92,6 +93,8 @@ START_TEST(each_limit)
     LIMIT(process_step_q16, DROGUE_Q16_ONE, DROGUE_Q16_ONE - 1);
     LIMIT(lasting_share_q16, 0, -1);
     LIMIT(lasting_share_q16, DROGUE_Q16_ONE, DROGUE_Q16_ONE + 1);
+    LIMIT(min_reliability_q16, 0, -1);
+    LIMIT(min_reliability_q16, DROGUE_Q16_ONE, DROGUE_Q16_ONE + 1);
     LIMIT(start_rate_std_q16, 0, -1);
     LIMIT(start_accel_std_q16, 0, -1);
     c.max_missed = c.reconsider_frames = 0;

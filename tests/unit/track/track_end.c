@@ -26,6 +26,23 @@ START_TEST(an_outlier_is_refused)
 }
 END_TEST
 
+/* A measurement below the least reliability neither starts nor corrects a track. */
+START_TEST(an_unreliable_one_counts_as_missed)
+{
+    drogue_result hit = seen(0.2, -0.1, 12, 0.1, 0.05), weak = seen(0.21, -0.1, 12, 0.1, 0.05);
+    drogue_track t = new_track();
+    t.config.min_reliability_q16 = hit.quality.reliability_q16 = DROGUE_Q16(6, 10);
+    weak.quality.reliability_q16 = hit.quality.reliability_q16 - 1;
+    ck_assert_int_eq(step(&t, &weak), DROGUE_LOST);
+    ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING);
+    ck_assert_int_eq(step(&t, &weak), DROGUE_COASTING);
+    ck_assert_uint_eq(t.missed, 1);
+    ck_assert_int_eq(t.gated, 0);
+    must_be_at(&t, 0.2, -0.1, 12, 0.001);
+    ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING);
+}
+END_TEST
+
 /* Half an outline that its region cut, 4 to 8 px off with the small covariance of its own edge points, comes while the track
  * is uncertain: in its first frames, or after some without the drogue. It may be believed, but not so much that the true
  * drogue is refused after it. */
@@ -333,7 +350,8 @@ START_TEST(ten_thousand_frames)
 }
 END_TEST
 
-SUITE_MAIN("track_end", an_outlier_is_refused, a_cut_outline_does_not_lock_the_drogue_out,
-           what_noise_allows_is_believed, correlation_counts, lateral_errors_follow_depth, a_true_jump_is_followed,
-           outliers_that_disagree_are_not_followed, coasting_grows_and_never_breaks,
-           standard_deviations_are_those_of_the_measurement, nothing_locks_it_up, ten_thousand_frames)
+SUITE_MAIN("track_end", an_outlier_is_refused, an_unreliable_one_counts_as_missed,
+           a_cut_outline_does_not_lock_the_drogue_out, what_noise_allows_is_believed, correlation_counts,
+           lateral_errors_follow_depth, a_true_jump_is_followed, outliers_that_disagree_are_not_followed,
+           coasting_grows_and_never_breaks, standard_deviations_are_those_of_the_measurement, nothing_locks_it_up,
+           ten_thousand_frames)
