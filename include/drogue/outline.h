@@ -38,6 +38,16 @@ typedef struct drogue_collection {
     int frac_bits; /* 0 .. 10 */
 } drogue_collection;
 
+/* Edges of one sense beside a bin of the outline: sums. */
+typedef struct drogue_pull_side {
+    int64_t off_px_q16; /* distances */
+    int64_t off_q24;    /* the same in semi-axes */
+    uint64_t gradient;  /* |gx| + |gy| */
+    uint32_t points;    /* in these sums */
+} drogue_pull_side;
+
+#define DROGUE_PULL_SIDES 3 /* within, beyond, and the outline's own */
+
 /* What the outline stage works on, in the workspace. */
 typedef struct drogue_outline_room {
     drogue_candidate candidates[DROGUE_MAX_CANDIDATES];
@@ -46,6 +56,7 @@ typedef struct drogue_outline_room {
     drogue_support support; /* of that */
     drogue_outline trial;   /* being refined */
     drogue_outline best;    /* of those so far, when a larger one is looked for */
+    drogue_pull_side sides[DROGUE_SUPPORT_BINS][DROGUE_PULL_SIDES]; /* when all that has served */
 } drogue_outline_room;
 
 /* With the four bytes that alignment may take. */

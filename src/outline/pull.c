@@ -21,14 +21,9 @@
 static const uint8_t moved_q8[17] = {205, 120, 79, 55, 38, 27, 19, 13, 9, 7, 4, 3, 2, 1, 1, 1, 0};
 
 /* A bin's edges: its own, and the opposite ones within and beyond. */
-enum { INSIDE, OUTSIDE, OWN, SIDES };
+enum { INSIDE, OUTSIDE, OWN, SIDES = DROGUE_PULL_SIDES };
 
-typedef struct side {
-    int64_t off_px_q16; /* sums of distances, */
-    int64_t off_q24;    /* of the same in semi-axes */
-    uint64_t gradient;  /* and of |gx| + |gy| */
-    uint32_t points;
-} side;
+typedef drogue_pull_side side;
 
 /* By how much equal edges at a distance move each other, px Q16. */
 static int32_t moved_px_q16(int32_t half_px_q16, int32_t blur_px_q16)
@@ -80,8 +75,8 @@ static int32_t push_q24(const side *s, const side *own, int32_t blur_px_q16)
     return (int32_t)drogue_div_round_s64(moved * s->off_q24, s->off_px_q16);
 }
 
-void drogue_outline_pull(drogue_support *support, const drogue_ellipse *fitted, const drogue_edge *edges,
-                         uint32_t count, const drogue_config *config)
+void drogue_outline_pull(drogue_support *support, side sides[DROGUE_SUPPORT_BINS][SIDES], const drogue_ellipse *fitted,
+                         const drogue_edge *edges, uint32_t count, const drogue_config *config)
 {
     const uint64_t optics2_q32 = drogue_square_sum(config->optics_blur_px_q16, 0);
     const drogue_q16 blur = (drogue_q16)drogue_isqrt_u64(
@@ -91,7 +86,6 @@ void drogue_outline_pull(drogue_support *support, const drogue_ellipse *fitted, 
         drogue_band_of(wide > DROGUE_Q16(8, 1) ? DROGUE_Q16(8, 1) : (drogue_q16)wide, config->refit_cos_q16);
     const int32_t least = (int32_t)((int64_t)blur * NEAREST / 8);
     const uint32_t stride = count / LOOKS + 1;
-    side sides[DROGUE_SUPPORT_BINS][SIDES];
     int64_t sum_q54[5] = {0, 0, 0, 0, 0};
     drogue_ellipse_frame frame;
     band_reach reach;
@@ -101,7 +95,7 @@ void drogue_outline_pull(drogue_support *support, const drogue_ellipse *fitted, 
     if (support->points == 0 || drogue_ellipse_frame_of(&frame, fitted) != DROGUE_OK) {
         return;
     }
-    memset(sides, 0, sizeof sides);
+    memset(sides, 0, DROGUE_SUPPORT_BINS * sizeof sides[0]);
     reach = reach_of(&frame, &band);
     for (k = 0; k < count; k += stride) { /* bound: LOOKS */
         const drogue_edge *e = &edges[k];
