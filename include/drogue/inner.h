@@ -99,8 +99,10 @@ typedef struct drogue_inner_edge {
     uint8_t contrast;        /* mean step of grey across the edge */
 } drogue_inner_edge;
 
-/* Measure the disc by its edge: where the grey rises fastest along rays across the ellipse that a pose expects, and a fit
- * of place and size to the rays that agree. Ribs, a wall or a probe that touch the disc cost rays, not place.
+/* Measure the disc by its edge along rays across the ellipse that a pose expects: where the grey rises fastest says which
+ * rays see it, where it has risen by a quarter of the usual step above the disc's own where it is and how large, by a fit of
+ * place and size to the rays that agree. Ribs, a wall or a probe that touch the disc cost rays, not place; a ring about it or
+ * light from one side hardly move what is dark.
  *
  *  out      the expected disc whose rays agree with the steepest edges; zero on failure
  *  rays     work area; the workspace has one

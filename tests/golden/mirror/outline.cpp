@@ -451,7 +451,7 @@ void find_pull(Outline &o, const FrontEnd &front, const drogue_config &config, c
     }
     const std::vector<BandPoint> points =
         collect(o.fitted, {width, real(config.refit_cos_q16)}, front, follow.library != nullptr ? &library : nullptr);
-    const size_t stride = points.size() / 1024 + 1;
+    const size_t stride = points.size() / 512 | 1;
     for (size_t i = 0; i < points.size(); i += stride) {
         const BandPoint &p = points[i];
         if (!p.held || p.f == 0) {
@@ -461,7 +461,7 @@ void find_pull(Outline &o, const FrontEnd &front, const drogue_config &config, c
         const Real r = std::sqrt(1 + p.f), off = std::fabs(1 - r);
         const Real px = off * r * 2 * (p.past_width + width) / std::fabs(p.f); /* |f| / 2n is the distance in px */
         Side &side = sides[static_cast<size_t>(p.bin)][own ? mine : p.f > 0 ? outside : inside];
-        if (own != (px >= blur * 14 / 8)) {
+        if (own ? std::fabs(p.f) * o.fitted.b < blur * 28 / 8 : px >= blur * 14 / 8) {
             side.px += px;
             side.off += off;
             side.gradient += std::fabs(front.edges[i].gx) + std::fabs(front.edges[i].gy);

@@ -6,7 +6,7 @@
 
 static drogue_pull_side sides[DROGUE_SUPPORT_BINS][DROGUE_PULL_SIDES];
 
-enum { ROUND = 400 };
+enum { ROUND = 800 }; /* points round the outline, more than are looked at; each with its opposite one beside it */
 
 static drogue_edge edges[2 * ROUND];
 

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Inside the inner stage: least squares over rays, for place and size or a plane of grey. */
+#ifndef DROGUE_FIT_H
+#define DROGUE_FIT_H
+
+#include "drogue/cholesky.h"
+#include "drogue/rays.h"
+
+#define RAYS DROGUE_RAYS
+#define BINS (RAYS / 4)
+#define FEWEST 8 /* rays that determine place and size with something to spare */
+
+/* Sums of least squares over rays, each weighted by its squared slope, as noise asks for. */
+typedef struct drogue_ray_sums {
+    int64_t normal[6];   /* Q28 */
+    int64_t right[3];    /* Q30 */
+    int64_t squares_q16; /* of the residuals, not weighted */
+    int64_t slopes_q8;
+    int64_t levels_q8;
+    uint32_t rays;
+    int64_t bin_q16[BINS]; /* weighted residuals of four neighbours, of all phases together: they see one edge */
+    int64_t bin_weight[BINS];
+} drogue_ray_sums;
+
+/* Where an offset puts the edge on a ray. */
+drogue_q16 drogue_ray_along(const drogue_ray *r, const drogue_q16 v_px_q16[3]);
+
+/* Index of the edge that an offset is about: the steeper and the nearer the better; -1 when none is within the
+ * tolerance. */
+int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogue_q16 within_px_q16);
+
+/* Add what a ray says, 'off' from what is known. */
+void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int64_t weight, int64_t off_q16);
+
+/* Add the edges that agree with an offset. */
+void drogue_ray_sums_add_edges(drogue_ray_sums *s, const drogue_ray rays[RAYS], const drogue_q16 v_px_q16[3],
+                               drogue_q16 within_px_q16, int by_slope);
+
+/* Solve for the offset: 'size' 0 leaves the size as it is. 'normal' becomes the root of the normal equations. 0 when there
+ * are too few rays. */
+int drogue_ray_sums_solve(drogue_q16 v_px_q16[3], drogue_real normal[6], const drogue_ray_sums *s, int size);
+
+/* Root mean square of the residuals. */
+drogue_q16 drogue_ray_sums_rms(const drogue_ray_sums *s);
+
+static inline drogue_q16 larger(drogue_q16 a, drogue_q16 b) { return a > b ? a : b; }
+
+#endif
