@@ -65,7 +65,7 @@ static void add(side sides[SIDES], const drogue_ellipse_frame *frame, const band
     const uint32_t gradient = (uint32_t)(e->gx < 0 ? -e->gx : e->gx) + (uint32_t)(e->gy < 0 ? -e->gy : e->gy);
     if (!own) {
         add_opposite(sides, frame, p, gradient, least_px_q16);
-    } else if (form_px_q16(frame, f_q24_of(frame, p->f_b_px_q16)) < 2 * least_px_q16) {
+    } else if ((p->f_b_px_q16 < 0 ? -p->f_b_px_q16 : p->f_b_px_q16) < 2 * least_px_q16) {
         sides[OWN].gradient += gradient;
         sides[OWN].points++;
     }
