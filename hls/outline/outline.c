@@ -138,7 +138,7 @@ void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_co
     static drogue_edge edge_memory[DROGUE_HLS_EDGES];
     static drogue_arc arc_memory[DROGUE_HLS_ARCS];
     static drogue_point hull[DROGUE_HULL_MAX];
-    static drogue_candidate candidates[DROGUE_MAX_CANDIDATES];
+    static drogue_outline_room room;
     drogue_workspace workspace;
     drogue_hls_parameters p;
     drogue_edge_list list;
@@ -162,7 +162,7 @@ void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_co
         workspace.edges = edge_memory;
         workspace.arcs = arc_memory;
         workspace.hull = hull;
-        workspace.candidates = candidates;
+        workspace.outline = &room;
         status = found = drogue_outline_find(&f.outline, &workspace, &list, &p.mask, &p.config);
     }
     if (status == DROGUE_OK && p.larger && !drogue_outline_enlarge(&f.outline, &workspace, &list, &p.mask, &p.config)) {

@@ -39,29 +39,38 @@ static inline void drogue_long_sum_add(drogue_long_sum *sum, int64_t product)
     sum->low += (uint32_t)product;
 }
 
-/* Add one point; x and y in [-32768, 32767], in units of the caller's choice. */
-static inline void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
+/* Add a point 'times' times, 1 or -1: what was added can be taken out again. x and y in [-32768, 32767], in units of the
+ * caller's choice. */
+static inline void drogue_moments_count_point(drogue_moments *m, int32_t x, int32_t y, int32_t times)
 {
     const int32_t xx = x * x; /* at most 2^30 */
     const int32_t xy = x * y;
     const int32_t yy = y * y;
+    const int32_t own_xx = times * xx;
+    const int32_t own_xy = times * xy;
+    const int32_t own_yy = times * yy;
     DROGUE_NOTE("ellipse: x", x, 16);
     DROGUE_NOTE("ellipse: y", y, 16);
-    m->n++;
-    m->m10 += x;
-    m->m01 += y;
-    m->m20 += xx;
-    m->m11 += xy;
-    m->m02 += yy;
-    m->m30 += (int64_t)xx * x;
-    m->m21 += (int64_t)xx * y;
-    m->m12 += (int64_t)yy * x;
-    m->m03 += (int64_t)yy * y;
-    drogue_long_sum_add(&m->m40, (int64_t)xx * xx);
-    drogue_long_sum_add(&m->m31, (int64_t)xx * xy);
-    drogue_long_sum_add(&m->m22, (int64_t)xx * yy);
-    drogue_long_sum_add(&m->m13, (int64_t)xy * yy);
-    drogue_long_sum_add(&m->m04, (int64_t)yy * yy);
+    m->n += times;
+    m->m10 += times * x;
+    m->m01 += times * y;
+    m->m20 += own_xx;
+    m->m11 += own_xy;
+    m->m02 += own_yy;
+    m->m30 += drogue_product(own_xx, x);
+    m->m21 += drogue_product(own_xx, y);
+    m->m12 += drogue_product(own_yy, x);
+    m->m03 += drogue_product(own_yy, y);
+    drogue_long_sum_add(&m->m40, drogue_product(own_xx, xx));
+    drogue_long_sum_add(&m->m31, drogue_product(own_xx, xy));
+    drogue_long_sum_add(&m->m22, drogue_product(own_xx, yy));
+    drogue_long_sum_add(&m->m13, drogue_product(own_xy, yy));
+    drogue_long_sum_add(&m->m04, drogue_product(own_yy, yy));
+}
+
+static inline void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
+{
+    drogue_moments_count_point(m, x, y, 1);
 }
 
 /* Scatter matrix of the monomials 1, x, y, x^2, xy, y^2 about the points' centre, packed by rows of its lower triangle

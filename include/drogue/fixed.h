@@ -36,6 +36,21 @@ typedef char drogue_assume_wrapping_conversion_32[(int32_t)UINT32_C(0xFFFFFFFF) 
 typedef char drogue_assume_wrapping_conversion_64[(int64_t)UINT64_C(0xFFFFFFFFFFFFFFFF) == -1 ? 1 : -1];
 typedef char drogue_assume_int_32[sizeof(int) >= 4 ? 1 : -1];
 
+/* a b, exact. Armv6-M has no instruction for it, and compilers there call the product of two 64-bit numbers. */
+#ifdef __ARM_ARCH_6M__
+uint64_t drogue_product_u32(uint32_t a, uint32_t b);
+
+static inline int64_t drogue_product(int32_t a, int32_t b)
+{
+    const uint64_t p = drogue_product_u32((uint32_t)a, (uint32_t)b);
+    return (int64_t)(p - ((uint64_t)((a < 0 ? (uint32_t)b : 0u) + (b < 0 ? (uint32_t)a : 0u)) << 32));
+}
+#else
+static inline uint64_t drogue_product_u32(uint32_t a, uint32_t b) { return (uint64_t)a * b; }
+
+static inline int64_t drogue_product(int32_t a, int32_t b) { return (int64_t)a * b; }
+#endif
+
 /* Saturate to 32 bits. */
 static inline int32_t drogue_clamp_s32(int32_t v, int32_t least, int32_t most)
 {
@@ -56,9 +71,17 @@ static inline int64_t drogue_shr_round_s64(int64_t v, int n) { return n == 0 ? v
 /* |v|, defined for INT64_MIN too. */
 static inline uint64_t drogue_abs_u64(int64_t v) { return v < 0 ? (uint64_t)0 - (uint64_t)v : (uint64_t)v; }
 
-/* Leading zero bits of v; 32 (64) for 0. */
+/* Leading zero bits of v; 32 (64) for 0. By the core's instruction where the compiler has a name for it. */
+#if defined __GNUC__ && !defined __BAMBU__ && !defined __SYNTHESIS__
+static inline int drogue_clz_u32(uint32_t v) { return v == 0 ? 32 : __builtin_clz(v); }
+#else
 int drogue_clz_u32(uint32_t v);
-int drogue_clz_u64(uint64_t v);
+#endif
+
+static inline int drogue_clz_u64(uint64_t v)
+{
+    return v >> 32 != 0 ? drogue_clz_u32((uint32_t)(v >> 32)) : 32 + drogue_clz_u32((uint32_t)v);
+}
 
 /* 2^62 / d for 2^30 <= d < 2^31, from below, to 2^-29 of it: one 32-bit division and two products. */
 uint32_t drogue_reciprocal_u32(uint32_t d);

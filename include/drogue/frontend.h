@@ -41,7 +41,7 @@ typedef struct drogue_capacity {
 #define DROGUE_ROWS_BYTES(width_px)                      \
     ((size_t)(width_px) * (sizeof(drogue_merge) + 16u) + \
      DROGUE_HALF(width_px) * (5u * 2u + 3u * 4u + 4u * 4u + 32u + 4u) + 5u * 4u + 7u * 8u)
-#define DROGUE_SCRATCH_BYTES ((size_t)4608) /* that the outline, the candidates and the rays need at most */
+#define DROGUE_SCRATCH_BYTES ((size_t)6656) /* that the outline, the candidates and the rays need at most */
 
 /* Bytes of memory for a workspace: usable in a static array's size. */
 #define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                         \
@@ -52,9 +52,9 @@ typedef struct drogue_capacity {
 #define DROGUE_WORKSPACE_BYTES_FOR(side_px) \
     DROGUE_WORKSPACE_BYTES(side_px, DROGUE_EDGES_FOR(side_px), DROGUE_LABELS_FOR(side_px), DROGUE_ARCS_FOR(side_px))
 
-struct drogue_point;     /* constraints.h */
-struct drogue_candidate; /* cluster.h */
-struct drogue_ray;       /* rays.h */
+struct drogue_point;        /* constraints.h */
+struct drogue_outline_room; /* outline.h */
+struct drogue_ray;          /* rays.h */
 
 /* Line buffers, tables and lists in the caller's memory; set by drogue_workspace_init(). After a frame
  * 'edges' and 'arcs' hold its edge points and arcs; everything else is scratch. */
@@ -68,8 +68,8 @@ typedef struct drogue_workspace {
     uint32_t *arc_component;             /* labels */
     uint32_t *histogram;                 /* 256 */
     struct drogue_point *hull;           /* DROGUE_HULL_MAX, in the place of the rows below */
-    struct drogue_candidate *candidates; /* DROGUE_MAX_CANDIDATES, in the place of the hull when that has served */
-    struct drogue_ray *rays;             /* DROGUE_RAYS, there when the candidates have served */
+    struct drogue_outline_room *outline; /* in the place of the hull when that has served; aligned for int64_t */
+    struct drogue_ray *rays;             /* DROGUE_RAYS, there when the outline has served */
     drogue_merge *merges;                /* width */
     uint32_t *component_rows;            /* 2 x width */
     uint32_t *arc_rows;                  /* 2 x width */

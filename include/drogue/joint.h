@@ -19,6 +19,8 @@ extern "C" {
 typedef struct drogue_joint_outline {
     drogue_ellipse ellipse;                    /* undistorted, px of the whole image */
     drogue_real covariance[DROGUE_PACKED_MAX]; /* of m0 .. m4, packed */
+    int32_t weight[DROGUE_PACKED_MAX];         /* its inverse in units of 2^weight_exponent */
+    int32_t weight_exponent;
 } drogue_joint_outline;
 
 /* The inner part as a measurement. */
@@ -48,6 +50,12 @@ typedef struct drogue_joint {
 drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
                                               drogue_q16 shading_q16, drogue_q16 blur_px2_q16);
 
+/* An outline's weights from its covariance: every solution uses them. drogue_joint_outline_covariance() ends with it.
+ *
+ *  return  DROGUE_OK; DROGUE_E_DEGENERATE when the covariance is not positive definite
+ */
+drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline);
+
 /* Solve for the pose.
  *
  *  out      pose, covariance, chi2; undefined on failure
@@ -56,7 +64,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
  *           less than 2^-20 rad and of the distance is the last one. 0: none at all, the start itself. Covariance and
  *           chi2 are those of the point before the last step
  *  return   DROGUE_OK; DROGUE_E_BEHIND_CAMERA (the start too); DROGUE_E_DEGENERATE; DROGUE_E_DOMAIN: farther than 2^16
- *           rim radii, rays two focal lengths off the axis, an outline two semi-axes off
+ *           rim radii, rays two focal lengths off the axis, an outline two semi-axes off, angles beyond their ranges
  *  scaling  Q30 and Q29 in 32 bits, lengths in a power of two of the rim radius that follows the distance; sums of products
  *           exact in 64 bits; normal equations with 31-bit mantissas
  *  error    pose <= 1 LSB against double

@@ -7,6 +7,7 @@
 #include "drogue/cluster.h"
 #include "drogue/config.h"
 #include "drogue/constraints.h"
+#include "drogue/ellipse.h"
 #include "drogue/frontend.h"
 #include "drogue/quality.h"
 #include "drogue/support.h"
@@ -14,9 +15,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-typedef char
-    drogue_assume_candidates_fit[DROGUE_MAX_CANDIDATES * sizeof(drogue_candidate) <= DROGUE_SCRATCH_BYTES ? 1 : -1];
 
 /* The outline of the end plane and what speaks for it. */
 typedef struct drogue_outline {
@@ -31,6 +29,38 @@ typedef struct drogue_outline {
     drogue_q16 band_px_q16;   /* half width of the band about the ellipse that they lie in */
     drogue_support support;   /* of the last fit, before the blur was put back */
 } drogue_outline;
+
+/* Moments of points, 1 / 2^frac_bits px from an origin. */
+typedef struct drogue_collection {
+    drogue_moments moments;
+    drogue_q16 x_px_q16;
+    drogue_q16 y_px_q16;
+    int frac_bits; /* 0 .. 10 */
+} drogue_collection;
+
+/* Edges of one sense beside a bin of the outline: sums. */
+typedef struct drogue_pull_side {
+    int64_t off_px_q16; /* distances */
+    int64_t off_q24;    /* the same in semi-axes */
+    uint64_t gradient;  /* |gx| + |gy| */
+    uint32_t points;    /* in these sums */
+} drogue_pull_side;
+
+#define DROGUE_PULL_SIDES 3 /* within, beyond, and the outline's own */
+
+/* What the outline stage works on, in the workspace. */
+typedef struct drogue_outline_room {
+    drogue_candidate candidates[DROGUE_MAX_CANDIDATES];
+    drogue_collection sum;  /* of the points of the arcs that were fitted last */
+    drogue_collection own;  /* of the points that belong to the ellipse looked at last */
+    drogue_support support; /* of that */
+    drogue_outline trial;   /* being refined */
+    drogue_outline best;    /* of those so far, when a larger one is looked for */
+    drogue_pull_side sides[DROGUE_SUPPORT_BINS][DROGUE_PULL_SIDES]; /* when all that has served */
+} drogue_outline_room;
+
+/* With the four bytes that alignment may take. */
+typedef char drogue_assume_outline_fits[sizeof(drogue_outline_room) + 4 <= DROGUE_SCRATCH_BYTES ? 1 : -1];
 
 /* Find the outline.
  *

@@ -18,13 +18,21 @@ typedef struct drogue_pose {
     drogue_q16 pitch_rad_q16;     /* asin(axis.y) */
 } drogue_pose;
 
+/* Is the yaw within pi and the pitch within pi / 2? */
+static inline int drogue_pose_angles_valid(const drogue_pose *p)
+{
+    return p->yaw_rad_q16 <= DROGUE_Q16_PI && p->yaw_rad_q16 >= -DROGUE_Q16_PI &&
+           p->pitch_rad_q16 <= DROGUE_Q16_HALF_PI && p->pitch_rad_q16 >= -DROGUE_Q16_HALF_PI;
+}
+
 /* Both poses that an ellipse allows.
  *
  *  out      the two poses, equal when the circle is seen head-on; their order carries no meaning
  *  ellipse  undistorted, px of the whole image
  *  camera   fx, fy, cx, cy; distortion is ignored
  *  radius   rim radius, > 0
- *  return   DROGUE_OK, DROGUE_E_DOMAIN (ellipse flat or empty, camera without focal length, position beyond Q16)
+ *  return   DROGUE_OK, DROGUE_E_DOMAIN (ellipse flat or empty, its angle beyond pi / 2, camera without focal length,
+ *           position beyond Q16)
  *  scaling  31-bit mantissas; the cone in a frame about its own axis, where its matrix is graded; no overflow
  *  error    position, axis and angles <= 4 LSB against double from the same ellipse, for a focal length of 300 px and
  *           more and a centre within 2 focal lengths of the principal point

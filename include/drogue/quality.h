@@ -9,24 +9,29 @@
 extern "C" {
 #endif
 
-/* The ellipse in the form that points are tested with; c, s are cosine and sine of its angle. */
+/* The ellipse F = 0 in the form that points are tested with; c, s are cosine and sine of its angle. */
 typedef struct drogue_ellipse_frame {
-    drogue_q16 xc_px_q16;   /* centre */
-    drogue_q16 yc_px_q16;   /* centre, downward */
-    drogue_q16 b_px_q16;    /* semi-minor axis */
-    int32_t cos_over_a_q30; /* 1/px */
-    int32_t sin_over_a_q30; /* 1/px */
-    int32_t cos_over_b_q30; /* 1/px */
-    int32_t sin_over_b_q30; /* 1/px */
-    int32_t cos_q14;        /* c */
-    int32_t sin_q14;        /* s */
-    int32_t cos_ratio_q14;  /* c * b / a */
-    int32_t sin_ratio_q14;  /* s * b / a */
+    drogue_q16 xc_px_q16;    /* centre */
+    drogue_q16 yc_px_q16;    /* centre, downward */
+    drogue_q16 b_px_q16;     /* semi-minor axis */
+    int32_t half_over_b_q31; /* 1 / (2 b), 1/px */
+    int32_t xx_q30;          /* b times the matrix of F's quadratic part, 1/px */
+    int32_t xy_q30;          /* 1/px */
+    int32_t yy_q30;          /* 1/px */
+    int32_t cos_over_a_q30;  /* 1/px */
+    int32_t sin_over_a_q30;  /* 1/px */
+    int32_t cos_over_b_q30;  /* 1/px */
+    int32_t sin_over_b_q30;  /* 1/px */
+    int32_t cos_q14;         /* c */
+    int32_t sin_q14;         /* s */
+    int32_t cos_ratio_q14;   /* c * b / a */
+    int32_t sin_ratio_q14;   /* s * b / a */
 } drogue_ellipse_frame;
 
 /* Prepare an ellipse for point tests.
  *
- *  return  DROGUE_OK; DROGUE_E_DOMAIN when b < 1 px or a < b
+ *  return  DROGUE_OK; DROGUE_E_DOMAIN when b < 1 px, a < b, a coordinate of the centre is 2^14 px or more, or the angle
+ *          beyond pi / 2
  */
 drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_ellipse *ellipse);
 
@@ -46,19 +51,6 @@ typedef struct drogue_band {
 
 /* Band of a half width in (0, 8] px and a least cosine in [0, 1]. */
 drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16);
-
-/* An edge point in an ellipse's frame. */
-typedef struct drogue_band_point {
-    int32_t u_q24;            /* along the major axis, in semi-axes */
-    int32_t v_q24;            /* along the minor axis, in semi-axes */
-    int32_t f_q24;            /* u^2 + v^2 - 1 */
-    drogue_polarity polarity; /* DARK: the gradient points outward; BRIGHT: inward */
-} drogue_band_point;
-
-/* Does an edge point belong to the outline? Position px Q16 in the ellipse's coordinates, gradient y downward.
- * 'out' is complete when it does. */
-int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
-                              drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy);
 
 /* Threshold Th_error of (10) that stands for a distance of fit_error pixels from the ellipse: 2 * fit_error / a, Q16. */
 drogue_q16 drogue_quality_threshold(const drogue_ellipse *ellipse, drogue_q16 fit_error_px_q16);

@@ -32,27 +32,19 @@ typedef struct drogue_support {
     uint32_t covered; /* bins that hold enough points, less the changes of polarity round the outline beyond none */
 } drogue_support;
 
-/* Count the edge points that belong to an ellipse, of both polarities.
- *
- *  out     counts; sums are zero
- *  stride  every stride-th edge point is looked at, >= 1
- */
-void drogue_support_count(drogue_support *out, const drogue_ellipse_frame *frame, const drogue_band *band,
-                          const drogue_edge *edges, uint32_t edge_count, uint32_t stride);
-
 /* From the counts, decide the polarity of each bin and how many bins are covered.
  *
  * A bin is covered by 0.35 points and more per pixel of its length (8-connected edges have 0.7 to 1). An outline of
- * one polarity is preferred: a mixed one loses a bin for each change of polarity round it. */
+ * one polarity is preferred: a mixed one loses a bin for each change of polarity round it.
+ *
+ *  stride  every stride-th edge point has been counted, >= 1
+ */
 void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse, drogue_polarity polarity,
                           uint32_t stride);
 
 /* The same with the bins' polarities given. */
 void drogue_support_judge_as(drogue_support *support, const drogue_ellipse *ellipse, uint32_t bright_bins,
                              uint32_t stride);
-
-/* Count a point that belongs; when its polarity is that of its bin also add it to the sums, and return 1. */
-int drogue_support_add(drogue_support *support, const drogue_band_point *point, const drogue_edge *edge);
 
 /* Covered share of the circumference, Q16. */
 static inline drogue_q16 drogue_support_cover(const drogue_support *support)
@@ -62,9 +54,6 @@ static inline drogue_q16 drogue_support_cover(const drogue_support *support)
 
 /* 1, cos t, sin t, cos 2t, sin 2t in the middle of a bin. */
 void drogue_support_basis(int64_t basis_q30[5], uint32_t k);
-
-/* Index of the bin of a direction; (0, 0) is in bin 0. */
-uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24);
 
 #ifdef __cplusplus
 }

@@ -86,6 +86,12 @@ typedef struct drogue_ellipse {
     drogue_q16 angle_rad_q16; /* of the major axis */
 } drogue_ellipse;
 
+/* Is the angle within [-pi/2, pi/2]? */
+static inline int drogue_ellipse_angle_valid(const drogue_ellipse *e)
+{
+    return e->angle_rad_q16 >= -DROGUE_Q16_HALF_PI && e->angle_rad_q16 <= DROGUE_Q16_HALF_PI;
+}
+
 /* Pixel of a row, its Sobel gradient, and the subpixel offset across the edge once that is known. */
 typedef struct drogue_slope {
     uint16_t x;   /* column */

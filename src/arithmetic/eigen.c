@@ -93,8 +93,8 @@ static int jacobi_step(drogue_real a[6], int32_t v[3][3], int p, int q, int r)
     for (k = 0; k < 3; k++) {
         const int32_t g = v[p][k];
         const int32_t h = v[q][k];
-        v[p][k] = g - upper(2 * (int64_t)by.sine_q31 * h + (int64_t)by.less_q32 * g);
-        v[q][k] = h + upper(2 * (int64_t)by.sine_q31 * g - (int64_t)by.less_q32 * h);
+        v[p][k] = g - upper(2 * drogue_product(by.sine_q31, h) + drogue_product(by.less_q32, g));
+        v[q][k] = h + upper(2 * drogue_product(by.sine_q31, g) - drogue_product(by.less_q32, h));
         DROGUE_NOTE("eigen: vector, Q30", v[p][k], 31);
     }
     return 1;
@@ -119,7 +119,7 @@ static void fix_sign(int32_t v[3])
 
 static int64_t dot_q60(const int32_t a_q30[3], const int32_t b_q30[3])
 {
-    return (int64_t)a_q30[0] * b_q30[0] + (int64_t)a_q30[1] * b_q30[1] + (int64_t)a_q30[2] * b_q30[2];
+    return drogue_product(a_q30[0], b_q30[0]) + drogue_product(a_q30[1], b_q30[1]) + drogue_product(a_q30[2], b_q30[2]);
 }
 
 /* v -= excess u for a small excess */
@@ -145,7 +145,8 @@ static void straighten(int32_t v[3][3])
     for (k = 0; k < 3; k++) {
         const int i = (k + 1) % 3;
         const int j = (k + 2) % 3;
-        v[2][k] = (int32_t)drogue_shr_round_s64((int64_t)v[0][i] * v[1][j] - (int64_t)v[0][j] * v[1][i], 30);
+        v[2][k] =
+            (int32_t)drogue_shr_round_s64(drogue_product(v[0][i], v[1][j]) - drogue_product(v[0][j], v[1][i]), 30);
     }
 }
 

@@ -20,6 +20,18 @@ static const uint32_t exp_q32[EXP_TERMS] = {2147483648u, 715827883u, 178956971u,
 static const uint32_t atan_q32[ATAN_TERMS] = {1431655765u, 858993459u, 613566757u, 477218588u, 390451572u,
                                               330382100u,  286331153u, 252645135u, 226050910u, 204522252u};
 
+#ifdef __ARM_ARCH_6M__
+uint64_t drogue_product_u32(uint32_t a, uint32_t b)
+{
+    const uint32_t mask = 0xFFFFu;
+    const uint32_t low = (a & mask) * (b & mask);
+    const uint32_t cross = (a >> 16) * (b & mask) + (low >> 16); /* below 2^32 */
+    const uint32_t other = (a & mask) * (b >> 16) + (cross & mask);
+    return (uint64_t)((a >> 16) * (b >> 16) + (cross >> 16) + (other >> 16)) << 32 | (other << 16 | (low & mask));
+}
+#endif
+
+#if !defined __GNUC__ || defined __BAMBU__ || defined __SYNTHESIS__
 int drogue_clz_u32(uint32_t v)
 {
     int n = 0;
@@ -44,17 +56,13 @@ int drogue_clz_u32(uint32_t v)
     }
     return v >> 31 == 0 ? n + 1 : n;
 }
-
-int drogue_clz_u64(uint64_t v)
-{
-    return v >> 32 != 0 ? drogue_clz_u32((uint32_t)(v >> 32)) : 32 + drogue_clz_u32((uint32_t)v);
-}
+#endif
 
 uint32_t drogue_reciprocal_u32(uint32_t d)
 {
     const uint32_t seed = 2 * (UINT32_MAX / ((d + (1u << 14)) >> 15)) + 1; /* 2^48 / d to 1.25 * 2^-16 */
-    const uint32_t error = ~(uint32_t)((uint64_t)d * seed >> 17);          /* 2 - d seed, Q31 */
-    return (uint32_t)((uint64_t)seed * error >> 17);                       /* by Newton, from below */
+    const uint32_t error = ~(uint32_t)(drogue_product_u32(d, seed) >> 17); /* 2 - d seed, Q31 */
+    return (uint32_t)(drogue_product_u32(seed, error) >> 17);              /* by Newton, from below */
 }
 
 drogue_q16 drogue_q16_from_int(int32_t v) { return drogue_sat_s32((int64_t)v * DROGUE_Q16_ONE); }
@@ -65,7 +73,7 @@ drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b) { return drogue_sat_s32((i
 
 drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b)
 {
-    return drogue_sat_s32(drogue_shr_round_s64((int64_t)a * b, 16));
+    return drogue_sat_s32(drogue_shr_round_s64(drogue_product(a, b), 16));
 }
 
 int64_t drogue_floor_div_s64(int64_t num, int64_t den)
@@ -95,18 +103,23 @@ drogue_q16 drogue_q16_div(drogue_q16 a, drogue_q16 b)
     return drogue_sat_s32(drogue_div_round_s64(num, den));
 }
 
-/* floor(sqrt(v)), a binary digit at a time. */
+/* floor(sqrt(v)) for 2^30 <= v: v times its inverse root, which is Newton's from a line within 0.09 of it. */
 static uint32_t isqrt_u32(uint32_t v)
 {
-    uint32_t root = 0;
-    uint32_t bit;
-    for (bit = UINT32_C(1) << 30; bit != 0; bit >>= 2) {
-        uint32_t trial = root + bit;
-        root >>= 1;
-        if (v >= trial) {
-            v -= trial;
-            root += bit;
-        }
+    const uint32_t v_q16 = v >> 16;
+    uint32_t inverse_q15 = 70000u - (v_q16 * 40000u >> 16);
+    uint32_t root;
+    int k;
+    for (k = 0; k < 3; k++) {
+        const uint32_t square_q14 = inverse_q15 * (inverse_q15 >> 1) >> 15;
+        inverse_q15 = (inverse_q15 >> 1) * (((3u << 30) - v_q16 * square_q14) >> 16) >> 14;
+    }
+    root = (v_q16 * inverse_q15 >> 15) + 1;
+    while (root * root > v) { /* bound: 3; what Newton and the rounding to 16 bits leave */
+        root--;
+    }
+    while (v - root * root > 2 * root) { /* bound: 4 */
+        root++;
     }
     return root;
 }
@@ -120,8 +133,8 @@ uint32_t drogue_isqrt_u64(uint64_t v)
     uint32_t root;
     uint32_t rest;
     uint32_t digit;
-    if (v >> 32 == 0) {
-        return isqrt_u32((uint32_t)v);
+    if (v == 0) {
+        return 0;
     }
     shift = drogue_clz_u64(v) & ~1;
     high = (uint32_t)((v << shift) >> 32);
@@ -131,7 +144,7 @@ uint32_t drogue_isqrt_u64(uint64_t v)
     digit = rest / root;
     rest -= digit * root;
     root = (root << 16) + digit; /* modulo 2^32, when the digit is 2^16 */
-    if ((((uint64_t)rest << 17) | (low & 0x1FFFFu)) < (uint64_t)digit * digit) {
+    if ((((uint64_t)rest << 17) | (low & 0x1FFFFu)) < drogue_product_u32(digit, digit)) {
         root--;
     }
     return root >> (shift / 2);
@@ -146,14 +159,14 @@ drogue_q16 drogue_q16_sqrt(drogue_q16 v)
     }
     square = (uint64_t)v << 16;
     root = drogue_isqrt_u64(square);
-    if (square - (uint64_t)root * root > root) {
+    if (square - drogue_product_u32(root, root) > root) {
         root++; /* square > (root + 1/2)^2 */
     }
     return (drogue_q16)root;
 }
 
 /* Upper word of a product. */
-static uint32_t upper(uint32_t a, uint32_t b) { return (uint32_t)((uint64_t)a * b >> 32); }
+static uint32_t upper(uint32_t a, uint32_t b) { return (uint32_t)(drogue_product_u32(a, b) >> 32); }
 
 /* c[0] - c[1] x + c[2] x^2 - ... to c[last], by Horner's rule, Q32. */
 static uint32_t alternating(const uint32_t *c, int last, uint32_t x)
@@ -169,7 +182,7 @@ static uint32_t alternating(const uint32_t *c, int last, uint32_t x)
 /* atan(num / den) for num <= den tan(pi / 8), 2^30 <= den < 2^31; Q32 */
 static uint32_t atan_of_ratio(uint32_t num, uint32_t den)
 {
-    const uint32_t z = (uint32_t)((uint64_t)num * drogue_reciprocal_u32(den) >> 30);
+    const uint32_t z = (uint32_t)(drogue_product_u32(num, drogue_reciprocal_u32(den)) >> 30);
     const uint32_t z2 = upper(z, z);
     return z - upper(z, upper(z2, alternating(atan_q32, ATAN_TERMS - 1, z2)));
 }

@@ -2,36 +2,41 @@
 /* Software floating point with mantissas of 31 bits. */
 #include "drogue/real.h"
 
-/* v * 2^(exponent - 32), |v| at least 2^62: the upper word, rounded. */
-static inline void put_upper(drogue_real *out, int64_t v, int32_t exponent)
+/* v * 2^exponent, normalised and rounded: the upper of two words that begin with it. */
+static void put(drogue_real *out, int64_t v, int32_t exponent)
 {
-    int32_t mantissa = (int32_t)((uint32_t)((uint64_t)v >> 32) + ((uint32_t)v >> 31));
+    uint32_t high = (uint32_t)((uint64_t)v >> 32);
+    uint32_t low = (uint32_t)v;
+    uint32_t magnitude = high ^ (0u - (high >> 31)); /* one too small for negative numbers */
+    int32_t mantissa;
+    if (magnitude >> 30 == 0) {
+        int shift;
+        if (magnitude == 0) { /* a word more */
+            if (v == 0) {
+                out->mantissa = 0;
+                out->exponent = 0;
+                return;
+            }
+            high = high << 31 | low >> 1;
+            low <<= 31;
+            magnitude = high ^ (0u - (high >> 31));
+            exponent -= 31;
+        }
+        shift = drogue_clz_u32(magnitude) - 1;
+        high = high << shift | low >> 1 >> (31 - shift);
+        low <<= shift;
+        exponent -= shift;
+    }
+    mantissa = (int32_t)(high + (low >> 31));
+    exponent += 32;
     if (mantissa == INT32_MIN) { /* rounded up to 2^31, or -2^31 */
-        mantissa = v < 0 ? -(1 << 30) : 1 << 30;
+        mantissa = (int32_t)high < 0 ? -(1 << 30) : 1 << 30;
         exponent++;
     }
     DROGUE_NOTE("real: mantissa", mantissa, 31);
     DROGUE_NOTE("real: exponent", exponent, 20);
     out->mantissa = mantissa;
     out->exponent = exponent;
-}
-
-/* v * 2^exponent, normalised and rounded. */
-static void put(drogue_real *out, int64_t v, int32_t exponent)
-{
-    const int32_t upper = (int32_t)(v >> 32);
-    const uint32_t magnitude = (uint32_t)(upper ^ (upper >> 31)); /* one too small for negative numbers */
-    int shift = 0;
-    if (magnitude >> 30 == 0) {
-        if (v == 0) {
-            out->mantissa = 0;
-            out->exponent = 0;
-            return;
-        }
-        /* a sum or a product seldom needs to be counted */
-        shift = magnitude >> 29 != 0 ? 1 : magnitude >> 28 != 0 ? 2 : drogue_clz_u64((uint64_t)(v ^ (v >> 63))) - 1;
-    }
-    put_upper(out, drogue_shl_s64(v, shift), exponent + 32 - shift);
 }
 
 void drogue_real_set(drogue_real *out, int64_t v, int32_t exponent) { put(out, v, exponent); }
@@ -67,27 +72,27 @@ void drogue_real_difference(drogue_real *out, const drogue_real *a, const drogue
 
 void drogue_real_product(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
-    put(out, (int64_t)a->mantissa * b->mantissa, a->exponent + b->exponent);
+    put(out, drogue_product(a->mantissa, b->mantissa), a->exponent + b->exponent);
 }
 
 void drogue_real_subtract_product(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
-    put_sum(out, drogue_shl_s64(out->mantissa, 31), out->exponent - 31, (int64_t)a->mantissa * -b->mantissa,
+    put_sum(out, drogue_shl_s64(out->mantissa, 31), out->exponent - 31, drogue_product(a->mantissa, -b->mantissa),
             a->exponent + b->exponent);
 }
 
 void drogue_real_products(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
                           const drogue_real *d)
 {
-    put_sum(out, (int64_t)a->mantissa * b->mantissa, a->exponent + b->exponent, (int64_t)c->mantissa * d->mantissa,
-            c->exponent + d->exponent);
+    put_sum(out, drogue_product(a->mantissa, b->mantissa), a->exponent + b->exponent,
+            drogue_product(c->mantissa, d->mantissa), c->exponent + d->exponent);
 }
 
 void drogue_real_determinant(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
                              const drogue_real *d)
 {
-    put_sum(out, (int64_t)a->mantissa * b->mantissa, a->exponent + b->exponent, (int64_t)c->mantissa * -d->mantissa,
-            c->exponent + d->exponent);
+    put_sum(out, drogue_product(a->mantissa, b->mantissa), a->exponent + b->exponent,
+            drogue_product(c->mantissa, -d->mantissa), c->exponent + d->exponent);
 }
 
 void drogue_real_negate(drogue_real *v) { v->mantissa = -v->mantissa; }
@@ -97,8 +102,8 @@ static inline uint32_t absolute(int32_t v) { return v < 0 ? 0u - (uint32_t)v : (
 /* n 2^30 / d, rounded to nearest, for 2^30 <= d < 2^31, d <= n < 2d: no quotient of 31-bit numbers is a tie. */
 static uint32_t divide(uint32_t n, uint32_t d)
 {
-    uint32_t quotient = (uint32_t)((uint64_t)n * drogue_reciprocal_u32(d) >> 32); /* 3 too small at most */
-    uint64_t rest = ((uint64_t)n << 30) - (uint64_t)quotient * d;
+    uint32_t quotient = (uint32_t)(drogue_product_u32(n, drogue_reciprocal_u32(d)) >> 32); /* 3 too small at most */
+    uint64_t rest = ((uint64_t)n << 30) - drogue_product_u32(quotient, d);
     if (rest >= (uint64_t)d << 1) {
         rest -= (uint64_t)d << 1;
         quotient += 2;
@@ -144,7 +149,7 @@ void drogue_real_root(drogue_real *out, const drogue_real *v)
     square = (uint64_t)v->mantissa << shift;
     root = drogue_isqrt_u64(square);
     out->exponent = (v->exponent - shift) / 2;
-    out->mantissa = (int32_t)(root + (square - (uint64_t)root * root > root)); /* square > (root + 1/2)^2 */
+    out->mantissa = (int32_t)(root + (square - drogue_product_u32(root, root) > root)); /* square > (root + 1/2)^2 */
 }
 
 int64_t drogue_real_to_s64(drogue_real v, int frac_bits)

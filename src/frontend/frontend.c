@@ -131,6 +131,18 @@ static void smooth_step(drogue_frontend *f, int32_t y)
     }
 }
 
+/* Row y of pixels comes in, kept for smoothing, its border reflected: pixels -2, -1, width_px, width_px + 1. */
+static void take_row(const drogue_frontend *f, int32_t y, const uint8_t *pixels)
+{
+    uint8_t *row = drogue_raw_row(f, y);
+    int32_t k;
+    memcpy(row, pixels, (size_t)f->width_px);
+    for (k = 1; k <= 2; k++) {
+        row[-k] = row[drogue_reflect_101(-k, f->width_px)];
+        row[f->width_px - 1 + k] = row[drogue_reflect_101(f->width_px - 1 + k, f->width_px)];
+    }
+}
+
 void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
 {
     int32_t y = frontend->rows_in;
@@ -139,7 +151,7 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
     }
     frontend->rows_in++;
     if (frontend->config.smooth) {
-        drogue_rows_take(frontend, y, row);
+        take_row(frontend, y, row);
         if (y >= 2) {
             smooth_step(frontend, y - 2);
         }

@@ -39,8 +39,13 @@ drogue_slope *drogue_rows_points(const drogue_frontend *f);
 /* Zero what is read before it is written. */
 void drogue_rows_begin(const drogue_frontend *f);
 
-/* Row y of pixels comes in: kept for smoothing, or as a smoothed one. */
-void drogue_rows_take(const drogue_frontend *f, int32_t y, const uint8_t *pixels);
+/* Pixel 0 of row y as it came in; five rows are kept. */
+static inline uint8_t *drogue_raw_row(const drogue_frontend *f, int32_t y)
+{
+    return f->workspace->raw_rows + (y % 5) * (2 * drogue_row_half(f) + 4) + 2;
+}
+
+/* Row y of pixels comes in as a smoothed one. */
 void drogue_rows_take_smoothed(const drogue_frontend *f, int32_t y, const uint8_t *pixels);
 
 /* Smooth row y; the five about it have been taken. */
@@ -72,16 +77,6 @@ static inline uint32_t drogue_rows_place(drogue_slope *at, drogue_sector sector,
     at->dx_q5 = (int8_t)(drogue_canny_step_x(sector) * offset_q5);
     at->dy_q5 = (int8_t)(drogue_canny_step_y(sector) * offset_q5);
     return (drogue_direction_class(at->gx, at->gy) + 1u) << DROGUE_CODE_CLASS_SHIFT;
-}
-
-/* Put the border of a row of pixels in its place, reflected: pixels -2, -1, width_px, width_px + 1. */
-static inline void drogue_rows_reflect(uint8_t *row, int32_t width_px)
-{
-    int32_t k;
-    for (k = 1; k <= 2; k++) {
-        row[-k] = row[drogue_reflect_101(-k, width_px)];
-        row[width_px - 1 + k] = row[drogue_reflect_101(width_px - 1 + k, width_px)];
-    }
 }
 
 #endif

@@ -50,12 +50,6 @@ typedef struct lanes_record {
     uint32_t dy;
 } lanes_record;
 
-/* Pixel 0 of a row in the line buffers. */
-static uint8_t *raw_row(const drogue_frontend *f, int32_t y)
-{
-    return f->workspace->raw_rows + (y % 5) * (2 * drogue_row_half(f) + 4) + 2;
-}
-
 static uint32_t *smooth_row(const drogue_frontend *f, int32_t y)
 {
     uint32_t *rows = (uint32_t *)(void *)f->workspace->smooth_rows;
@@ -85,13 +79,6 @@ void drogue_rows_begin(const drogue_frontend *f)
     memset(f->workspace->raw_rows, 0, 5 * (2 * half + 4));
     memset(f->workspace->smooth_rows, 0, 3 * (half + 2) * sizeof(uint32_t));
     memset(magnitude_row(f, -1) - 1, 0, (half + 2) * sizeof(uint32_t));
-}
-
-void drogue_rows_take(const drogue_frontend *f, int32_t y, const uint8_t *pixels)
-{
-    uint8_t *row = raw_row(f, y);
-    memcpy(row, pixels, (size_t)f->width_px);
-    drogue_rows_reflect(row, f->width_px);
 }
 
 /* Four words of a row from four pixels of each half. */
@@ -203,7 +190,7 @@ void drogue_rows_smooth(const drogue_frontend *f, int32_t y)
     cascade c = {{0, 0, 0, 0}};
     int32_t k;
     for (k = 0; k < 5; k++) {
-        rows[k] = raw_row(f, drogue_reflect_101(y + k - 2, f->height_px)) - 2;
+        rows[k] = drogue_raw_row(f, drogue_reflect_101(y + k - 2, f->height_px)) - 2;
     }
     sum_columns(column, rows, half / 2 + 1);
     for (out -= 4; left <= end; left += 2, right += 2, out += 4) { /* the first four only fill the cascade */

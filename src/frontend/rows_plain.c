@@ -9,12 +9,6 @@
 
 static int32_t padded(const drogue_frontend *f) { return 2 * drogue_row_half(f); }
 
-/* Pixel 0 of a row in the line buffers. */
-static uint8_t *raw_row(const drogue_frontend *f, int32_t y)
-{
-    return f->workspace->raw_rows + (y % 5) * (padded(f) + 4) + 2;
-}
-
 static uint8_t *smooth_row(const drogue_frontend *f, int32_t y)
 {
     return f->workspace->smooth_rows + (y % 3) * (padded(f) + 8) + 4;
@@ -46,13 +40,6 @@ static void replicate(uint8_t *row, int32_t width_px)
 {
     row[-1] = row[0];
     row[width_px] = row[width_px - 1];
-}
-
-void drogue_rows_take(const drogue_frontend *f, int32_t y, const uint8_t *pixels)
-{
-    uint8_t *row = raw_row(f, y);
-    memcpy(row, pixels, (size_t)f->width_px);
-    drogue_rows_reflect(row, f->width_px);
 }
 
 void drogue_rows_take_smoothed(const drogue_frontend *f, int32_t y, const uint8_t *pixels)
@@ -87,7 +74,7 @@ void drogue_rows_smooth(const drogue_frontend *f, int32_t y)
     const uint8_t *rows[5];
     int32_t k;
     for (k = 0; k < 5; k++) {
-        rows[k] = raw_row(f, drogue_reflect_101(y + k - 2, f->height_px)) - 2;
+        rows[k] = drogue_raw_row(f, drogue_reflect_101(y + k - 2, f->height_px)) - 2;
     }
     sum_columns(column, rows[0], rows[1], rows[2], rows[3], rows[4], padded(f) + 4);
     sum_rows(out, column, padded(f));

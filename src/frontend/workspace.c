@@ -47,7 +47,7 @@ drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, s
     workspace->histogram = (uint32_t *)(void *)at;
     at += 256 * sizeof(uint32_t);
     workspace->hull = (struct drogue_point *)(void *)at; /* the rows have served when it comes */
-    workspace->candidates = (struct drogue_candidate *)(void *)at;
+    workspace->outline = (struct drogue_outline_room *)(void *)(at + ((uintptr_t)at & 4u));
     workspace->rays = (struct drogue_ray *)(void *)at;
     workspace->merges = (drogue_merge *)(void *)at;
     at += width * sizeof(drogue_merge);

@@ -2,6 +2,13 @@
 /* Collected edge points: the unit of their moments, their fit, and what blur took from it. */
 #include "collection.h"
 
+void drogue_collection_of_region(drogue_collection *c)
+{
+    drogue_moments_clear(&c->moments);
+    c->x_px_q16 = c->y_px_q16 = drogue_q16_from_int(DROGUE_MAX_SIDE / 2);
+    c->frac_bits = 5;
+}
+
 void drogue_collection_begin(drogue_collection *c, const drogue_ellipse *e, int64_t reach_px_q16)
 {
     drogue_moments_clear(&c->moments);
@@ -44,4 +51,30 @@ void drogue_undo_blur(drogue_ellipse *e, const drogue_config *config)
     }
     e->a_px_q16 = drogue_real_to_q16(grown[0]);
     e->b_px_q16 = drogue_real_to_q16(grown[1]);
+}
+
+#define SETTLED_Q16 DROGUE_Q16(1, 64) /* px */
+
+static int stays(drogue_q16 p_px_q16, drogue_q16 q_px_q16)
+{
+    const drogue_q16 d = drogue_q16_sub(p_px_q16, q_px_q16);
+    return d <= SETTLED_Q16 && d >= -SETTLED_Q16;
+}
+
+int drogue_ellipse_settled(const drogue_ellipse *p, const drogue_ellipse *q)
+{
+    return stays(p->xc_px_q16, q->xc_px_q16) && stays(p->yc_px_q16, q->yc_px_q16) && stays(p->a_px_q16, q->a_px_q16) &&
+           stays(p->b_px_q16, q->b_px_q16);
+}
+
+void drogue_band_narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
+                        const drogue_config *config)
+{
+    const int64_t variance_q32 = support->points > 0 ? support->squares_q32 / (int64_t)support->points : 0;
+    const int64_t spread_px_q16 =
+        drogue_shr_round_s64(3 * (int64_t)drogue_isqrt_u64((uint64_t)variance_q32) * e->a_px_q16, 16);
+    const drogue_q16 least = config->refit_band_px_q16 / 3 + 1;
+    if (spread_px_q16 < band->half_width_px_q16) {
+        *band = drogue_band_of(spread_px_q16 < least ? least : (drogue_q16)spread_px_q16, config->refit_cos_q16);
+    }
 }

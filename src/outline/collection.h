@@ -6,6 +6,9 @@
 #include "drogue/config.h"
 #include "near.h"
 
+/* An empty collection of edge points of a region, about the middle of the largest one: exact. */
+void drogue_collection_of_region(drogue_collection *c);
+
 /* Begin a collection of points that reach this far from a centre: the finest unit in which they fit 16 bits. The origin
  * is a whole pixel: edge points, multiples of 1/32 px, are then exact, where any other would shift them all alike. */
 void drogue_collection_begin(drogue_collection *c, const drogue_ellipse *e, int64_t reach_px_q16);
@@ -18,9 +21,18 @@ drogue_status drogue_collection_fit(drogue_ellipse *out, const drogue_collection
  * at those of the minor. */
 void drogue_undo_blur(drogue_ellipse *e, const drogue_config *config);
 
+/* Has a refit moved an ellipse by less than 1/64 px? */
+int drogue_ellipse_settled(const drogue_ellipse *p, const drogue_ellipse *q);
+
+/* Band for the next round: three times the spread of the points about the ellipse, from a third of the configured width
+ * to the last one: what stands out of the outline, as a hose or a fitting behind the rim, drops out. */
+void drogue_band_narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
+                        const drogue_config *config);
+
 /* How edges of opposite sense near a fitted outline moved it, into its support. */
-void drogue_outline_pull(drogue_support *support, const drogue_ellipse *fitted, const drogue_edge *edges,
-                         uint32_t count, const drogue_config *config);
+void drogue_outline_pull(drogue_support *support, drogue_pull_side sides[DROGUE_SUPPORT_BINS][DROGUE_PULL_SIDES],
+                         const drogue_ellipse *fitted, const drogue_edge *edges, uint32_t count,
+                         const drogue_config *config);
 
 /* Put back what they did. */
 void drogue_outline_put_back(drogue_ellipse *e, const int32_t pull_q24[5]);

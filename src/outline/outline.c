@@ -8,24 +8,10 @@
 #include "drogue/ellipse.h"
 #include "near.h"
 
-#define EDGE_FRAC 5                        /* edge points are Q5 */
 #define LOOKS 512                          /* a candidate is scored by so many edge points, evenly taken */
 #define TRIES 3                            /* candidates refined before the best of them is taken */
 #define GOOD_COVER_Q16 DROGUE_Q16(3, 4)    /* no further try */
 #define ENOUGH_COVER_Q16 DROGUE_Q16(9, 10) /* no further candidate */
-#define SETTLED_Q16 DROGUE_Q16(1, 64)      /* px: an ellipse that a refit moves by less has settled */
-
-/* Add an arc to moments about the region's middle, unit 1/32 px. */
-static void add_arc(drogue_moments *sum, const drogue_edge *edges, const drogue_arc *arc)
-{
-    const int32_t origin_q5 = (DROGUE_MAX_SIDE / 2) << EDGE_FRAC; /* makes the coordinates 16-bit for every region */
-    drogue_moments m = *sum;                                      /* apart: hardware keeps it in registers */
-    uint32_t i;
-    for (i = arc->first; i < arc->first + arc->count; i++) { /* bound: points of the arc */
-        drogue_moments_add_point(&m, edges[i].x_q5 - origin_q5, edges[i].y_q5 - origin_q5);
-    }
-    *sum = m;
-}
 
 static int plausible(const drogue_ellipse *e, const drogue_mask *mask, const drogue_config *config)
 {
@@ -52,7 +38,14 @@ typedef struct context {
     const drogue_mask *mask;
     const drogue_config *config;
     drogue_arc_choices choices;
+    drogue_outline_room *room;
+    uint32_t arcs;             /* whose points are summed, as a candidate has them; 0: none */
+    const drogue_arc *part[4]; /* the same in the order of their points */
+    int parts;
+    uint32_t looked_as; /* the bins' polarities in the last look */
 } context;
+
+static uint32_t stride_of(const context *c) { return c->list->edge_count / LOOKS + 1; }
 
 /* Arc of quadrant k in a candidate: choice number arcs >> 4 k, less one; NULL when it has none there. */
 static const drogue_arc *arc_of(const context *c, uint32_t arcs, int k)
@@ -61,62 +54,108 @@ static const drogue_arc *arc_of(const context *c, uint32_t arcs, int k)
     return choice != 0 ? &c->workspace->arcs[c->choices.arc[k][choice - 1]] : NULL;
 }
 
-/* Fit the union of arcs; 0 when that gives no plausible ellipse. */
-static int fit_arcs(drogue_ellipse *out, uint32_t *points, uint32_t arcs, const context *c)
+/* Sum the points of arcs. */
+static void sum_arcs(context *c, uint32_t arcs)
 {
-    drogue_moments sum;
     int k;
-    drogue_moments_clear(&sum);
+    int i;
+    drogue_collection_of_region(&c->room->sum);
+    c->arcs = arcs;
+    c->parts = 0;
     for (k = 0; k < 4; k++) {
         const drogue_arc *arc = arc_of(c, arcs, k);
         if (arc != NULL) {
-            add_arc(&sum, c->workspace->edges, arc);
+            for (i = c->parts++; i > 0 && c->part[i - 1]->first > arc->first; i--) {
+                c->part[i] = c->part[i - 1];
+            }
+            c->part[i] = arc;
+            drogue_collect_arc(&c->room->sum.moments, c->workspace->edges + arc->first, arc->count);
         }
     }
-    *points = (uint32_t)sum.n;
-    if (drogue_ellipse_fit(out, &sum, EDGE_FRAC) != DROGUE_OK) {
-        return 0;
+}
+
+/* Which polarity the bins of these arcs' ellipse are likely to have: that of the arcs, by quadrant and direction. */
+static uint32_t polarity_of_arcs(const context *c, uint32_t arcs)
+{
+    int32_t bright = 0;
+    int k;
+    for (k = 0; k < 4; k++) {
+        const drogue_arc *arc = arc_of(c, arcs, k);
+        if (arc != NULL) {
+            bright += (uint32_t)k == arc->direction ? -(int32_t)arc->count : (int32_t)arc->count;
+        }
     }
-    out->xc_px_q16 = drogue_q16_add(out->xc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
-    out->yc_px_q16 = drogue_q16_add(out->yc_px_q16, drogue_q16_from_int(DROGUE_MAX_SIDE / 2));
-    return plausible(out, c->mask, c->config);
+    return bright > 0 ? UINT32_MAX : 0;
+}
+
+/* Collect the edge points that belong to an ellipse, every one or every so many of them: counts by bin, residuals, and
+ * moments, where all count from those of the arcs. Bins have the given polarities until they are judged by the counts. */
+static drogue_status collect(context *c, const drogue_ellipse *ellipse, const drogue_band *band, uint32_t bright_bins,
+                             uint32_t stride)
+{
+    const drogue_edge *edges = c->workspace->edges;
+    drogue_ellipse_frame frame;
+    uint32_t at = 0;
+    int k;
+    drogue_status status = drogue_ellipse_frame_of(&frame, ellipse);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    memset(&c->room->support, 0, sizeof c->room->support);
+    c->room->support.bright_bins = bright_bins;
+    c->room->own = c->room->sum;
+    if (stride > 1) {
+        drogue_moments_clear(&c->room->own.moments);
+    }
+    for (k = 0; k < c->parts && stride == 1; k++) {
+        const drogue_arc *arc = c->part[k];
+        drogue_collect_edges(&c->room->own.moments, &c->room->support, &frame, band, edges + at, arc->first - at, 1, 0);
+        drogue_collect_edges(&c->room->own.moments, &c->room->support, &frame, band, edges + arc->first, arc->count, 1,
+                             1);
+        at = arc->first + arc->count;
+    }
+    drogue_collect_edges(&c->room->own.moments, &c->room->support, &frame, band, edges + at, c->list->edge_count - at,
+                         stride, 0);
+    drogue_support_judge(&c->room->support, ellipse, c->config->polarity, stride);
+    return DROGUE_OK;
+}
+
+/* Look at every so many edge points about an ellipse: as its first round does. */
+static drogue_status look(context *c, const drogue_ellipse *ellipse, uint32_t bright_bins)
+{
+    const drogue_band band = band_about(ellipse, c->config->search_band_q16, c->config);
+    c->looked_as = bright_bins;
+    return collect(c, ellipse, &band, bright_bins, stride_of(c));
 }
 
 /* Fit and score the union of arcs; 0 when it is no candidate. */
-static int try_arcs(drogue_candidate *out, uint32_t arcs, const context *c)
+static int try_arcs(drogue_candidate *out, uint32_t arcs, context *c)
 {
-    const uint32_t stride = c->list->edge_count / LOOKS + 1;
     drogue_ellipse_frame frame;
     drogue_quality quality;
-    drogue_support support;
-    drogue_band band;
     drogue_q16 threshold;
     drogue_q16 fit_error;
-    uint32_t points;
     uint32_t near_count = 0;
     int k;
     out->arcs = arcs;
-    if (!fit_arcs(&out->ellipse, &points, arcs, c) || drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
+    sum_arcs(c, arcs);
+    if (drogue_collection_fit(&out->ellipse, &c->room->sum) != DROGUE_OK ||
+        !plausible(&out->ellipse, c->mask, c->config) || drogue_ellipse_frame_of(&frame, &out->ellipse) != DROGUE_OK) {
         return 0;
     }
-    band = band_about(&out->ellipse, c->config->search_band_q16, c->config);
     fit_error = drogue_q16_mul(out->ellipse.a_px_q16, c->config->search_band_q16);
     fit_error = fit_error > c->config->quality.fit_error_px_q16 ? fit_error : c->config->quality.fit_error_px_q16;
     threshold = drogue_quality_threshold(&out->ellipse, fit_error);
-    for (k = 0; k < 4; k++) {
-        const drogue_arc *arc = arc_of(c, arcs, k);
-        if (arc != NULL) {
-            near_count += drogue_near_count(&frame, threshold, c->workspace->edges + arc->first, arc->count);
-        }
+    for (k = 0; k < c->parts; k++) {
+        near_count += drogue_near_count(&frame, threshold, c->workspace->edges + c->part[k]->first, c->part[k]->count);
     }
-    drogue_support_count(&support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);
-    drogue_support_judge(&support, &out->ellipse, c->config->polarity, stride);
-    drogue_quality_of_cover(&quality, &out->ellipse, near_count, points, drogue_support_cover(&support),
-                            &c->config->quality);
+    (void)look(c, &out->ellipse, polarity_of_arcs(c, arcs));
+    drogue_quality_of_cover(&quality, &out->ellipse, near_count, (uint32_t)c->room->sum.moments.n,
+                            drogue_support_cover(&c->room->support), &c->config->quality);
     out->reliability_q16 = quality.reliability_q16;
     out->fit_ratio_q16 = quality.fit_ratio_q16;
     out->cover_q16 = quality.length_ratio_q16;
-    out->polarity = support.bright_bins;
+    out->polarity = c->room->support.bright_bins;
     return quality.fit_ratio_q16 >= c->config->min_fit_ratio_q16;
 }
 
@@ -129,8 +168,9 @@ static int usable(const context *c, int k, int choice)
 
 /* The first arcs of all quadrants together; unless they cover enough, all pairs of arcs from two quadrants too. Returns
  * how many candidates there are. */
-static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES], const context *c)
+static uint32_t all_candidates(context *c)
 {
+    drogue_candidate *candidates = c->room->candidates;
     uint32_t arcs = 0;
     uint32_t count;
     int k;
@@ -158,83 +198,42 @@ static uint32_t all_candidates(drogue_candidate candidates[DROGUE_MAX_CANDIDATES
     return count;
 }
 
-/* Collect the edge points that belong to an outline: counts by bin, residuals and moments. Bins have the polarity that
- * the collection before gave them. */
-static drogue_status collect_outline(drogue_collection *c, drogue_support *support, const drogue_ellipse *ellipse,
-                                     const drogue_band *band, const context *x)
-{
-    const uint32_t bright_bins = support->bright_bins;
-    drogue_ellipse_frame frame;
-    drogue_status status = drogue_ellipse_frame_of(&frame, ellipse);
-    if (status != DROGUE_OK) {
-        return status;
-    }
-    memset(support, 0, sizeof *support);
-    support->bright_bins = bright_bins;
-    drogue_collection_begin(c, ellipse, (int64_t)ellipse->a_px_q16 + 16 * DROGUE_Q16_ONE);
-    drogue_collect_edges(c, support, &frame, band, x->workspace->edges, x->list->edge_count, NULL);
-    return DROGUE_OK;
-}
-
-static int settled(const drogue_ellipse *p, const drogue_ellipse *q)
-{
-    const int64_t d[4] = {(int64_t)p->xc_px_q16 - q->xc_px_q16, (int64_t)p->yc_px_q16 - q->yc_px_q16,
-                          (int64_t)p->a_px_q16 - q->a_px_q16, (int64_t)p->b_px_q16 - q->b_px_q16};
-    int k;
-    for (k = 0; k < 4; k++) {
-        if (d[k] > SETTLED_Q16 || d[k] < -SETTLED_Q16) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-/* Band for the next round: three times the spread of the points about the ellipse, from a third of the configured width
- * to the last one: what stands out of the outline, as a hose or a fitting behind the rim, drops out. */
-static void narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
-                   const drogue_config *config)
-{
-    const int64_t variance_q32 = support->points > 0 ? support->squares_q32 / (int64_t)support->points : 0;
-    const int64_t spread_px_q16 =
-        drogue_shr_round_s64(3 * (int64_t)drogue_isqrt_u64((uint64_t)variance_q32) * e->a_px_q16, 16);
-    const drogue_q16 least = config->refit_band_px_q16 / 3 + 1;
-    if (spread_px_q16 < band->half_width_px_q16) {
-        *band = drogue_band_of(spread_px_q16 < least ? least : (drogue_q16)spread_px_q16, config->refit_cos_q16);
-    }
-}
-
-/* Refit on the points that belong to the outline until it settles, as often as configured; stops at the last good fit.
- * Judges the outline by the share of its circumference that they cover. */
-static void refit(drogue_outline *outline, const context *x)
+/* Refit on the points that belong to the outline until it settles, as often as configured; stops at the last good fit. The
+ * first round takes the points that were looked at. Judges the outline by the share of its circumference that they cover. */
+static void refit(drogue_outline *outline, context *x)
 {
     const drogue_config *config = x->config;
     drogue_band band = band_about(&outline->ellipse, config->search_band_q16, config);
-    drogue_collection c;
+    uint32_t stride = config->refit_rounds > 0 ? stride_of(x) : 1;
     uint32_t round;
     int done = 0;
     /* bound: refit_rounds + 1, at most 17 */
     for (round = 0; round <= config->refit_rounds && !done; round++) {
         drogue_ellipse ellipse;
         const drogue_q16 width = band.half_width_px_q16;
-        const uint32_t bright_bins = outline->support.bright_bins;
-        if (collect_outline(&c, &outline->support, &outline->ellipse, &band, x) != DROGUE_OK) {
-            return;
+        const uint32_t bright_bins = round == 0 ? x->looked_as : outline->support.bright_bins;
+        if ((round > 0 || config->refit_rounds == 0) &&
+            collect(x, &outline->ellipse, &band, bright_bins, stride) != DROGUE_OK) {
+            break;
         }
-        drogue_support_judge(&outline->support, &outline->ellipse, config->polarity, 1);
+        outline->support = x->room->support;
         outline->band_px_q16 = width;
         if (round == config->refit_rounds) {
             if (outline->support.bright_bins != bright_bins) { /* the sums are those of the bins before */
                 drogue_support_judge_as(&outline->support, &outline->ellipse, bright_bins, 1);
             }
         } else if (outline->support.bright_bins == bright_bins) {
-            if (drogue_collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, config)) {
+            if (drogue_collection_fit(&ellipse, &x->room->own) == DROGUE_OK && plausible(&ellipse, x->mask, config)) {
+                drogue_band_narrow(&band, &outline->support, &ellipse, config);
+                done = band.half_width_px_q16 == width && stride == 1 &&
+                       drogue_ellipse_settled(&ellipse, &outline->ellipse);
+                outline->ellipse = ellipse;
+                outline->refit_points = (uint32_t)x->room->own.moments.n;
+            } else if (stride == 1) {
                 break;
             }
-            narrow(&band, &outline->support, &ellipse, config);
-            done = band.half_width_px_q16 == width && settled(&ellipse, &outline->ellipse);
-            outline->ellipse = ellipse;
-            outline->refit_points = (uint32_t)c.moments.n;
         } /* else collect again with the polarities that the counts show */
+        stride = 1;
     }
     outline->cover_q16 = drogue_support_cover(&outline->support);
     outline->polarity = outline->support.bright_bins == 0            ? DROGUE_POLARITY_DARK
@@ -243,9 +242,16 @@ static void refit(drogue_outline *outline, const context *x)
 }
 
 /* Describe and refine a candidate. */
-static void refine(drogue_outline *out, const drogue_candidate *candidate, const context *c)
+static void refine(drogue_outline *out, const drogue_candidate *candidate, context *c)
 {
     int k;
+    if (c->arcs != candidate->arcs) {
+        sum_arcs(c, candidate->arcs);
+        c->looked_as = ~candidate->polarity;
+    }
+    if (c->looked_as != candidate->polarity) {
+        (void)look(c, &candidate->ellipse, candidate->polarity);
+    }
     memset(out, 0, sizeof *out);
     for (k = 0; k < 4; k++) {
         const drogue_arc *arc = arc_of(c, candidate->arcs, k);
@@ -254,16 +260,15 @@ static void refine(drogue_outline *out, const drogue_candidate *candidate, const
     drogue_quality_of_cover(&out->quality, &candidate->ellipse, (uint32_t)candidate->fit_ratio_q16, DROGUE_Q16_ONE,
                             candidate->cover_q16, &c->config->quality);
     out->ellipse = candidate->ellipse;
-    out->support.bright_bins = candidate->polarity;
     refit(out, c);
 }
 
 /* The most reliable candidate, refined; when that covers little, the next that differ from it, and the one of them that
  * covers most. */
-static drogue_status best_outline(drogue_outline *out, drogue_candidate candidates[DROGUE_MAX_CANDIDATES],
-                                  uint32_t count, const context *c)
+static drogue_status best_outline(drogue_outline *out, uint32_t count, context *c)
 {
-    drogue_outline trial;
+    drogue_candidate *candidates = c->room->candidates;
+    drogue_outline *trial = &c->room->trial;
     int tries;
     for (tries = 0; tries < TRIES && out->cover_q16 < GOOD_COVER_Q16; tries++) {
         uint32_t members;
@@ -275,11 +280,11 @@ static drogue_status best_outline(drogue_outline *out, drogue_candidate candidat
             break;
         }
         chosen = candidates[best];
-        refine(tries == 0 ? out : &trial, &chosen, c);
+        refine(tries == 0 ? out : trial, &chosen, c);
         if (tries == 0) {
             out->cluster_members = members;
-        } else if (trial.cover_q16 > out->cover_q16) {
-            *out = trial;
+        } else if (trial->cover_q16 > out->cover_q16) {
+            *out = *trial;
             out->cluster_members = members;
         }
         for (i = 0; i < count; i++) {
@@ -295,7 +300,6 @@ static drogue_status best_outline(drogue_outline *out, drogue_candidate candidat
 drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                                   const drogue_mask *mask, const drogue_config *config)
 {
-    drogue_candidate *candidates = workspace->candidates;
     context c;
     drogue_status status;
     int k;
@@ -307,16 +311,18 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
         return DROGUE_E_NO_EDGES;
     }
     c.workspace = workspace;
+    c.room = workspace->outline;
     c.list = list;
     c.mask = mask;
     c.config = config;
     status = drogue_select_arcs(&c.choices, workspace->hull, workspace->edges, workspace->arcs, list->arc_count, mask,
                                 config->min_short_px_q16, config->polarity);
     if (status == DROGUE_OK) {
-        status = best_outline(out, candidates, all_candidates(candidates, &c), &c);
+        status = best_outline(out, all_candidates(&c), &c);
         out->fitted = out->ellipse;
         if (out->ellipse.b_px_q16 > 0) {
-            drogue_outline_pull(&out->support, &out->fitted, workspace->edges, list->edge_count, config);
+            drogue_outline_pull(&out->support, workspace->outline->sides, &out->fitted, workspace->edges,
+                                list->edge_count, config);
             drogue_outline_put_back(&out->ellipse, out->support.pull_q24);
             drogue_undo_blur(&out->ellipse, config);
         }
@@ -326,59 +332,65 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
 
 #define RINGS 14 /* about the outline, each larger than the one before by a fortieth: to 1.4 times its size */
 
-/* Cover of a ring by every so many edge points; negative when it is no plausible ellipse. */
-static drogue_q16 ring_cover(drogue_support *support, const drogue_ellipse *ring, const context *c)
+/* Look for an outline on a ring: is enough of it covered? Negative when it is no plausible ellipse. */
+static int ring_covered(const drogue_ellipse *ring, context *c)
 {
-    const uint32_t stride = c->list->edge_count / LOOKS + 1;
-    const drogue_band band = band_about(ring, c->config->search_band_q16, c->config);
-    drogue_ellipse_frame frame;
-    if (!plausible(ring, c->mask, c->config) || drogue_ellipse_frame_of(&frame, ring) != DROGUE_OK) {
+    uint32_t bright_bins = 0;
+    if (!plausible(ring, c->mask, c->config) || look(c, ring, bright_bins) != DROGUE_OK) {
         return -1;
     }
-    drogue_support_count(support, &frame, &band, c->workspace->edges, c->list->edge_count, stride);
-    drogue_support_judge(support, ring, c->config->polarity, stride);
-    return drogue_support_cover(support);
+    if (drogue_support_cover(&c->room->support) < c->config->min_cover_q16) {
+        return 0;
+    }
+    bright_bins = c->room->support.bright_bins;
+    return c->looked_as == bright_bins || look(c, ring, bright_bins) == DROGUE_OK;
 }
 
 int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                            const drogue_mask *mask, const drogue_config *config)
 {
     drogue_ellipse ring = out->fitted;
-    drogue_outline best;
+    drogue_outline *best;
+    drogue_outline *trial;
     context c;
     int k;
     memset(&c, 0, sizeof c);
     c.workspace = workspace;
+    c.room = workspace->outline;
     c.list = list;
     c.mask = mask;
     c.config = config;
-    best = *out;
-    best.cover_q16 = 0;
+    drogue_collection_of_region(&c.room->sum);
+    trial = &c.room->trial;
+    best = &c.room->best;
+    *best = *out;
+    best->cover_q16 = 0;
     for (k = 0; k < RINGS; k++) {
-        drogue_outline trial = *out;
-        drogue_q16 cover_q16;
+        int covered;
         ring.a_px_q16 = drogue_q16_add(ring.a_px_q16, ring.a_px_q16 / 40);
         ring.b_px_q16 = drogue_q16_add(ring.b_px_q16, ring.b_px_q16 / 40);
-        cover_q16 = ring_cover(&trial.support, &ring, &c);
-        if (cover_q16 < 0) {
+        covered = ring_covered(&ring, &c);
+        if (covered < 0) {
             break;
         }
-        if (cover_q16 < config->min_cover_q16) {
+        if (!covered) {
             continue;
         }
-        trial.ellipse = ring;
-        refit(&trial, &c);
-        if (trial.cover_q16 >= best.cover_q16 && trial.cover_q16 >= config->min_cover_q16 &&
-            (int64_t)trial.ellipse.b_px_q16 * 50 > (int64_t)out->fitted.b_px_q16 * 51) {
-            best = trial;
+        *trial = *out;
+        trial->ellipse = ring;
+        refit(trial, &c);
+        if (trial->cover_q16 >= best->cover_q16 && trial->cover_q16 >= config->min_cover_q16 &&
+            (int64_t)trial->ellipse.b_px_q16 * 50 > (int64_t)out->fitted.b_px_q16 * 51) {
+            *best = *trial;
         }
     }
-    if (best.cover_q16 == 0) {
+    if (best->cover_q16 == 0) {
         return 0;
     }
-    *out = best;
+    *out = *best;
     out->fitted = out->ellipse;
-    drogue_outline_pull(&out->support, &out->fitted, workspace->edges, list->edge_count, config);
+    drogue_outline_pull(&out->support, workspace->outline->sides, &out->fitted, workspace->edges, list->edge_count,
+                        config);
     drogue_outline_put_back(&out->ellipse, out->support.pull_q24);
     drogue_undo_blur(&out->ellipse, config);
     return 1;

@@ -21,14 +21,9 @@
 static const uint8_t moved_q8[17] = {205, 120, 79, 55, 38, 27, 19, 13, 9, 7, 4, 3, 2, 1, 1, 1, 0};
 
 /* A bin's edges: its own, and the opposite ones within and beyond. */
-enum { INSIDE, OUTSIDE, OWN, SIDES };
+enum { INSIDE, OUTSIDE, OWN, SIDES = DROGUE_PULL_SIDES };
 
-typedef struct side {
-    int64_t off_px_q16; /* sums of distances, */
-    int64_t off_q24;    /* of the same in semi-axes */
-    uint64_t gradient;  /* and of |gx| + |gy| */
-    uint32_t points;
-} side;
+typedef drogue_pull_side side;
 
 /* By how much equal edges at a distance move each other, px Q16. */
 static int32_t moved_px_q16(int32_t half_px_q16, int32_t blur_px_q16)
@@ -45,24 +40,17 @@ static int32_t moved_px_q16(int32_t half_px_q16, int32_t blur_px_q16)
     return (int32_t)drogue_shr_round_s64((int64_t)share_q20 * blur_px_q16, 20);
 }
 
-static int32_t length_q14(const drogue_ellipse_frame *frame, const drogue_band_point *p)
-{
-    int32_t nx;
-    int32_t ny;
-    normal_of(&nx, &ny, frame, p->u_q24, p->v_q24);
-    return (int32_t)drogue_isqrt_u64((uint64_t)(uint32_t)square_sum(nx, ny)) + 1;
-}
-
 /* Add an opposite edge to its side; with r its distance from the centre in semi-axes it is (1 - r) r b / |n| off. */
-static void add_opposite(side sides[SIDES], const drogue_ellipse_frame *frame, const drogue_band_point *p,
-                         uint32_t gradient, int32_t least_px_q16)
+static void add_opposite(side sides[SIDES], const drogue_ellipse_frame *frame, const band_point *p, uint32_t gradient,
+                         int32_t least_px_q16)
 {
-    const int32_t r_q24 = (int32_t)drogue_isqrt_u64((uint64_t)((1 << 24) + p->f_q24) << 24);
+    const int32_t f_q24 = f_q24_of(frame, p->f_b_px_q16);
+    const int32_t length_q14 = (int32_t)drogue_isqrt_u64((uint64_t)(uint32_t)p->n2_q28) + 1;
+    const int32_t r_q24 = (int32_t)drogue_isqrt_u64((uint64_t)((1 << 24) + f_q24) << 24);
     const int32_t off_q24 = r_q24 < 1 << 24 ? (1 << 24) - r_q24 : r_q24 - (1 << 24);
     const int64_t scaled_q24 = drogue_shr_round_s64((int64_t)off_q24 * r_q24, 24);
-    const int32_t off_px =
-        (int32_t)drogue_div_round_s64(scaled_q24 * frame->b_px_q16, (int64_t)length_q14(frame, p) << 10);
-    side *s = &sides[p->f_q24 > 0 ? OUTSIDE : INSIDE];
+    const int32_t off_px = (int32_t)drogue_div_round_s64(scaled_q24 * frame->b_px_q16, (int64_t)length_q14 << 10);
+    side *s = &sides[f_q24 > 0 ? OUTSIDE : INSIDE];
     if (off_px >= least_px_q16) {
         s->off_px_q16 += off_px;
         s->off_q24 += off_q24;
@@ -71,13 +59,13 @@ static void add_opposite(side sides[SIDES], const drogue_ellipse_frame *frame, c
     }
 }
 
-static void add(side sides[SIDES], const drogue_ellipse_frame *frame, const drogue_band_point *p, const drogue_edge *e,
+static void add(side sides[SIDES], const drogue_ellipse_frame *frame, const band_point *p, const drogue_edge *e,
                 int own, int32_t least_px_q16)
 {
     const uint32_t gradient = (uint32_t)(e->gx < 0 ? -e->gx : e->gx) + (uint32_t)(e->gy < 0 ? -e->gy : e->gy);
     if (!own) {
         add_opposite(sides, frame, p, gradient, least_px_q16);
-    } else if (form_px_q16(frame, p->f_q24) < 2 * least_px_q16) {
+    } else if ((p->f_b_px_q16 < 0 ? -p->f_b_px_q16 : p->f_b_px_q16) < 2 * least_px_q16) {
         sides[OWN].gradient += gradient;
         sides[OWN].points++;
     }
@@ -99,8 +87,8 @@ static int32_t push_q24(const side *s, const side *own, int32_t blur_px_q16)
     return (int32_t)drogue_div_round_s64(moved * s->off_q24, s->off_px_q16);
 }
 
-void drogue_outline_pull(drogue_support *support, const drogue_ellipse *fitted, const drogue_edge *edges,
-                         uint32_t count, const drogue_config *config)
+void drogue_outline_pull(drogue_support *support, side sides[DROGUE_SUPPORT_BINS][SIDES], const drogue_ellipse *fitted,
+                         const drogue_edge *edges, uint32_t count, const drogue_config *config)
 {
     const uint64_t optics2_q32 = drogue_square_sum(config->optics_blur_px_q16, 0);
     const drogue_q16 blur = (drogue_q16)drogue_isqrt_u64(
@@ -110,21 +98,22 @@ void drogue_outline_pull(drogue_support *support, const drogue_ellipse *fitted, 
         drogue_band_of(wide > DROGUE_Q16(8, 1) ? DROGUE_Q16(8, 1) : (drogue_q16)wide, config->refit_cos_q16);
     const int32_t least = (int32_t)((int64_t)blur * NEAREST / 8);
     const uint32_t stride = count / LOOKS | 1u; /* odd: rows have their edges in pairs */
-    side sides[DROGUE_SUPPORT_BINS][SIDES];
     int64_t sum_q54[5] = {0, 0, 0, 0, 0};
     drogue_ellipse_frame frame;
+    band_reach reach;
     uint32_t k;
     int i;
     memset(support->pull_q24, 0, sizeof support->pull_q24);
     if (support->points == 0 || drogue_ellipse_frame_of(&frame, fitted) != DROGUE_OK) {
         return;
     }
-    memset(sides, 0, sizeof sides);
+    memset(sides, 0, DROGUE_SUPPORT_BINS * sizeof sides[0]);
+    reach = reach_of(&frame, &band);
     for (k = 0; k < count; k += stride) { /* bound: LOOKS */
         const drogue_edge *e = &edges[k];
-        drogue_band_point p;
-        if (band_holds(&p, &frame, &band, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy)) {
-            const uint32_t bin = bin_of(p.u_q24, p.v_q24);
+        band_point p;
+        if (band_holds(&p, &frame, &band, &reach, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy)) {
+            const uint32_t bin = bin_of(p.u_q14, p.v_q14);
             add(sides[bin], &frame, &p, e, (uint32_t)p.polarity == ((support->bright_bins >> bin) & 1u), least);
         }
     }

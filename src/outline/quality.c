@@ -22,12 +22,28 @@ static int32_t times_q30(int32_t v_q30, const drogue_real *factor)
     return drogue_real_to_s32(t, 30);
 }
 
+/* v b / a */
+static int32_t ratio_q30(int32_t v_q30, drogue_q16 b_px_q16, const drogue_real *inverse)
+{
+    drogue_real b;
+    drogue_real_set_q16(&b, b_px_q16);
+    drogue_real_product(&b, &b, inverse);
+    return times_q30(v_q30, &b);
+}
+
+static int32_t mul_q30(int32_t a, int32_t b_q30) { return low_shr_round(drogue_product(a, b_q30), 30); }
+
+static int far(drogue_q16 v_px_q16) { return v_px_q16 >= 1 << 30 || v_px_q16 <= -(1 << 30); }
+
 drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_ellipse *ellipse)
 {
     int32_t s_q30;
     int32_t c_q30;
+    int32_t s_ratio_q30;
+    int32_t c_ratio_q30;
     drogue_real inverse;
-    if (ellipse->b_px_q16 < DROGUE_Q16_ONE || ellipse->a_px_q16 < ellipse->b_px_q16) {
+    if (ellipse->b_px_q16 < DROGUE_Q16_ONE || ellipse->a_px_q16 < ellipse->b_px_q16 || far(ellipse->xc_px_q16) ||
+        far(ellipse->yc_px_q16) || !drogue_ellipse_angle_valid(ellipse)) {
         return DROGUE_E_DOMAIN;
     }
     drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(ellipse->angle_rad_q16, 13));
@@ -37,25 +53,51 @@ drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_el
     inverse_of(&inverse, ellipse->a_px_q16);
     out->cos_over_a_q30 = times_q30(c_q30, &inverse);
     out->sin_over_a_q30 = times_q30(s_q30, &inverse);
+    s_ratio_q30 = ratio_q30(s_q30, ellipse->b_px_q16, &inverse);
+    c_ratio_q30 = ratio_q30(c_q30, ellipse->b_px_q16, &inverse);
     inverse_of(&inverse, ellipse->b_px_q16);
+    out->half_over_b_q31 = drogue_real_to_s32(inverse, 30);
     out->cos_over_b_q30 = times_q30(c_q30, &inverse);
     out->sin_over_b_q30 = times_q30(s_q30, &inverse);
-    out->cos_q14 = (int32_t)drogue_shr_round_s64(c_q30, 16);
-    out->sin_q14 = (int32_t)drogue_shr_round_s64(s_q30, 16);
-    out->cos_ratio_q14 = (int32_t)drogue_shr_round_s64((int64_t)out->cos_over_a_q30 * out->b_px_q16, 32);
-    out->sin_ratio_q14 = (int32_t)drogue_shr_round_s64((int64_t)out->sin_over_a_q30 * out->b_px_q16, 32);
+    out->xx_q30 = mul_q30(c_ratio_q30, out->cos_over_a_q30) + mul_q30(s_q30, out->sin_over_b_q30);
+    out->xy_q30 = mul_q30(c_ratio_q30, out->sin_over_a_q30) - mul_q30(s_q30, out->cos_over_b_q30);
+    out->yy_q30 = mul_q30(s_ratio_q30, out->sin_over_a_q30) + mul_q30(c_q30, out->cos_over_b_q30);
+    out->cos_q14 = low_shr_round(c_q30, 16);
+    out->sin_q14 = low_shr_round(s_q30, 16);
+    out->cos_ratio_q14 = low_shr_round(c_ratio_q30, 16);
+    out->sin_ratio_q14 = low_shr_round(s_ratio_q30, 16);
     return DROGUE_OK;
+}
+
+/* a - b, saturated */
+static int32_t away(int32_t a, int32_t b) { return drogue_sat_s32((int64_t)a - b); }
+
+static int32_t clamp_q24(int64_t v_q46)
+{
+    const int64_t most = INT64_C(16) << 24;
+    const int64_t v = drogue_shr_round_s64(v_q46, 22);
+    return (int32_t)(v > most ? most : v < -most ? -most : v);
 }
 
 void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
                                 drogue_q16 y_px_q16)
 {
-    frame_point(u_q24, v_q24, frame, x_px_q16, y_px_q16);
+    const int32_t dx = away(x_px_q16, frame->xc_px_q16);
+    const int32_t dy = away(y_px_q16, frame->yc_px_q16);
+    *u_q24 = clamp_q24(drogue_product(dx, frame->cos_over_a_q30) + drogue_product(dy, frame->sin_over_a_q30));
+    *v_q24 = clamp_q24(drogue_product(dy, frame->cos_over_b_q30) - drogue_product(dx, frame->sin_over_b_q30));
+    DROGUE_NOTE("quality: u, Q24", *u_q24, 29);
+    DROGUE_NOTE("quality: v, Q24", *v_q24, 29);
 }
 
 drogue_q16 drogue_ellipse_deviation(const drogue_ellipse_frame *frame, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
-    return deviation(frame, x_px_q16, y_px_q16);
+    int32_t u_q24;
+    int32_t v_q24;
+    int64_t d_q48;
+    drogue_ellipse_frame_point(&u_q24, &v_q24, frame, x_px_q16, y_px_q16);
+    d_q48 = drogue_product(u_q24, u_q24) + drogue_product(v_q24, v_q24) - (INT64_C(1) << 48);
+    return drogue_sat_s32(drogue_shr_round_s64(d_q48 < 0 ? -d_q48 : d_q48, 32));
 }
 
 drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16)
@@ -65,12 +107,6 @@ drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16)
     band.width2_px2_q24 = (int32_t)drogue_shr_round_s64((int64_t)half_width_px_q16 * half_width_px_q16, 8);
     band.cos2_q10 = (uint32_t)drogue_shr_round_s64((int64_t)cos_q16 * cos_q16, 22);
     return band;
-}
-
-int drogue_ellipse_band_holds(drogue_band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
-                              drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy)
-{
-    return band_holds(out, frame, band, x_px_q16, y_px_q16, gx, gy);
 }
 
 drogue_q16 drogue_quality_threshold(const drogue_ellipse *ellipse, drogue_q16 fit_error_px_q16)

@@ -1,20 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Support of an ellipse by all edge points; drogue_support_count() is in near.c. */
+/* Support of an ellipse by all edge points. */
 #include "drogue/support.h"
-
-#include "band.h"
-
-uint32_t drogue_support_bin_of(int32_t u_q24, int32_t v_q24) { return bin_of(u_q24, v_q24); }
-
-int drogue_support_add(drogue_support *support, const drogue_band_point *p, const drogue_edge *edge)
-{
-    const uint32_t k = bin_of(p->u_q24, p->v_q24);
-    support_sums sums = sums_of(support);
-    const uint32_t own = add_to_support(&support->bin[k], &sums, 1, (support->bright_bins >> k) & 1u, p->f_q24,
-                                        p->polarity, edge->gx, edge->gy);
-    put_sums(support, &sums);
-    return (int)own;
-}
 
 /* Length of bin k of a quadrant, px Q16: (b + (a - b) sin^2) pi / 16, within 8 % for axis ratios from 0.4. */
 static int64_t bin_length_q16(const drogue_ellipse *e, uint32_t k)

@@ -12,12 +12,12 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
                                          const drogue_setup *setup, int32_t x_px, int32_t y_px)
 {
     const drogue_band band = drogue_band_of(outline->band_px_q16, setup->config->refit_cos_q16);
-    drogue_support support = outline->support;
     drogue_ellipse_frame frame;
     drogue_ellipse centre = outline->fitted;
-    drogue_collection c;
     drogue_status status;
+    drogue_outline_room *room = workspace->outline; /* what found the outline has served */
     drogue_region_lens l;
+    uint32_t own;
     memset(out, 0, sizeof *out);
     l.camera = setup->camera;
     l.x_px_q16 = drogue_q16_from_int(x_px);
@@ -28,10 +28,11 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         drogue_undistort_point(&centre.xc_px_q16, &centre.yc_px_q16, setup->camera) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
-    drogue_collection_begin(&c, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
-    drogue_collect_edges(&c, &support, &frame, &band, workspace->edges, list->edge_count, &l);
-    status = drogue_collection_fit(out, &c);
-    if (status == DROGUE_OK && (c.moments.n * 4 < (int64_t)(support.points - outline->support.points) * 3 ||
+    drogue_collection_begin(&room->own, &centre, (int64_t)centre.a_px_q16 * 4); /* lenses may stretch */
+    room->support = outline->support;
+    own = drogue_collect_undistorted(&room->own, &room->support, &frame, &band, workspace->edges, list->edge_count, &l);
+    status = drogue_collection_fit(out, &room->own);
+    if (status == DROGUE_OK && (room->own.moments.n * 4 < (int64_t)own * 3 ||
                                 !drogue_round_enough(out, setup->config) || out->b_px_q16 < DROGUE_Q16_ONE)) {
         status = DROGUE_E_DEGENERATE; /* most of the outline lies beyond what the lens model can undo */
     }

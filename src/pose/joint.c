@@ -19,14 +19,15 @@ static int64_t products(const int32_t a[FIT], const int32_t b[FIT])
     int64_t sum = 0;
     int k;
     for (k = 0; k < FIT; k++) {
-        sum += (int64_t)a[k] * b[k];
+        sum += drogue_product(a[k], b[k]);
     }
     return sum;
 }
 
 /* Weighted products of all columns with each other, packed: the normal equations, their negative right side, and chi2.
  * Angles get the information 1 / rad^2, which only matters where nothing else says anything. */
-static void normal_equations(drogue_real normal[CHI2 + 1], const drogue_joint_rows *rows, const drogue_joint_weights *w)
+static void normal_equations(drogue_real normal[CHI2 + 1], const drogue_joint_rows *rows, const drogue_joint_outline *w,
+                             const drogue_real inner_weight[2])
 {
     const drogue_real one = {1 << 30, -30};
     int i;
@@ -39,11 +40,14 @@ static void normal_equations(drogue_real normal[CHI2 + 1], const drogue_joint_ro
         int64_t sum[FIT];
         int32_t exponent;
         for (i = 0; i < FIT; i++) {
-            sum[i] = products(w->outline[i], column->outline);
+            sum[i] = 0;
+            for (q = 0; q < FIT; q++) { /* |weights| <= 2^30, |rows| <= 2^31 */
+                sum[i] += drogue_product(w->weight[DROGUE_PACKED(i, q)], column->outline[q]);
+            }
         }
-        exponent = drogue_joint_squeeze(weighted, sum, FIT) + w->exponent + column->exponent;
-        drogue_real_product(&inner[0], &w->inner[0], &column->inner[0]);
-        drogue_real_product(&inner[1], &w->inner[1], &column->inner[1]);
+        exponent = drogue_joint_squeeze(weighted, sum, FIT) + w->weight_exponent + column->exponent;
+        drogue_real_product(&inner[0], &inner_weight[0], &column->inner[0]);
+        drogue_real_product(&inner[1], &inner_weight[1], &column->inner[1]);
         for (q = 0; q <= p; q++) {
             const drogue_joint_column *other = &rows->column[q];
             drogue_real *total = &normal[DROGUE_PACKED(p, q)];
@@ -126,16 +130,14 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
                                  const drogue_model *model, int steps)
 {
     drogue_real normal[CHI2 + 1];
-    drogue_joint_weights weights;
+    drogue_real inner_weight[2];
     drogue_joint_frame frame;
     drogue_joint_rows rows;
     drogue_joint_state s;
     int last = 0;
     int step;
-    drogue_status status = drogue_joint_weigh(&weights, normal, out->covariance, outline, inner, camera);
-    if (status == DROGUE_OK && start->position_m_q16[2] <= 0) {
-        status = DROGUE_E_BEHIND_CAMERA;
-    }
+    drogue_status status = start->position_m_q16[2] > 0 ? DROGUE_OK : DROGUE_E_BEHIND_CAMERA;
+    drogue_joint_weigh_inner(inner_weight, inner, camera);
     if (status == DROGUE_OK) {
         status = drogue_joint_begin(&s, &frame, start, &outline->ellipse, inner, camera, model);
     }
@@ -148,7 +150,7 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
         if (status != DROGUE_OK) {
             break;
         }
-        normal_equations(normal, &rows, &weights);
+        normal_equations(normal, &rows, outline, inner_weight);
         status = drogue_cholesky_factor(normal, FIT);
         last = step == steps;
         if (status == DROGUE_OK && steps > 0) {

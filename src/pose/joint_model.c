@@ -16,7 +16,7 @@
 
 static const drogue_real one = {1 << 30, -30};
 
-static int32_t mul_q30(int32_t a, int32_t b) { return (int32_t)drogue_shr_round_s64((int64_t)a * b, 30); }
+static int32_t mul_q30(int32_t a, int32_t b) { return (int32_t)drogue_shr_round_s64(drogue_product(a, b), 30); }
 
 /* a . b / 2^30; |a| <= 1 Q30 */
 static int32_t dot_q30(const int32_t a_q30[3], const int32_t b[3])
@@ -95,10 +95,13 @@ static drogue_status place(drogue_joint_state *s, const drogue_pose *pose, const
     for (k = 0; k < 3; k++) {
         s->position_q30[k] = drogue_real_to_s32(position[k], 30 - s->scale);
     }
+    if (s->scale > FARTHEST || !drogue_pose_angles_valid(pose)) {
+        return DROGUE_E_DOMAIN;
+    }
     s->angle_rad_q29[0] = (int32_t)drogue_shl_s64(pose->yaw_rad_q16, 13);
     s->angle_rad_q29[1] = (int32_t)drogue_shl_s64(pose->pitch_rad_q16, 13);
     drogue_joint_turn(s);
-    return s->scale <= FARTHEST ? DROGUE_OK : DROGUE_E_DOMAIN;
+    return DROGUE_OK;
 }
 
 static void disc_of(drogue_joint_frame *frame, const drogue_model *model)
@@ -129,9 +132,10 @@ drogue_status drogue_joint_begin(drogue_joint_state *state, drogue_joint_frame *
     int32_t s_q30;
     int32_t c_q30;
     int near_axis;
-    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
+    drogue_sincos_q30(&s_q30, &c_q30, drogue_ellipse_angle_valid(e) ? e->angle_rad_q16 * 8192 : 0);
     memset(frame, 0, sizeof *frame);
-    near_axis = put_ray(&frame->ray_q29[0][0], e->a_px_q16, c_q30, fx);
+    near_axis = drogue_ellipse_angle_valid(e);
+    near_axis &= put_ray(&frame->ray_q29[0][0], e->a_px_q16, c_q30, fx);
     near_axis &= put_ray(&frame->ray_q29[0][1], e->a_px_q16, s_q30, fy);
     near_axis &= put_ray(&frame->ray_q29[1][0], e->b_px_q16, -s_q30, fx);
     near_axis &= put_ray(&frame->ray_q29[1][1], e->b_px_q16, c_q30, fy);
@@ -255,7 +259,7 @@ drogue_status drogue_joint_outline_rows(drogue_joint_rows *out, const drogue_joi
     drogue_real_quotient(&over, &one, &over);
     residual->exponent = harmonics(h, q_q54) + over.exponent + 31;
     for (i = 0; i < DROGUE_JOINT_FIT; i++) {
-        residual->outline[i] = -(int32_t)drogue_shr_round_s64((int64_t)h[i] * over.mantissa, 31);
+        residual->outline[i] = -(int32_t)drogue_shr_round_s64(drogue_product(h[i], over.mantissa), 31);
         drogue_real_set(&t, residual->outline[i], residual->exponent);
         residual_q29[i] = drogue_real_to_s32(t, 29);
         if (residual_q29[i] >= 1 << 30 || residual_q29[i] <= -(1 << 30)) {
@@ -338,12 +342,8 @@ drogue_status drogue_joint_inner_rows(drogue_joint_rows *out, const drogue_joint
     }
     for (i = 0; i < 2; i++) {
         drogue_real_difference(&out->column[DROGUE_JOINT_FIT].inner[i], &seen.image[i], &frame->inner[i]);
-        for (p = 0; p < 2; p++) {
-            drogue_real_copy(&out->column[p].inner[i], &seen.over_depth);
-            if (p != i) {
-                drogue_real_set(&out->column[p].inner[i], 0, 0);
-            }
-        }
+        drogue_real_copy(&out->column[i].inner[i], &seen.over_depth);
+        drogue_real_set(&out->column[1 - i].inner[i], 0, 0);
         drogue_real_product(&out->column[2].inner[i], &seen.image[i], &seen.over_depth);
         drogue_real_negate(&out->column[2].inner[i]);
         for (p = 3; p < DROGUE_JOINT_FIT; p++) { /* change of the disc's middle across and along the ray */

@@ -37,13 +37,6 @@ typedef struct drogue_joint_rows {
     drogue_joint_column column[DROGUE_JOINT_FIT + 1];
 } drogue_joint_rows;
 
-/* Inverse covariance of the rows: the outline's in units of 2^exponent, the inner part's two. */
-typedef struct drogue_joint_weights {
-    int32_t outline[DROGUE_JOINT_FIT][DROGUE_JOINT_FIT];
-    int32_t exponent;
-    drogue_real inner[2];
-} drogue_joint_weights;
-
 /* Bring n <= 6 numbers to one scale: the largest lands in [2^29, 2^30).
  *
  *  return  e such that in[i] = out[i] * 2^e, to half a unit
@@ -78,13 +71,7 @@ drogue_status drogue_joint_outline_rows(drogue_joint_rows *out, const drogue_joi
 drogue_status drogue_joint_inner_rows(drogue_joint_rows *out, const drogue_joint_state *state,
                                       const drogue_joint_frame *frame);
 
-/* Weights from the outline's covariance and the inner part's standard deviation.
- *
- *  root         working space, as is 'information'
- *  return       DROGUE_OK; DROGUE_E_DEGENERATE when the covariance is not positive definite
- */
-drogue_status drogue_joint_weigh(drogue_joint_weights *out, drogue_real root[DROGUE_PACKED_MAX],
-                                 drogue_real information[DROGUE_PACKED_MAX], const drogue_joint_outline *outline,
-                                 const drogue_joint_inner *inner, const drogue_camera *camera);
+/* Inverse variances of the inner part's rows; 0 where there is none. */
+void drogue_joint_weigh_inner(drogue_real out[2], const drogue_joint_inner *inner, const drogue_camera *camera);
 
 #endif

@@ -6,43 +6,72 @@
 
 typedef drogue_real real;
 
-/* Normal equations of the fit, points times products of the basis functions; 'scatter' is the squared residual of the
- * bins' means. Returns the number of bins that hold points. */
+/* cos of j / 64 turns, Q30 */
+static int32_t cosine_q30(uint32_t j)
+{
+    static const int32_t quarter_q30[17] = {1073741824, 1068571464, 1053110176, 1027506862, 992008094, 946955747,
+                                            892783698,  830013654,  759250125,  681174602,  596538995, 506158392,
+                                            410903207,  311690799,  209476638,  105245103,  0};
+    const uint32_t turned = j & 31u; /* half a turn changes the sign */
+    const int32_t c = turned > 16 ? -quarter_q30[32 - turned] : quarter_q30[turned];
+    return j & 32u ? -c : c;
+}
+
+#define HARMONICS 4
+
+/* Normal equations of the fit, points times products of the basis functions 1, cos t, sin t, cos 2t, sin 2t: sums of cos mt and
+ * sin mt; 'scatter' is the squared residual of the bins' means. Returns the number of bins that hold points. */
 static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, const drogue_support *support)
 {
-    int64_t sum_q30[DROGUE_PACKED_MAX];
+    int64_t c_q30[HARMONICS + 1] = {0};
+    int64_t s_q30[HARMONICS + 1] = {0};
     int32_t bins = 0;
     uint32_t k;
     int i;
-    int j;
-    memset(sum_q30, 0, sizeof sum_q30);
     drogue_real_set(scatter, 0, 0);
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        const int64_t n = support->bin[k].count[(support->bright_bins >> k) & 1u];
-        const int64_t sum_q16 = support->bin[k].sum_q16;
-        int64_t basis_q30[DROGUE_JOINT_FIT];
+        const uint32_t n = support->bin[k].count[(support->bright_bins >> k) & 1u];
+        const int32_t sum_q16 = support->bin[k].sum_q16;
+        uint32_t m;
         real square;
         real points;
         if (n == 0) {
             continue;
         }
         bins++;
-        DROGUE_NOTE("joint: squared sum of a bin's offsets, Q32", sum_q16 * sum_q16, 61); /* support.c: 2^30 */
-        drogue_real_set(&square, sum_q16 * sum_q16, -32);
+        DROGUE_NOTE("joint: squared sum of a bin's offsets, Q32", (int64_t)sum_q16 * sum_q16, 61); /* support.c: 2^30 */
+        drogue_real_set(&square, drogue_product(sum_q16, sum_q16), -32);
         drogue_real_set(&points, n, 0);
         drogue_real_quotient(&square, &square, &points);
         drogue_real_sum(scatter, scatter, &square);
-        drogue_support_basis(basis_q30, k);
-        for (i = 0; i < DROGUE_JOINT_FIT; i++) {
-            for (j = 0; j <= i; j++) {
-                sum_q30[DROGUE_PACKED(i, j)] += n * drogue_shr_round_s64(basis_q30[i] * basis_q30[j], 30);
-                /* 2^22 points at most, basis functions at most 1 */
-                DROGUE_NOTE("joint: information, Q30", sum_q30[DROGUE_PACKED(i, j)], 53);
-            }
+        for (m = 0; m <= HARMONICS; m++) { /* the middle of bin k is 2 k + 1 64ths of a turn */
+            const uint32_t turn = m * (2 * k + 1);
+            c_q30[m] += drogue_product((int32_t)n, cosine_q30(turn));
+            s_q30[m] += drogue_product((int32_t)n, cosine_q30(turn - 16));
         }
     }
-    for (i = 0; i < DROGUE_PACKED_MAX; i++) {
-        drogue_real_set(&information[i], sum_q30[i], -30);
+    {
+        /* twice the sums of the products, packed */
+        const int64_t sum_q30[DROGUE_PACKED_MAX] = {2 * c_q30[0],
+                                                    2 * c_q30[1],
+                                                    c_q30[0] + c_q30[2],
+                                                    2 * s_q30[1],
+                                                    s_q30[2],
+                                                    c_q30[0] - c_q30[2],
+                                                    2 * c_q30[2],
+                                                    c_q30[1] + c_q30[3],
+                                                    s_q30[3] - s_q30[1],
+                                                    c_q30[0] + c_q30[4],
+                                                    2 * s_q30[2],
+                                                    s_q30[1] + s_q30[3],
+                                                    c_q30[1] - c_q30[3],
+                                                    s_q30[4],
+                                                    c_q30[0] - c_q30[4]};
+        for (i = 0; i < DROGUE_PACKED_MAX; i++) {
+            /* 2^22 points at most, basis functions at most 1 */
+            DROGUE_NOTE("joint: information, Q31", sum_q30[i], 54);
+            drogue_real_set(&information[i], sum_q30[i], -31);
+        }
     }
     return bins;
 }
@@ -99,45 +128,40 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
         drogue_real_product(&variance, &variance, &variance);
         drogue_real_sum(own, own, &variance);
     }
-    return DROGUE_OK;
+    return drogue_joint_outline_weigh(outline);
 }
 
-/* Bring the outline's weights to one scale: those of 2^30 below the largest are 0. */
-static void scale_weights(drogue_joint_weights *out, const real information[DROGUE_PACKED_MAX])
+drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline)
 {
+    real root[DROGUE_PACKED_MAX];
+    real information[DROGUE_PACKED_MAX];
     int32_t top = INT32_MIN;
     int i;
-    int j;
-    for (i = 0; i < DROGUE_PACKED_MAX; i++) {
-        const real *w = &information[i];
-        top = w->mantissa != 0 && w->exponent > top ? w->exponent : top;
-    }
-    out->exponent = top + 1; /* the largest, below 2^31, comes to lie below 2^30 */
-    for (i = 0; i < DROGUE_JOINT_FIT; i++) {
-        for (j = 0; j < DROGUE_JOINT_FIT; j++) {
-            out->outline[i][j] = drogue_real_to_s32(information[DROGUE_PACKED(i, j)], -out->exponent);
-        }
-    }
-}
-
-drogue_status drogue_joint_weigh(drogue_joint_weights *out, real root[DROGUE_PACKED_MAX],
-                                 real information[DROGUE_PACKED_MAX], const drogue_joint_outline *outline,
-                                 const drogue_joint_inner *inner, const drogue_camera *camera)
-{
-    real std;
     memcpy(root, outline->covariance, sizeof outline->covariance);
     if (drogue_cholesky_factor(root, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
     drogue_cholesky_invert(information, root, DROGUE_JOINT_FIT);
-    memset(out->inner, 0, sizeof out->inner);
+    for (i = 0; i < DROGUE_PACKED_MAX; i++) { /* one scale: what is 2^30 below the largest is 0 */
+        const real *w = &information[i];
+        top = w->mantissa != 0 && w->exponent > top ? w->exponent : top;
+    }
+    outline->weight_exponent = top + 1; /* the largest, below 2^31, comes to lie below 2^30 */
+    for (i = 0; i < DROGUE_PACKED_MAX; i++) {
+        outline->weight[i] = drogue_real_to_s32(information[i], -outline->weight_exponent);
+    }
+    return DROGUE_OK;
+}
+
+void drogue_joint_weigh_inner(real out[2], const drogue_joint_inner *inner, const drogue_camera *camera)
+{
+    real std;
+    memset(out, 0, 2 * sizeof *out);
     if (inner->std_px_q16 > 0) { /* its rows are rays */
         drogue_real_set_q16(&std, inner->std_px_q16);
-        drogue_real_set_q16(&out->inner[0], camera->fx_px_q16);
-        drogue_real_set_q16(&out->inner[1], camera->fy_px_q16);
-        square_ratio(&out->inner[0], &out->inner[0], &std);
-        square_ratio(&out->inner[1], &out->inner[1], &std);
+        drogue_real_set_q16(&out[0], camera->fx_px_q16);
+        drogue_real_set_q16(&out[1], camera->fy_px_q16);
+        square_ratio(&out[0], &out[0], &std);
+        square_ratio(&out[1], &out[1], &std);
     }
-    scale_weights(out, information);
-    return DROGUE_OK;
 }

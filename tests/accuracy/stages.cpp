@@ -2,6 +2,8 @@
 /* The library's stages called one by one. */
 #include "stages.hpp"
 
+#include "../band_points.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -72,7 +74,9 @@ drogue_support support_of(const drogue_ellipse &ellipse, const std::vector<drogu
         int32_t v_q24;
         drogue_ellipse_frame_point(&u_q24, &v_q24, &frame, drogue_edge_x_q16(&e), drogue_edge_y_q16(&e));
         const double offset = (std::pow(std::ldexp(u_q24, -24), 2) + std::pow(std::ldexp(v_q24, -24), 2) - 1) / 2;
-        const uint32_t bin = drogue_support_bin_of(u_q24, v_q24);
+        const double unit = 16384 / std::max(1.0, std::hypot(u_q24, v_q24));
+        const uint32_t bin =
+            bin_of(static_cast<int32_t>(std::lround(u_q24 * unit)), static_cast<int32_t>(std::lround(v_q24 * unit)));
         const auto offset_q16 = static_cast<int64_t>(std::lround(offset * 65536));
         support.bin[bin].count[0]++;
         sums[bin] += offset_q16;

@@ -4,8 +4,8 @@
 
 #include <string.h>
 
+#include "../../src/outline/near.h"
 #include "drogue/joint.h"
-#include "drogue/support.h"
 
 /* Edge points from words x_q5 y_q5 gx gy; 0 when one is out of the front end's range. */
 static int edges_of_words(drogue_edge *edges, const int32_t *w, size_t count)
@@ -25,24 +25,35 @@ static int edges_of_words(drogue_edge *edges, const int32_t *w, size_t count)
     return 1;
 }
 
+/* Word of a member from what one point changed in the counts: bin, and polarity; -1 when it does not belong. */
+static int32_t member_of(const drogue_support *before, const drogue_support *after)
+{
+    uint32_t k;
+    for (k = 0; k < 2 * DROGUE_SUPPORT_BINS; k++) {
+        if (after->bin[k % DROGUE_SUPPORT_BINS].count[k / DROGUE_SUPPORT_BINS] !=
+            before->bin[k % DROGUE_SUPPORT_BINS].count[k / DROGUE_SUPPORT_BINS]) {
+            return (int32_t)k;
+        }
+    }
+    return -1;
+}
+
 /* Add every edge point that belongs to the sums of the bins, whose polarity is decided. */
 static void add_members(int32_t *members, drogue_support *support, const drogue_ellipse_frame *frame,
                         const drogue_band *band, const drogue_edge *edges, size_t count)
 {
     const uint32_t bright_bins = support->bright_bins;
     const uint32_t covered = support->covered;
+    drogue_moments moments;
     size_t i;
+    drogue_moments_clear(&moments);
     memset(support, 0, sizeof *support);
     support->bright_bins = bright_bins;
     support->covered = covered;
     for (i = 0; i < count; i++) {
-        drogue_band_point p;
-        members[i] = -1;
-        if (drogue_ellipse_band_holds(&p, frame, band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
-                                      edges[i].gx, edges[i].gy)) {
-            members[i] = (int32_t)(drogue_support_bin_of(p.u_q24, p.v_q24) + DROGUE_SUPPORT_BINS * p.polarity);
-            (void)drogue_support_add(support, &p, &edges[i]);
-        }
+        const drogue_support before = *support;
+        drogue_collect_edges(&moments, support, frame, band, &edges[i], 1, 1, 0);
+        members[i] = member_of(&before, support);
     }
 }
 
@@ -68,6 +79,7 @@ int stage_support(stage_run *r)
     drogue_edge *edges = (drogue_edge *)stage_take(r, count * sizeof *edges);
     drogue_ellipse_frame frame;
     drogue_support support;
+    drogue_moments moments;
     drogue_band band;
     uint32_t k;
     if (summary == NULL || bins == NULL || members == NULL || sums == NULL || edges == NULL) {
@@ -84,7 +96,9 @@ int stage_support(stage_run *r)
     if (summary[0] != DROGUE_OK) {
         return 0;
     }
-    drogue_support_count(&support, &frame, &band, edges, (uint32_t)count, (uint32_t)p[2]);
+    memset(&support, 0, sizeof support);
+    drogue_moments_clear(&moments);
+    drogue_collect_edges(&moments, &support, &frame, &band, edges, (uint32_t)count, (uint32_t)p[2], 0);
     drogue_support_judge(&support, &ellipse, (drogue_polarity)p[3], (uint32_t)p[2]);
     summary[1] = counted(&support);
     summary[2] = (int32_t)support.bright_bins;

@@ -5,7 +5,7 @@
 #include "golden.hpp"
 #include "reference.hpp"
 
-#include "drogue/support.h"
+#include "../band_points.h"
 
 namespace {
 
@@ -85,22 +85,21 @@ int main()
             held.add(INFINITY, name);
             continue;
         }
-        drogue_support_count(&got, &frame, &s.band, s.edges.data(), (std::uint32_t)s.edges.size(), 1);
+        support_count(&got, &frame, &s.band, s.edges.data(), (std::uint32_t)s.edges.size(), 1);
         for (const drogue_edge &q : s.edges) {
             const reference::Edge edge = {
                 {q.x_q5 / 32.0L, q.y_q5 / 32.0L}, (reference::Real)q.gx, (reference::Real)q.gy};
-            drogue_band_point p;
+            band_point p;
             reference::BandPoint m = reference::band_point(e, s.model_band, edge);
-            const bool own = drogue_ellipse_band_holds(&p, &frame, &s.band, drogue_edge_x_q16(&q),
-                                                       drogue_edge_y_q16(&q), q.gx, q.gy) != 0;
+            const bool own = point_holds(&p, &frame, &s.band, &q) != 0;
             const bool open = m.undecided(3e-4L * s.model_band.width + 1e-4L, 3e-4L);
             undecided += open;
             decided += !open;
             wrong += !open && own != m.held;
             m.held = own;
             if (own) {
-                const int bin = (int)drogue_support_bin_of(p.u_q24, p.v_q24);
-                misplaced += m.from_next_bin > 3e-5L && (bin != m.bin || (int)p.polarity != m.polarity);
+                const int bin = (int)point_bin(&p);
+                misplaced += m.from_next_bin > e.a / e.b / 8192 && (bin != m.bin || (int)p.polarity != m.polarity);
                 m.bin = bin;
                 reference::support_add(model, m, edge);
             }
@@ -117,11 +116,10 @@ int main()
         reference::Support expected;
         added.bright_bins = expected.bright = model.bright;
         for (std::size_t i = 0; i < points.size(); i++) {
-            drogue_band_point p;
+            band_point p;
             const drogue_edge &q = s.edges[i];
-            if (drogue_ellipse_band_holds(&p, &frame, &s.band, drogue_edge_x_q16(&q), drogue_edge_y_q16(&q), q.gx,
-                                          q.gy)) {
-                drogue_support_add(&added, &p, &q);
+            if (point_holds(&p, &frame, &s.band, &q)) {
+                point_add(&added, &p, &q);
                 reference::support_add(expected, points[i], {{0, 0}, (reference::Real)q.gx, (reference::Real)q.gy});
             }
         }

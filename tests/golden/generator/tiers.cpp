@@ -29,13 +29,13 @@ Real sum_error(Real n, const reference::Ellipse &e)
 }
 
 /* A member as its word: bin and polarity, -1 when the point does not belong. Where its limits are nearer than the library
- * resolves from the same ellipse (the normal has 14 bits, tangents of the bins' limits 16), the library's word counts. */
-int64_t member_of(reference::BandPoint &p, const reference::Band &band, int64_t library)
+ * resolves from the same ellipse (the normal, and with it the direction times b / a, has 14 bits), the library's word counts. */
+int64_t member_of(reference::BandPoint &p, const reference::Ellipse &e, const reference::Band &band, int64_t library)
 {
     if (p.undecided(3e-4L * band.width + 1e-4L, 3e-4L)) {
         p.held = library >= 0;
     }
-    if (p.held && library >= 0 && p.from_next_bin < 3e-5L) {
+    if (p.held && library >= 0 && p.from_next_bin < e.a / e.b / 8192) {
         p.bin = as_int(library) % reference::SUPPORT_BINS;
     }
     return p.held ? p.bin + reference::SUPPORT_BINS * p.polarity : -1;
@@ -121,7 +121,7 @@ Tiers support_tier(const Arrays &in, const Arrays &exact)
                          static_cast<Real>(w[4 * i + 2]),
                          static_cast<Real>(w[4 * i + 3])});
         points.push_back(reference::band_point(e, band, edges.back()));
-        members.push_back(member_of(points.back(), band, exact[2].words[i]));
+        members.push_back(member_of(points.back(), e, band, exact[2].words[i]));
     }
     int64_t looked = 0;
     for (size_t i = 0; i < points.size(); i += static_cast<size_t>(p[2])) {

@@ -11,10 +11,10 @@ int decisions_outline_enlarge(drogue_outline *, const drogue_workspace *, const 
 #include "../../../src/outline/outline.c"
 
 /* As refit() in outline.c, written down on the way. */
-static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, const context *x)
+static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, context *x)
 {
     drogue_band band = band_about(&o->ellipse, x->config->search_band_q16, x->config);
-    drogue_collection c;
+    uint32_t stride = x->config->refit_rounds > 0 ? stride_of(x) : 1;
     uint32_t n;
     int done = 0;
     for (n = 0; n <= x->config->refit_rounds && !done;) {
@@ -24,18 +24,21 @@ static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, cons
         rounds[n].ellipse = o->ellipse;
         rounds[n].band = band;
         n++;
-        if (collect_outline(&c, &o->support, &o->ellipse, &band, x) != DROGUE_OK) {
+        if (collect(x, &o->ellipse, &band, bright_bins, stride) != DROGUE_OK) {
             break;
         }
-        drogue_support_judge(&o->support, &o->ellipse, x->config->polarity, 1);
+        o->support = x->room->support;
         if (o->support.bright_bins == bright_bins) {
-            if (drogue_collection_fit(&ellipse, &c) != DROGUE_OK || !plausible(&ellipse, x->mask, x->config)) {
+            if (drogue_collection_fit(&ellipse, &x->room->own) == DROGUE_OK &&
+                plausible(&ellipse, x->mask, x->config)) {
+                drogue_band_narrow(&band, &o->support, &ellipse, x->config);
+                done = band.half_width_px_q16 == width && stride == 1 && drogue_ellipse_settled(&ellipse, &o->ellipse);
+                o->ellipse = ellipse;
+            } else if (stride == 1) {
                 break;
             }
-            narrow(&band, &o->support, &ellipse, x->config);
-            done = band.half_width_px_q16 == width && settled(&ellipse, &o->ellipse);
-            o->ellipse = ellipse;
         }
+        stride = 1;
     }
     return (int)n;
 }
@@ -50,6 +53,7 @@ int decisions_of_refit(decisions_round rounds[DECISIONS_MAX], const drogue_works
     uint32_t chosen = 0;
     int k;
     x.workspace = workspace;
+    x.room = workspace->outline;
     x.list = list;
     x.mask = mask;
     x.config = config;
@@ -58,7 +62,7 @@ int decisions_of_refit(decisions_round rounds[DECISIONS_MAX], const drogue_works
         x.choices.arc[k][1] = DROGUE_NO_ARC;
         chosen |= (uint32_t)usable(&x, k, 0) << (4 * k);
     }
-    (void)try_arcs(&candidate, chosen, &x);
+    (void)try_arcs(&candidate, chosen, &x); /* leaves the sum of the arcs */
     memset(&outline, 0, sizeof outline);
     outline.ellipse = candidate.ellipse;
     outline.support.bright_bins = candidate.polarity;
@@ -73,9 +77,11 @@ int decisions_of_ring(decisions_round rounds[DECISIONS_MAX], const drogue_worksp
     context x;
     memset(&x, 0, sizeof x);
     x.workspace = workspace;
+    x.room = workspace->outline;
     x.list = list;
     x.mask = mask;
     x.config = config;
+    drogue_collection_of_region(&x.room->sum);
     memset(&outline, 0, sizeof outline);
     outline.ellipse = *ring;
     outline.support.bright_bins = bright_bins;

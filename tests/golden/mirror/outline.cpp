@@ -3,6 +3,8 @@
  * is exact; from there on every number is unrounded, and every threshold is the configuration's. */
 #include "outline.hpp"
 
+#include "../../band_points.h"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -28,17 +30,16 @@ BandPoint decide(const Ellipse &e, const reference::Band &band, const Edge &edge
                  const drogue_ellipse_frame *frame, const drogue_band *library)
 {
     BandPoint p = reference::band_point(e, band, edge);
-    drogue_band_point own;
+    band_point own = {};
     if (library == nullptr) {
         return p;
     }
-    const bool held =
-        drogue_ellipse_band_holds(&own, frame, library, drogue_edge_x_q16(&q), drogue_edge_y_q16(&q), q.gx, q.gy) != 0;
+    const bool held = point_holds(&own, frame, library, &q) != 0;
     if (p.undecided(Follow::width(e, band.width), Follow::cosine)) {
         p.held = held;
     }
     if (p.held && held && p.from_next_bin < Follow::angle(e)) {
-        p.bin = static_cast<int>(drogue_support_bin_of(own.u_q24, own.v_q24));
+        p.bin = static_cast<int>(point_bin(&own));
     }
     return p;
 }
@@ -296,16 +297,18 @@ void Finder::refit(Outline &o, const decisions_round *rounds, int known) const
     for (int round = 0; round <= static_cast<int>(config_.refit_rounds) && !done; round++) {
         const decisions_round *library = round < known ? &rounds[round] : nullptr;
         const std::vector<BandPoint> points = collect(o.ellipse, band, front_, library);
+        /* the first round takes the points that were looked at */
+        const size_t stride = round == 0 && config_.refit_rounds > 0 ? front_.edges.size() / 512 + 1 : 1;
         std::vector<Point> members;
         Support s;
         s.bright = o.support.bright;
-        for (size_t i = 0; i < points.size(); i++) {
+        for (size_t i = 0; i < points.size(); i += stride) {
             if (points[i].held && reference::support_add(s, points[i], front_.edges[i])) {
                 members.push_back(front_.edges[i].at);
             }
         }
         const uint32_t summed = s.bright;
-        reference::support_judge(s, o.ellipse, config_.polarity, 1);
+        reference::support_judge(s, o.ellipse, config_.polarity, static_cast<int>(stride));
         const bool last = round == static_cast<int>(config_.refit_rounds), turned = s.bright != summed;
         if (last && turned) {
             reference::support_judge_as(s, o.ellipse, summed, 1);
@@ -317,6 +320,9 @@ void Finder::refit(Outline &o, const decisions_round *rounds, int known) const
         }
         const Ellipse e = fit(members);
         if (!plausible(e)) {
+            if (stride > 1) {
+                continue;
+            }
             break;
         }
         const Real width = band.width;
@@ -325,7 +331,7 @@ void Finder::refit(Outline &o, const decisions_round *rounds, int known) const
                                      std::fabs(e.a - o.ellipse.a), std::fabs(e.b - o.ellipse.b)});
         const bool unsure = std::fabs(moved - SETTLED) < Follow::score ||
                             (moved <= SETTLED && width - band.width < Follow::width(e, width));
-        done = moved <= SETTLED && width - band.width < 1 / 65536.0L;
+        done = moved <= SETTLED && width - band.width < 1 / 65536.0L && stride == 1;
         if (known > 0 && unsure) {
             done = round + 1 >= known;
         }

@@ -35,10 +35,10 @@ struct Follow {
     /* px: the ellipse to 8 LSB, the normal to 14 bits; the band's width is 3 spreads whose root is cut to 16 bits of a
      * semi-axis */
     static Real width(const reference::Ellipse &e, Real band) { return 3e-4L + 3e-4L * band + 4 * e.a / 65536; }
-    /* rad: the ellipse to 8 LSB, its angle the less sure the rounder it is */
+    /* rad: the ellipse to 8 LSB, its angle the less sure the rounder it is; the direction times b / a to 14 bits */
     static Real angle(const reference::Ellipse &e)
     {
-        return 1e-4L + 8 / 65536.0L * (1 + 1 / std::max<Real>(e.a - e.b, 1e-6L));
+        return 1e-4L + e.a / e.b / 8192 + 8 / 65536.0L * (1 + 1 / std::max<Real>(e.a - e.b, 1e-6L));
     }
     static constexpr Real score = 8 / 65536.0L;
 };

@@ -4,6 +4,8 @@
 
 #include "../../../src/outline/collection.h"
 
+static drogue_pull_side sides[DROGUE_SUPPORT_BINS][DROGUE_PULL_SIDES];
+
 enum { ROUND = 800 }; /* points round the outline, more than are looked at; each with its opposite one beside it */
 
 static drogue_edge edges[2 * ROUND];
@@ -65,7 +67,7 @@ static void pull_of(drogue_support *s, double outer, double inner, uint32_t bins
             edges[count++] = edge_at(40, 41, inner, turn, 300);
         }
     }
-    drogue_outline_pull(s, &fitted, edges, count, config);
+    drogue_outline_pull(s, sides, &fitted, edges, count, config);
 }
 
 START_TEST(a_band_is_as_wide_as_it_is)

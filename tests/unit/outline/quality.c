@@ -2,6 +2,8 @@
 /* Quality (10)-(15) and the membership of edge points against double precision. */
 #include "suite.h"
 
+#include "../../band_points.h"
+
 #include "drogue/quality.h"
 #include "geometry.h"
 
@@ -77,6 +79,17 @@ START_TEST(frame_refuses_what_is_no_ellipse)
     ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_E_DOMAIN);
     q.a_px_q16 = q.b_px_q16 = -65536;
     ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_E_DOMAIN);
+    q.a_px_q16 = q.b_px_q16 = 65536;
+    q.angle_rad_q16 = DROGUE_Q16_HALF_PI;
+    ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_OK);
+    q.angle_rad_q16 = 4 * 65536;
+    ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_E_DOMAIN);
+    q.angle_rad_q16 = 0;
+    q.xc_px_q16 = 1 << 30;
+    ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_E_DOMAIN);
+    q.xc_px_q16 = 0;
+    q.yc_px_q16 = -(1 << 30);
+    ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_E_DOMAIN);
 }
 END_TEST
 
@@ -84,7 +97,6 @@ END_TEST
 START_TEST(band_away_from_its_borders)
 {
     uint64_t rng = 2;
-    int32_t frame_u, frame_v;
     int i, k, held[2] = {0, 0}, refused = 0;
     for (i = 0; i < 4000; i++) {
         drogue_ellipse q = random_ellipse(&rng);
@@ -112,16 +124,15 @@ START_TEST(band_away_from_its_borders)
             cosine = (gx * nx + gy * ny) / n / hypot(gx, gy);
             if (fabs(distance / t - 1) > 0.01 && fabs(fabs(cosine) - real_of_q16(cos_q16)) > 0.004) {
                 int expected = distance < t && fabs(cosine) > real_of_q16(cos_q16);
-                drogue_band_point p;
-                MUST(!!drogue_ellipse_band_holds(&p, &frame, &band, q16_of(x), q16_of(y), (int16_t)gx, (int16_t)gy) ==
-                         expected,
+                band_point p;
+                MUST(!!place_holds(&p, &frame, &band, q16_of(x), q16_of(y), (int16_t)gx, (int16_t)gy) == expected,
                      "ellipse %d, point %d: distance %.4f of %.4f, cosine %.4f of %.4f", i, k, distance, t, cosine,
                      real_of_q16(cos_q16));
                 if (expected) {
-                    drogue_ellipse_frame_point(&frame_u, &frame_v, &frame, q16_of(x), q16_of(y));
-                    MUST(p.u_q24 == frame_u && p.v_q24 == frame_v && fabs(p.u_q24 / 16777216.0 - u) < 1e-4 &&
-                             fabs(p.v_q24 / 16777216.0 - v) < 1e-4 && fabs(p.f_q24 / 16777216.0 - f) < 1e-4,
-                         "ellipse %d, point %d: u %.6f, v %.6f, F %.6f", i, k, u, v, f);
+                    MUST(fabs(p.u_q14 / 16384.0 - u * e.b / e.a) < 2e-4 &&
+                             fabs(p.v_q14 / 16384.0 - v * e.b / e.a) < 2e-4 &&
+                             fabs(p.offset_q16 - 32768 * f) < 0.7 + 8 / e.b * e.a / e.b,
+                         "ellipse %d, point %d: u %.6f, v %.6f, F %.6f, b %.1f", i, k, u, v, f, e.b);
                     MUST(p.polarity == (cosine > 0 ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT),
                          "ellipse %d, point %d: polarity %d at cosine %.4f", i, k, (int)p.polarity, cosine);
                     held[p.polarity]++;
@@ -143,18 +154,18 @@ START_TEST(band_holds_no_gradient_across_and_no_point_far_off)
     const drogue_ellipse q = {100 * 65536, 100 * 65536, 20 * 65536, 10 * 65536, 0};
     const drogue_band any = drogue_band_of(8 * 65536, 0);
     drogue_ellipse_frame frame;
-    drogue_band_point p;
+    band_point p;
     int32_t x;
     ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_OK);
-    ck_assert(drogue_ellipse_band_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, 1, 0));
+    ck_assert(place_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, 1, 0));
     ck_assert_int_eq(p.polarity, DROGUE_POLARITY_DARK);
-    ck_assert(drogue_ellipse_band_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, -1020, 1020));
+    ck_assert(place_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, -1020, 1020));
     ck_assert_int_eq(p.polarity, DROGUE_POLARITY_BRIGHT);
-    ck_assert(!drogue_ellipse_band_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, 0, 1020));
-    ck_assert(!drogue_ellipse_band_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, 0, 0));
+    ck_assert(!place_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, 0, 1020));
+    ck_assert(!place_holds(&p, &frame, &any, 120 * 65536, 100 * 65536, 0, 0));
     for (x = 80; x <= 150; x++) {
         double u = (x - 100) / 20.0, distance = 20 * fabs(u * u - 1) / fmax(2 * fabs(u), 1e-9);
-        ck_assert_int_eq(!!drogue_ellipse_band_holds(&p, &frame, &any, x * 65536, 100 * 65536, x < 100 ? -500 : 500, 0),
+        ck_assert_int_eq(!!place_holds(&p, &frame, &any, x * 65536, 100 * 65536, x < 100 ? -500 : 500, 0),
                          u * u >= 0.25 && u * u <= 2 && distance <= 8);
     }
 }

@@ -3,14 +3,14 @@
  * every mixture. */
 #include "suite.h"
 
-#include "drogue/support.h"
+#include "../../band_points.h"
 #include "geometry.h"
 
 enum { MOST = 16384 };
 
 static drogue_edge edges[MOST];
 
-static int32_t q24_of(double v) { return (int32_t)floor(v * 16777216.0 + 0.5); }
+static int32_t q14_of(double v) { return (int32_t)floor(v * 16384 + 0.5); }
 
 START_TEST(bins_of_random_directions)
 {
@@ -18,10 +18,9 @@ START_TEST(bins_of_random_directions)
     int i;
     for (i = 0; i < 500000; i++) {
         double t = rng_real(&rng, 0, 2 * TEST_PI), r = rng_real(&rng, 0.5, 1.42), bin = t * 16 / TEST_PI;
-        int32_t u = q24_of(r * cos(t)), v = q24_of(r * sin(t));
-        if (fabs(bin - floor(bin + 0.5)) > 1e-4) { /* tangents are Q16 */
-            MUST(drogue_support_bin_of(u, v) == (uint32_t)bin, "direction %g is in bin %u", t,
-                 (unsigned)drogue_support_bin_of(u, v));
+        int32_t u = q14_of(r * cos(t)), v = q14_of(r * sin(t));
+        if (fabs(bin - floor(bin + 0.5)) > 1e-3) { /* components are Q14 */
+            MUST(bin_of(u, v) == (uint32_t)bin, "direction %g is in bin %u", t, (unsigned)bin_of(u, v));
         }
     }
 }
@@ -29,24 +28,23 @@ END_TEST
 
 START_TEST(bins_of_axes_and_diagonals)
 {
-    static const int32_t at[][3] = {{1, 0, 0},    {1, 1, 4},   {0, 1, 7},   {-1, 1, 11}, {-1, 0, 15},
-                                    {-1, -1, 20}, {0, -1, 24}, {1, -1, 27}, {0, 0, 0}};
+    static const int32_t at[][3] = {{1, 0, 0},   {1, 1, 4},    {0, 1, 7},   {-1, 1, 11},
+                                    {-1, 0, 15}, {-1, -1, 20}, {0, -1, 24}, {1, -1, 27}};
     size_t i;
     int scale;
     for (i = 0; i < sizeof at / sizeof at[0]; i++) {
-        for (scale = 0; scale <= 28; scale += 7) {
-            uint32_t bin = drogue_support_bin_of(at[i][0] * (1 << scale), at[i][1] * (1 << scale));
+        for (scale = 0; scale <= 14; scale += 7) {
+            uint32_t bin = bin_of(at[i][0] * (1 << scale), at[i][1] * (1 << scale));
             int apart = abs((int)bin - at[i][2]);
             /* on a border either neighbour is right, the same for every size */
             ck_assert(apart <= 1 || apart == 31);
-            ck_assert_uint_eq(bin, drogue_support_bin_of(at[i][0], at[i][1]));
+            ck_assert_uint_eq(bin, bin_of(at[i][0], at[i][1]));
         }
     }
-    ck_assert_uint_eq(drogue_support_bin_of(0, 0), 0);
-    ck_assert_uint_eq(drogue_support_bin_of(1 << 24, 1), 0);
-    ck_assert_uint_eq(drogue_support_bin_of(1 << 24, -1), 31);
-    ck_assert_uint_eq(drogue_support_bin_of(-(1 << 24), 1), 15);
-    ck_assert_uint_eq(drogue_support_bin_of(-(1 << 24), -1), 16);
+    ck_assert_uint_eq(bin_of(1 << 14, 1), 0);
+    ck_assert_uint_eq(bin_of(1 << 14, -1), 31);
+    ck_assert_uint_eq(bin_of(-(1 << 14), 1), 15);
+    ck_assert_uint_eq(bin_of(-(1 << 14), -1), 16);
 }
 END_TEST
 
@@ -57,10 +55,10 @@ START_TEST(bins_are_alike)
     int i;
     for (i = 0; i < 320000; i++) {
         double t = 2 * TEST_PI * (i + 0.5) / 320000;
-        count[drogue_support_bin_of(q24_of(cos(t)), q24_of(sin(t)))]++;
+        count[bin_of(q14_of(cos(t)), q14_of(sin(t)))]++;
     }
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        MUST(count[k] >= 9998 && count[k] <= 10002, "bin %u holds %u of 10000", (unsigned)k, (unsigned)count[k]);
+        MUST(count[k] >= 9990 && count[k] <= 10010, "bin %u holds %u of 10000", (unsigned)k, (unsigned)count[k]);
     }
 }
 END_TEST
@@ -151,7 +149,7 @@ START_TEST(counts_against_brute_force)
         tally model;
         ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_OK);
         memset(&got, 0x5A, sizeof got);
-        drogue_support_count(&got, &frame, &band, edges, count, stride);
+        support_count(&got, &frame, &band, edges, count, stride);
         count_all(&model, &e, width, cosine, count, stride);
         for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
             for (p = 0; p < 2; p++) {
@@ -179,7 +177,7 @@ static drogue_support judged(const ellipse_real *e, uint32_t count, drogue_polar
     drogue_ellipse_frame frame;
     drogue_support s;
     ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_OK);
-    drogue_support_count(&s, &frame, &band, edges, count, stride);
+    support_count(&s, &frame, &band, edges, count, stride);
     drogue_support_judge(&s, &q, polarity, stride);
     return s;
 }
@@ -315,23 +313,22 @@ START_TEST(sums)
         uint32_t points = 0, j;
         int k;
         ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &q), DROGUE_OK);
-        drogue_support_count(&counted, &frame, &band, edges, count, 1);
+        support_count(&counted, &frame, &band, edges, count, 1);
         memset(&s, 0, sizeof s);
         s.bright_bins = bright_bins;
         for (j = 0; j < count; j++) {
-            drogue_band_point p;
+            band_point p;
             double offset;
             uint32_t bin;
             int own;
-            if (!drogue_ellipse_band_holds(&p, &frame, &band, drogue_edge_x_q16(&edges[j]),
-                                           drogue_edge_y_q16(&edges[j]), edges[j].gx, edges[j].gy)) {
+            if (!point_holds(&p, &frame, &band, &edges[j])) {
                 continue;
             }
-            bin = drogue_support_bin_of(p.u_q24, p.v_q24);
+            bin = point_bin(&p);
             own = ((bright_bins >> bin) & 1u) == (uint32_t)p.polarity;
-            MUST(drogue_support_add(&s, &p, &edges[j]) == own, "case %d, point %u", i, (unsigned)j);
+            MUST(point_add(&s, &p, &edges[j]) == own, "case %d, point %u", i, (unsigned)j);
             if (own) {
-                offset = (p.u_q24 / 16777216.0 * p.u_q24 + p.v_q24 / 16777216.0 * p.v_q24 - 16777216.0) / 512;
+                offset = p.offset_q16;
                 sum[bin] += offset;
                 squares += offset * offset;
                 gradient += abs(edges[j].gx) + abs(edges[j].gy);

@@ -24,7 +24,8 @@ static int measurement_of(drogue_joint_outline *outline, drogue_joint_inner *inn
     for (i = 0; i < 5; i++) {
         outline->covariance[DROGUE_PACKED(i, i)] = real_of((quad)(i == 0 ? variance : 2 * variance));
     }
-    return drogue_pose_from_ellipse(poses, &outline->ellipse, &f->camera, f->model.rim_radius_m_q16) == DROGUE_OK;
+    return drogue_joint_outline_weigh(outline) == DROGUE_OK &&
+           drogue_pose_from_ellipse(poses, &outline->ellipse, &f->camera, f->model.rim_radius_m_q16) == DROGUE_OK;
 }
 
 /* From the right start within the few steps that a frame takes; from the other one within those that may be asked for,
@@ -303,12 +304,10 @@ START_TEST(what_cannot_be_solved)
     ck_assert(measurement_of(&outline, &inner, poses, &f, &p));
     broken = outline;
     memset(broken.covariance, 0, sizeof broken.covariance);
-    ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &broken, &inner, &f.camera, &f.model, 5),
-                     DROGUE_E_DEGENERATE);
+    ck_assert_int_eq(drogue_joint_outline_weigh(&broken), DROGUE_E_DEGENERATE);
     broken = outline;
     drogue_real_negate(&broken.covariance[DROGUE_PACKED(4, 4)]);
-    ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &broken, &inner, &f.camera, &f.model, 5),
-                     DROGUE_E_DEGENERATE);
+    ck_assert_int_eq(drogue_joint_outline_weigh(&broken), DROGUE_E_DEGENERATE);
     f.model.inner_depth_m_q16 = q16_of(-6);
     ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &outline, &inner, &f.camera, &f.model, 0),
                      DROGUE_E_BEHIND_CAMERA);
@@ -411,7 +410,8 @@ START_TEST(any_bits)
         outline.ellipse.b_px_q16 =
             outline.ellipse.b_px_q16 > outline.ellipse.a_px_q16 ? outline.ellipse.a_px_q16 : outline.ellipse.b_px_q16;
         (void)drogue_inner_disc_image(&disc, &start, &f.camera, &f.model);
-        if (drogue_joint_solve(&joint, &start, &outline, &inner, &f.camera, &f.model, i % 17) == DROGUE_OK) {
+        if (drogue_joint_outline_weigh(&outline) == DROGUE_OK &&
+            drogue_joint_solve(&joint, &start, &outline, &inner, &f.camera, &f.model, i % 17) == DROGUE_OK) {
             for (k = 0; k < 3; k++) {
                 axis[k] = real_of_q16(joint.pose.axis_q16[k]);
             }

@@ -2,6 +2,7 @@
 /* The outline as a measurement: its covariance against refits of noisy points. */
 #include "suite.h"
 
+#include "../../band_points.h"
 #include "drogue/ellipse.h"
 #include "drogue/joint.h"
 #include "joint_model.h"
@@ -53,16 +54,14 @@ static void refit_noisy(double m[5], drogue_joint_outline *outline, const ellips
     fitted = ellipse_from_q16(&outline->ellipse);
     harmonics_of(m, &fitted, truth);
     MUST(drogue_ellipse_frame_of(&frame, &outline->ellipse) == DROGUE_OK, "no frame");
-    drogue_support_count(&support, &frame, &band, edges, count, 1);
+    support_count(&support, &frame, &band, edges, count, 1);
     drogue_support_judge(&support, &outline->ellipse, DROGUE_POLARITY_BOTH, 1);
     MUST(support.bright_bins == 0, "polarity");
     memset(&support, 0, sizeof support);
     for (i = 0; i < count; i++) {
-        drogue_band_point p;
-        MUST(drogue_ellipse_band_holds(&p, &frame, &band, drogue_edge_x_q16(&edges[i]), drogue_edge_y_q16(&edges[i]),
-                                       edges[i].gx, edges[i].gy) &&
-                 drogue_support_add(&support, &p, &edges[i]),
-             "point %u left out", (unsigned)i);
+        band_point p;
+        MUST(point_holds(&p, &frame, &band, &edges[i]) && point_add(&support, &p, &edges[i]), "point %u left out",
+             (unsigned)i);
     }
     MUST(drogue_joint_outline_covariance(outline, &support, 1, 0) == DROGUE_OK, "no covariance");
 }
@@ -137,7 +136,7 @@ static drogue_support support_of(uint32_t bins)
 START_TEST(shading_and_blur_are_added)
 {
     const drogue_support s = support_of(32);
-    drogue_joint_outline base = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}}, more = base;
+    drogue_joint_outline base = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}, {0}, 0}, more = base;
     double plain[15], share = 2.0 / 600 / 100, blur = 0.5 / (100 * 80);
     int i, j;
     ck_assert_int_eq(drogue_joint_outline_covariance(&base, &s, 0, 0), DROGUE_OK);
@@ -159,7 +158,7 @@ END_TEST
 
 START_TEST(degenerate_support)
 {
-    drogue_joint_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}};
+    drogue_joint_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}, {0}, 0};
     drogue_support s;
     uint32_t k;
     for (k = 0; k <= 5; k++) {

@@ -145,6 +145,13 @@ START_TEST(outside_the_domain)
     c = camera;
     c.fy_px_q16 = 0;
     ck_assert_int_eq(drogue_pose_from_ellipse(p, &ellipse, &c, 65536), DROGUE_E_DOMAIN);
+    {
+        drogue_ellipse turned = ellipse; /* by 2 rad, whose double is beyond Q29 */
+        turned.angle_rad_q16 = 2 * 65536;
+        ck_assert_int_eq(drogue_pose_from_ellipse(p, &turned, &camera, 65536), DROGUE_E_DOMAIN);
+        turned.angle_rad_q16 = INT32_MIN;
+        ck_assert_int_eq(drogue_pose_from_ellipse(p, &turned, &camera, 65536), DROGUE_E_DOMAIN);
+    }
     ck_assert_int_eq(drogue_pose_from_ellipse(p, &ellipse, &camera, 0), DROGUE_E_DOMAIN);
     ck_assert_int_eq(drogue_pose_from_ellipse(p, &ellipse, &camera, -1), DROGUE_E_DOMAIN);
     e.b_px_q16 = 0;

@@ -283,6 +283,59 @@ START_TEST(no_negative_variance)
 }
 END_TEST
 
+/* Any number that a header's range holds, the ends and powers of two as often as those between. */
+static int32_t any_of(uint64_t *rng, int32_t least)
+{
+    switch (rng_range(rng, 0, 3)) {
+    case 0: return rng_range(rng, 0, 1) ? INT32_MAX : least;
+    case 1: return least + (1 << rng_range(rng, 0, 30)) - 1;
+    default: return rng_range(rng, least, INT32_MAX);
+    }
+}
+
+/* From any start that the header calls valid, over any steps and measurements that it does: no variance below 0, in no
+ * factor; and nothing that a checked build stops at. */
+START_TEST(any_valid_start)
+{
+    uint64_t rng = 9;
+    int run, step, i, k;
+    for (run = 0; run < 3000; run++) {
+        drogue_kalman filter;
+        drogue_q16 value[PARAMETERS], start[PARAMETERS][3], process[PARAMETERS], std[PARAMETERS], state[PARAMETERS];
+        int64_t std_q32[PARAMETERS];
+        for (i = 0; i < PARAMETERS; i++) {
+            value[i] = (int32_t)(uint32_t)rng_u64(&rng);
+            for (k = 0; k < 3; k++) {
+                start[i][k] = any_of(&rng, 0);
+            }
+        }
+        drogue_kalman_init(&filter, value, (const drogue_q16(*)[3])start);
+        for (step = 0; step < 20; step++) {
+            for (i = 0; i < PARAMETERS; i++) {
+                value[i] = (int32_t)(uint32_t)rng_u64(&rng);
+                process[i] = any_of(&rng, 0);
+                std[i] = any_of(&rng, 1);
+            }
+            drogue_kalman_predict(&filter, (uint32_t)any_of(&rng, 1), process);
+            must_be_positive(&filter);
+            if (rng_range(&rng, 0, 3) != 0) {
+                drogue_kalman_correct(&filter, value, std);
+                must_be_positive(&filter);
+            } else if (rng_range(&rng, 0, 3) == 0) {
+                drogue_kalman_restart(&filter, rng_range(&rng, 0, PARAMETERS - 1), value[0], start[0]);
+            }
+            drogue_kalman_std(std_q32, &filter);
+            for (k = 0; k < 3; k++) {
+                drogue_kalman_state(state, &filter, k);
+            }
+            for (i = 0; i < PARAMETERS; i++) {
+                MUST(std_q32[i] >= 0, "run %d, step %d: standard deviation %d", run, step, i);
+            }
+        }
+    }
+}
+END_TEST
+
 START_TEST(states_saturate)
 {
     drogue_kalman filter;
@@ -327,4 +380,4 @@ START_TEST(standard_deviations_in_q32)
 END_TEST
 
 SUITE_MAIN("kalman", same_states_as_fifteen_in_one, angles_pass_half_a_turn, ends_of_the_ranges, no_negative_variance,
-           states_saturate, standard_deviations_in_q32)
+           any_valid_start, states_saturate, standard_deviations_in_q32)
