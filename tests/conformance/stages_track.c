@@ -255,6 +255,7 @@ int stage_acquire(stage_run *r)
 
 static void read_track_config(drogue_track_config *c, const int32_t *p)
 {
+    drogue_track_config_default(c); /* what the words do not hold */
     c->max_missed = (uint32_t)p[0];
     c->agree_frames = (uint32_t)p[1];
     c->reconsider_frames = (uint32_t)p[2];
