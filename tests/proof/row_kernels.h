@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Row kernels of the front end, either form (DROGUE_ROWS_PLAIN), rows of eight pixels: each pixel is what its definition
+ * makes of its window, so the two forms give the same; nothing is read or written beyond the line buffers. */
+#ifndef ROW_KERNELS_H
+#define ROW_KERNELS_H
+
+#include "proof.h"
+
+#if DROGUE_ROWS_PLAIN
+#include "frontend/rows_plain.c"
+#else
+#include "frontend/rows_lanes.c"
+#endif
+
+enum { WIDTH = 8, HALF = (WIDTH + 7) / 8 * 4, ROWS = 5 };
+
+static uint32_t raw[5 * (2 * HALF + 4) / 4];
+static uint32_t smoothed[3 * (HALF + 2)];
+static uint32_t magnitudes_of_rows[4 * (HALF + 2)];
+static uint32_t slopes[4 * HALF * sizeof(drogue_slope) / 4];
+static uint32_t codes[HALF];
+static drogue_workspace workspace;
+static drogue_frontend frontend;
+static uint8_t pixels[ROWS][WIDTH];
+
+static void begin(void)
+{
+    int32_t x;
+    int32_t y;
+    workspace.raw_rows = (uint8_t *)raw;
+    workspace.smooth_rows = (uint8_t *)smoothed;
+    workspace.magnitude_rows = (uint16_t *)magnitudes_of_rows;
+    workspace.slope_rows = (drogue_slope *)slopes;
+    workspace.code_rows = (uint8_t *)codes;
+    frontend.workspace = &workspace;
+    frontend.width_px = WIDTH;
+    frontend.height_px = ROWS;
+    frontend.config.canny_low = any_within(0, 4095);
+    frontend.config.canny_high = any_within(frontend.config.canny_low, 4095);
+    for (y = 0; y < ROWS; y++) {
+        for (x = 0; x < WIDTH; x++) {
+            pixels[y][x] = nondet_u8();
+        }
+    }
+    drogue_rows_begin(&frontend);
+}
+
+/* What a form holds of a smoothed pixel and of a magnitude. */
+static uint32_t smooth_pixel(int32_t x, int32_t y)
+{
+#if DROGUE_ROWS_PLAIN
+    return smooth_row(&frontend, y)[x];
+#else
+    const uint32_t *row = smooth_row(&frontend, y);
+    return x < HALF ? row[x] & 0xFFFFu : row[x - HALF] >> 16;
+#endif
+}
+
+static uint32_t magnitude_pixel(int32_t x, int32_t y)
+{
+#if DROGUE_ROWS_PLAIN
+    return magnitude_row(&frontend, y)[x];
+#else
+    const uint32_t *row = magnitude_row(&frontend, y);
+    return x < HALF ? row[x] & 0xFFFFu : row[x - HALF] >> 16;
+#endif
+}
+
+void smoothing(void)
+{
+    static const uint32_t weight[5] = {1, 4, 6, 4, 1};
+    const int32_t x = any_within(0, WIDTH - 1);
+    uint32_t sum = 128;
+    int32_t i;
+    int32_t k;
+    begin();
+    for (k = 0; k < ROWS; k++) {
+        drogue_rows_take(&frontend, k, pixels[k]);
+    }
+    drogue_rows_smooth(&frontend, 2);
+    for (k = 0; k < 5; k++) {
+        for (i = 0; i < 5; i++) {
+            sum += weight[k] * weight[i] * pixels[k][drogue_reflect_101(x + i - 2, WIDTH)];
+        }
+    }
+    PROVE(smooth_pixel(x, 2) == sum >> 8);
+}
+
+static int32_t at(int32_t x, int32_t y) { return pixels[y][x < 0 ? 0 : x >= WIDTH ? WIDTH - 1 : x]; }
+
+static int32_t horizontal(int32_t x, int32_t y)
+{
+    return at(x + 1, y - 1) + 2 * at(x + 1, y) + at(x + 1, y + 1) - at(x - 1, y - 1) - 2 * at(x - 1, y) -
+           at(x - 1, y + 1);
+}
+
+static int32_t vertical(int32_t x, int32_t y)
+{
+    return at(x - 1, y + 1) + 2 * at(x, y + 1) + at(x + 1, y + 1) - at(x - 1, y - 1) - 2 * at(x, y - 1) -
+           at(x + 1, y - 1);
+}
+
+static uint32_t magnitude(int32_t x, int32_t y)
+{
+    const int32_t dx = horizontal(x, y);
+    const int32_t dy = vertical(x, y);
+    return x < 0 || x >= WIDTH ? 0 : (uint32_t)((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
+}
+
+void gradient(void)
+{
+    const int32_t x = any_within(0, WIDTH - 1);
+    int32_t k;
+    begin();
+    for (k = 1; k <= 3; k++) {
+        drogue_rows_take_smoothed(&frontend, k, pixels[k]);
+    }
+    drogue_rows_gradient(&frontend, 2);
+    PROVE(magnitude_pixel(x, 2) == magnitude(x, 2));
+}
+
+/* Is the pixel a maximum by drogue_canny_*(), and listed? */
+void maxima(void)
+{
+    const int32_t x = any_within(0, WIDTH - 1);
+    const drogue_slope *points;
+    uint32_t count;
+    uint32_t listed = 0;
+    uint32_t i;
+    int32_t k;
+    int32_t part;
+    begin();
+    for (k = 0; k < ROWS; k++) {
+        drogue_rows_take_smoothed(&frontend, k, pixels[k]);
+        if (k >= 2) {
+            drogue_rows_gradient(&frontend, k - 1);
+        }
+    }
+    for (part = 0; part < DROGUE_ROW_PARTS; part++) {
+        count = drogue_rows_maxima(&frontend, 2, part);
+        points = drogue_rows_points(&frontend);
+        PROVE(count <= WIDTH);
+        for (i = 0; i < count; i++) {
+            PROVE(points[i].x < WIDTH);
+            if (points[i].x == x) {
+                listed++;
+                PROVE(points[i].gx == horizontal(x, 2) && points[i].gy == vertical(x, 2));
+            }
+        }
+    }
+    {
+        const int16_t gx = (int16_t)horizontal(x, 2);
+        const int16_t gy = (int16_t)vertical(x, 2);
+        const int32_t m = (int32_t)magnitude(x, 2);
+        const drogue_sector sector = drogue_canny_sector(gx, gy);
+        const int32_t dx = drogue_canny_step_x(sector);
+        const int32_t dy = drogue_canny_step_y(sector);
+        const int expected = m > frontend.config.canny_low &&
+                             drogue_canny_is_maximum(sector, (int32_t)magnitude(x - dx, 2 - dy), m,
+                                                     (int32_t)magnitude(x + dx, 2 + dy));
+        PROVE(listed == (expected ? 1u : 0u));
+    }
+}
+
+#endif
