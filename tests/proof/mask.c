@@ -3,9 +3,9 @@
 #include "drogue/mask.h"
 #include "proof.h"
 
-/* Bits of twice a centre, and of twice a pixel less that: regions up to 1024 px and as far beside them. A product of more
- * bits is too much for the model checker. */
-enum { CENTRE_BITS = 12, PIXEL_BITS = 11 };
+/* Bits of twice a centre, and of twice a pixel less that: regions up to 32 px and as far beside them. Products
+ * of more bits are too much for the model checker; ends() looks at the whole range. */
+enum { CENTRE_BITS = 7, PIXEL_BITS = 6 };
 
 static drogue_mask any_mask(void)
 {
@@ -37,6 +37,27 @@ void disc(void)
     const int32_t dy = 2 * y - m.centre2_y;
     const int32_t side = m.longest_px;
     PROVE((drogue_mask_in_disc(&m, x, y) != 0) == (9 * (dx * dx + dy * dy) <= 4 * side * side));
+}
+
+/* The products grow with every operand's magnitude: where the ends of the stated ranges do not overflow, nothing does. */
+void ends(void)
+{
+    static const int32_t pixel[4] = {-(1 << 20), -1, 0, 1 << 20};
+    static const int32_t centre[2] = {-(1 << 15), 1 << 15};
+    drogue_mask m;
+    int i;
+    int k;
+    int n = 0;
+    for (i = 0; i < 8; i++) {
+        m.centre2_x = centre[i & 1];
+        m.centre2_y = centre[i >> 1 & 1];
+        m.longest_px = (i & 4) != 0 ? 1 << 20 : 1;
+        PROVE(drogue_mask_valid(&m));
+        for (k = 0; k < 16; k++) {
+            n += drogue_mask_in_disc(&m, pixel[k & 3], pixel[k >> 2]) + drogue_mask_in_ring(&m, pixel[k & 3], pixel[k >> 2]);
+        }
+    }
+    PROVE(n > 0);
 }
 
 void mask_of_size(void)

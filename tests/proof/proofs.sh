@@ -5,7 +5,6 @@
 # usage: proofs.sh [NAME...]    'real', or 'real product'; every proof unless named. Logs lie in build/proof.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-. src/sources.sh
 list=tests/proof/list.txt
 work=build/proof
 most_s=${DROGUE_PROOF_SECONDS:-120} # of the processor, each
@@ -23,7 +22,7 @@ check() {
     (
         ulimit -t "$most_s"
         "$esbmc" "tests/proof/$harness.c" -I "$tree/include" -I "$tree/src" -I tests/proof --function "$function" \
-            --overflow-check "$@"
+            -D__SYNTHESIS__ "$@" # what is C alone where a compiler has an instruction
     ) >"$log" 2>&1 || true
     if grep -qa '^VERIFICATION SUCCESSFUL' "$log"; then
         echo proved
@@ -34,11 +33,12 @@ check() {
     fi
 }
 
-# one NAME FILE OLD NEW OPTIONS: the proof and its twin; a line into NAME.verdict
+# one NAME FILE OLD NEW OPTIONS UNCHECKED: the proof and its twin; a line into NAME.verdict
 one() {
     local name=$1 file=$2 old=$3 new=$4 harness=${1% *} function=${1#* } options found twin text broken begin=$SECONDS
     local log=$work/$harness.$function
     read -ra options <<<"$5"
+    [ -n "$6" ] || options+=(--overflow-check)
     text=$(<"$file")
     broken=${text/"$old"/"$new"}
     if [ "$broken" = "$text" ] || [[ ${text#*"$old"} == *"$old"* ]]; then
@@ -62,7 +62,7 @@ one() {
 }
 
 proofs=()
-declare -A file old new options
+declare -A file old new options unchecked
 name=''
 while IFS= read -r line; do
     [[ -z $line || $line == '#'* ]] && continue
@@ -71,12 +71,13 @@ while IFS= read -r line; do
     proof)
         name=$value
         proofs+=("$name")
-        file[$name]='' old[$name]='' new[$name]='' options[$name]=''
+        file[$name]='' old[$name]='' new[$name]='' options[$name]='' unchecked[$name]=''
         ;;
     file) file[$name]=$value ;;
     old) old[$name]=$value ;;
     new) new[$name]=$value ;;
     options) options[$name]=$value ;;
+    overflow) unchecked[$name]=$value ;;
     *) echo "proof: list.txt: '$line'" >&2 && exit 1 ;;
     esac
 done <$list
@@ -94,7 +95,8 @@ for name in "${proofs[@]}"; do
     while [ "$(jobs -rp | wc -l)" -ge "$(nproc)" ]; do
         wait -n || true
     done
-    one "$name" "${file[$name]}" "${old[$name]}" "${new[$name]}" "${options[$name]}" &
+    one "$name" "${file[$name]}" "${old[$name]}" "${new[$name]}" "${options[$name]}" \
+        "${unchecked[$name]}" &
 done
 wait
 cat "$work"/*.verdict

@@ -15,7 +15,7 @@ uint32_t root_by_contract(uint64_t v)
 
 int64_t drogue_floor_div_s64(int64_t num, int64_t den) { return num / den; } /* of numbers that are not negative */
 
-enum { SIDE = 64, COLUMNS = 40 };
+enum { SIDE = 32, COLUMNS = 36 };
 
 void disc_span(void)
 {

@@ -269,4 +269,30 @@ START_TEST(whatever_comes)
 }
 END_TEST
 
-SUITE_MAIN("hostile", whatever_comes)
+/* The region alone decides: what is too far, too large or nothing is refused; next to the limit there is only no pixel. */
+START_TEST(ends_of_regions)
+{
+    static uint8_t pixels[32 * 32];
+    static const drogue_region refused[] = {
+        {(1 << 20) + 1, 0, 32, 32}, {-(1 << 20) - 1, 0, 32, 32}, {0, (1 << 20) + 1, 32, 32}, {0, -(1 << 20) - 1, 32, 32},
+        {1 << 20, 0, 32, 32},       {0, -(1 << 20), 32, 32},     {0, 0, 0, 32},              {0, 0, 32, -1},
+    };
+    test_workspace w = test_workspace_of(32, 1000, 1000, 100);
+    drogue_config config;
+    drogue_result r;
+    const drogue_camera camera = {100 << 16, 100 << 16, 16 << 16, 16 << 16, 0, 0, 0, 0, 0};
+    const drogue_model model = {22938, 7864, 16384};
+    const drogue_setup setup = {&camera, &model, &config};
+    drogue_image image = {pixels, 32, 32, 32};
+    size_t k;
+    drogue_config_default(&config);
+    for (k = 0; k < sizeof refused / sizeof *refused; k++) {
+        MUST(drogue_measure(&r, &w.workspace, &setup, &image, &refused[k]) == DROGUE_E_REGION, "region %zu", k);
+    }
+    image.height_px = 0;
+    ck_assert_int_eq(drogue_measure(&r, &w.workspace, &setup, &image, NULL), DROGUE_E_ARGUMENT);
+    test_workspace_free(&w);
+}
+END_TEST
+
+SUITE_MAIN("hostile", whatever_comes, ends_of_regions)

@@ -307,5 +307,24 @@ START_TEST(states_saturate)
 }
 END_TEST
 
+START_TEST(standard_deviations_in_q32)
+{
+    const drogue_q16 value[PARAMETERS] = {0, 0, 0, 0, 0};
+    drogue_q16 std[PARAMETERS][3];
+    drogue_kalman filter;
+    int64_t out_q32[PARAMETERS];
+    int i;
+    for (i = 0; i < PARAMETERS; i++) {
+        std[i][0] = 655 << i;
+        std[i][1] = std[i][2] = 65536;
+    }
+    drogue_kalman_init(&filter, value, (const drogue_q16(*)[3])std);
+    drogue_kalman_std(out_q32, &filter);
+    for (i = 0; i < PARAMETERS; i++) {
+        MUST(llabs(out_q32[i] - ((int64_t)std[i][0] << 16)) <= 1, "parameter %d: %lld", i, (long long)out_q32[i]);
+    }
+}
+END_TEST
+
 SUITE_MAIN("kalman", same_states_as_fifteen_in_one, angles_pass_half_a_turn, ends_of_the_ranges, no_negative_variance,
-           states_saturate)
+           states_saturate, standard_deviations_in_q32)

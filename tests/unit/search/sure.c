@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* When a result is enough to begin with: each limit from both sides; and acquisition for a model without an inner part. */
+#include "suite.h"
+
+#include "drogue/search.h"
+#include "workspace.h"
+
+static const drogue_model model = {22938, 7864, 16384}; /* 0.35, 0.12, 0.25 m */
+static const drogue_model no_inner = {22938, 0, 0};
+
+/* A circle of 100 px at 4 m: the inner part is expected with 100 * 0.12 / 0.35 * 4 / 4.25 = 32.3 px, 3269 px of area. */
+static drogue_result measured(void)
+{
+    drogue_result r;
+    memset(&r, 0, sizeof r);
+    r.status = DROGUE_OK;
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = 100 * DROGUE_Q16_ONE;
+    r.pose.position_m_q16[2] = 4 * DROGUE_Q16_ONE;
+    r.cover_q16 = DROGUE_Q16(9, 10);
+    r.quality.reliability_q16 = DROGUE_Q16(95, 100);
+    r.has_inner = 1;
+    r.inner.area_px = 3269;
+    r.orientation_resolved = 1;
+    return r;
+}
+
+START_TEST(limits_of_sure)
+{
+    drogue_result r = measured();
+    ck_assert(drogue_result_sure(&r, &model));
+    r.cover_q16 = DROGUE_Q16(61, 100);
+    ck_assert(drogue_result_sure(&r, &model));
+    r.orientation_resolved = 0;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.cover_q16 = DROGUE_Q16(76, 100);
+    ck_assert(drogue_result_sure(&r, &model));
+    r.inner.area_px = 4400; /* 37.4 px: off by 5.1, an eighth and 0.6 are 4.6 */
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.inner.area_px = 2500; /* 28.2 px: off by 4.1 */
+    ck_assert(drogue_result_sure(&r, &model));
+    r.has_inner = 0;
+    ck_assert(!drogue_result_sure(&r, &model));
+}
+END_TEST
+
+START_TEST(behind_or_beside_the_camera_nothing_is_sure)
+{
+    drogue_result r = measured();
+    drogue_model near = model;
+    r.pose.position_m_q16[2] = 0;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.pose.position_m_q16[2] = DROGUE_Q16(2, 10);
+    near.inner_depth_m_q16 = -DROGUE_Q16(25, 100); /* the inner part before the end plane, and behind the camera */
+    ck_assert(!drogue_result_sure(&r, &near));
+}
+END_TEST
+
+START_TEST(without_an_inner_part_cover_and_reliability_decide)
+{
+    drogue_result r = measured();
+    r.has_inner = 0;
+    ck_assert(drogue_result_sure(&r, &no_inner));
+    r.quality.reliability_q16 = DROGUE_Q16(89, 100);
+    ck_assert(!drogue_result_sure(&r, &no_inner));
+    r.quality.reliability_q16 = DROGUE_Q16(95, 100);
+    r.cover_q16 = DROGUE_Q16(74, 100);
+    ck_assert(!drogue_result_sure(&r, &no_inner));
+}
+END_TEST
+
+enum { SIDE = 256 };
+
+/* A dark disc on a bright ground with a darker one in it, which the search sights. */
+static void draw(uint8_t *pixels, int radius)
+{
+    int x, y;
+    for (y = 0; y < SIDE; y++) {
+        for (x = 0; x < SIDE; x++) {
+            const int d = (x - 120) * (x - 120) + (y - 130) * (y - 130);
+            pixels[y * SIDE + x] = (uint8_t)(9 * d <= radius * radius ? 20 : d <= radius * radius ? 90 : 200);
+        }
+    }
+}
+
+START_TEST(acquire_without_an_inner_part)
+{
+    static uint8_t pixels[SIDE * SIDE];
+    static uint8_t memory[DROGUE_SEARCH_BYTES(SIDE)];
+    test_workspace w = test_workspace_of(SIDE, (uint32_t)DROGUE_EDGES_FOR(SIDE), (uint32_t)DROGUE_LABELS_FOR(SIDE),
+                                         (uint32_t)DROGUE_ARCS_FOR(SIDE));
+    drogue_search search;
+    drogue_config config;
+    drogue_result r;
+    const drogue_camera camera = {500 << 16, 500 << 16, 128 << 16, 128 << 16, 0, 0, 0, 0, 0};
+    const drogue_setup setup = {&camera, &no_inner, &config};
+    drogue_image image = {pixels, SIDE, SIDE, SIDE};
+    drogue_config_default(&config);
+    ck_assert_int_eq(drogue_search_init(&search, memory, sizeof memory, SIDE), DROGUE_OK);
+    draw(pixels, 60);
+    ck_assert_int_eq(drogue_acquire(&r, &search, &w.workspace, &setup, &image, NULL), DROGUE_OK);
+    MUST(abs(r.ellipse.xc_px_q16 - 120 * 65536) < 32768 && abs(r.ellipse.a_px_q16 - 60 * 65536) < 65536,
+         "x %d, a %d", (int)r.ellipse.xc_px_q16, (int)r.ellipse.a_px_q16);
+    memset(pixels, 128, sizeof pixels); /* nothing sighted: the part itself is measured, and says why there is none */
+    ck_assert_int_ne(drogue_acquire(&r, &search, &w.workspace, &setup, &image, NULL), DROGUE_OK);
+    ck_assert_int_ne(r.status, DROGUE_OK);
+    image.stride = SIDE - 1;
+    ck_assert_int_eq(drogue_acquire(&r, &search, &w.workspace, &setup, &image, NULL), DROGUE_E_ARGUMENT);
+    image.stride = SIDE;
+    image.data = NULL;
+    ck_assert_int_eq(drogue_acquire(&r, &search, &w.workspace, &setup, &image, NULL), DROGUE_E_ARGUMENT);
+    test_workspace_free(&w);
+}
+END_TEST
+
+SUITE_MAIN("sure", limits_of_sure, behind_or_beside_the_camera_nothing_is_sure,
+           without_an_inner_part_cover_and_reliability_decide, acquire_without_an_inner_part)
