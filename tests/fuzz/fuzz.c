@@ -7,6 +7,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#if defined(__has_feature)
+#if __has_feature(memory_sanitizer)
+#include <sanitizer/msan_interface.h>
+#define FORGET(memory, bytes) __msan_allocated_memory(memory, bytes) /* as if it had never been written */
+#endif
+#endif
+#ifndef FORGET
+#define FORGET(memory, bytes) ((void)0)
+#endif
+
 void fuzz_fail(const char *what, int line)
 {
     printf("fuzz: line %d: %s\n", line, what);
@@ -172,6 +182,7 @@ fuzz_workspace fuzz_workspace_make(const drogue_capacity *capacity, uint8_t fill
     fuzz_workspace w;
     w.memory = fuzz_alloc(bytes);
     memset(w.memory, fill, bytes);
+    FORGET(w.memory, bytes);
     memset(&w.workspace, fill, sizeof w.workspace);
     FUZZ_MUST(drogue_workspace_init(&w.workspace, w.memory, bytes, capacity) == DROGUE_OK);
     return w;

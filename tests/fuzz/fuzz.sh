@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Fuzzes the library and the program's readers by libFuzzer under the address and undefined-behaviour sanitizers, from the
-# corpus in this folder. Exit status 77 without clang's runtime.
+# corpus in this folder; then what was kept is run once under the memory sanitizer, but for the program, whose libpng is foreign. Exit status 77 without clang's runtime.
 # usage: fuzz.sh [SECONDS [TARGET]...]    SECONDS in all, 120 unless given; what is found lies in build/fuzz
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -18,12 +18,24 @@ if ! printf '#include <stddef.h>\nint LLVMFuzzerTestOneInput(const char *d, size
     echo "fuzz: skipped: $clang without libFuzzer (Debian: libclang-rt-dev)"
     exit 77
 fi
-mapfile -t core < <(core_files $root '*.c')
-status=0
-for target in "${targets[@]}"; do
-    sources=("$root/tests/fuzz/fuzz.c" "$root/tests/fuzz/$target.c")
-    libraries=(-lm)
-    case $target in
+mapfile -t core < <(core_files "$PWD/$root" '*.c')
+includes=(-I $root/include -I $root/tests/conformance -I $root/src/cli -I $root/tests/fuzz)
+
+# library FOLDER SANITIZERS: the core's objects in a folder
+library() {
+    local object
+    mkdir -p "$1"
+    for source in "${core[@]}"; do
+        object=$1/$(echo "${source#"$PWD/$root/src/"}" | tr / _).o
+        "$clang" -std=gnu99 -g -O1 "-fsanitize=fuzzer-no-link,$2" -fno-sanitize-recover=all "${includes[@]}" -c "$source" \
+            -o "$object"
+    done
+}
+
+# target NAME FOLDER SANITIZERS: its executable in the folder
+target() {
+    local name=$1 folder=$2 sources=("$root/tests/fuzz/fuzz.c" "$root/tests/fuzz/$1.c") libraries=(-lm) png
+    case $name in
     stages) for f in "$root"/tests/conformance/stages*.c; do sources+=("$f"); done ;;
     program)
         for f in "$root"/src/cli/*.c; do
@@ -33,18 +45,37 @@ for target in "${targets[@]}"; do
         libraries+=("${png[@]}" -lz)
         ;;
     esac
-    "$clang" -std=gnu99 -g -O1 -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -I $root/include \
-        -I $root/tests/conformance -I $root/src/cli -I $root/tests/fuzz "${core[@]}" "${sources[@]}" "${libraries[@]}" \
-        -o "$target"
-    mkdir -p "found/$target" "corpus/$target"
-    got=0
-    "./$target" -max_total_time=$((seconds / ${#targets[@]})) -max_len=1024 -timeout=20 -print_final_stats=1 \
-        -artifact_prefix="found/$target/" "corpus/$target" "$root/tests/fuzz/corpus/$target" >"$target.log" 2>&1 || got=$?
-    runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$target.log")
-    echo "fuzz: target=$target executions=${runs:-0} status=$got"
-    if [ $got -ne 0 ]; then
-        grep -aE 'fuzz: line|ERROR|runtime error|SUMMARY' "$target.log" | head -n 5 || true
+    "$clang" -std=gnu99 -g -O1 "-fsanitize=fuzzer,$3" -fno-sanitize-recover=all "${includes[@]}" "${sources[@]}" \
+        "$folder"/*.o "${libraries[@]}" -o "$folder/$name"
+}
+
+# verdict NAME STATUS LOG: a line, and what was found
+verdict() {
+    local runs
+    runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$3")
+    echo "fuzz: target=$1 executions=${runs:-0} status=$2"
+    if [ "$2" -ne 0 ]; then
+        grep -aE 'fuzz: line|ERROR|WARNING: Mem|runtime error|SUMMARY' "$3" | head -n 5 || true
         status=1
+    fi
+}
+
+status=0
+library address address,undefined
+library memory memory
+for name in "${targets[@]}"; do
+    target "$name" address address,undefined
+    mkdir -p "found/$name" "corpus/$name"
+    got=0
+    "address/$name" -max_total_time=$((seconds / ${#targets[@]})) -max_len=1024 -timeout=20 -print_final_stats=1 \
+        -artifact_prefix="found/$name/" "corpus/$name" "$root/tests/fuzz/corpus/$name" >"$name.log" 2>&1 || got=$?
+    verdict "$name" $got "$name.log"
+    if [ "$name" != program ]; then
+        target "$name" memory memory
+        got=0
+        "memory/$name" -runs=0 -max_len=1024 -timeout=60 -print_final_stats=1 -artifact_prefix="found/$name/" \
+            "corpus/$name" "$root/tests/fuzz/corpus/$name" >"$name-memory.log" 2>&1 || got=$?
+        verdict "$name-memory" $got "$name-memory.log"
     fi
 done
 exit $status

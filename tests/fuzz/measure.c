@@ -20,6 +20,13 @@ static drogue_result measured(const fuzz_scene *s, const drogue_image *image, co
     return r;
 }
 
+/* Room for three times as much in one table alone. */
+static void widen(drogue_capacity *capacity, int which)
+{
+    uint32_t *const tables[4] = {&capacity->width_px, &capacity->edges, &capacity->labels, &capacity->arcs};
+    *tables[which] *= 3;
+}
+
 /* The image within a larger one, of other pixels all around it: the same pose, and the outline where it went. */
 static void shifted(const fuzz_scene *s, fuzz_bytes *b, const drogue_capacity *capacity, uint8_t around)
 {
@@ -63,8 +70,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fuzz_bytes b = {data, size};
     fuzz_scene s;
-    drogue_capacity capacity, more;
+    drogue_capacity capacity, more, one;
     drogue_result clean, dirty, roomy;
+    int k;
     fuzz_scene_make(&s, &b, 160);
     capacity = fuzz_capacity(&b, 160);
     more = capacity;
@@ -77,6 +85,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     FUZZ_MUST(memcmp(&clean, &dirty, sizeof clean) == 0);
     roomy = measured(&s, &s.image, &s.setup, &s.region, &more, 0x5A);
     FUZZ_MUST(fuzz_short_of_room(&clean) || memcmp(&clean, &roomy, sizeof clean) == 0);
+    for (k = 0; k < 4 && !fuzz_short_of_room(&clean); k++) {
+        one = capacity;
+        widen(&one, k);
+        roomy = measured(&s, &s.image, &s.setup, &s.region, &one, 0x33);
+        FUZZ_MUST(memcmp(&clean, &roomy, sizeof clean) == 0);
+    }
     if (fuzz_byte(&b) % 4 == 0 && !drogue_camera_distorts(&s.camera) && labs((long)s.camera.cx_px_q16) < 1L << 28 &&
         labs((long)s.camera.cy_px_q16) < 1L << 28) {
         shifted(&s, &b, &more, fuzz_byte(&b));

@@ -33,9 +33,15 @@ check() {
     fi
 }
 
+# spent: seconds of the processor that this shell's children have had
+spent() {
+    times >"$log.times"
+    sed -nE '2s/^([0-9]+)m([0-9]+).* .*$/\1 \2/p' "$log.times" | awk '{ print 60 * $1 + $2 }'
+}
+
 # one NAME FILE OLD NEW OPTIONS UNCHECKED: the proof and its twin; a line into NAME.verdict
 one() {
-    local name=$1 file=$2 old=$3 new=$4 harness=${1% *} function=${1#* } options found twin text broken begin=$SECONDS
+    local name=$1 file=$2 old=$3 new=$4 harness=${1% *} function=${1#* } options found twin text broken
     local log=$work/$harness.$function
     read -ra options <<<"$5"
     [ -n "$6" ] || options+=(--overflow-check)
@@ -55,9 +61,9 @@ one() {
     found=$(check . "$log.log" "$harness" "$function" "${options[@]}")
     twin=$(check "$log.broken" "$log.broken.log" "$harness" "$function" "${options[@]}")
     if [ "$found" = proved ] && [ "$twin" = refuted ]; then
-        echo "ok     $name: proved, its broken twin refuted, $((SECONDS - begin)) s"
+        echo "ok     $name: proved, its broken twin refuted, $(spent) s"
     else
-        echo "FAILED $name: $found, its broken twin $twin, $((SECONDS - begin)) s"
+        echo "FAILED $name: $found, its broken twin $twin, $(spent) s"
     fi >"$log.verdict"
 }
 
@@ -101,5 +107,6 @@ done
 wait
 cat "$work"/*.verdict
 failed=$(cat "$work"/*.verdict | grep -c '^FAILED' || true)
-echo "proof: proofs=$(cat "$work"/*.verdict | wc -l) failed=$failed seconds=$SECONDS"
+total=$(sed -nE 's/.*, ([0-9]+) s$/\1/p' "$work"/*.verdict | awk '{ sum += $1 } END { print sum + 0 }')
+echo "proof: proofs=$(cat "$work"/*.verdict | wc -l) failed=$failed processor_seconds=$total"
 [ "$failed" -eq 0 ]
