@@ -33,15 +33,9 @@ check() {
     fi
 }
 
-# spent: seconds of the processor that this shell's children have had
-spent() {
-    times >"$log.times"
-    sed -nE '2s/^([0-9]+)m([0-9]+).* .*$/\1 \2/p' "$log.times" | awk '{ print 60 * $1 + $2 }'
-}
-
 # one NAME FILE OLD NEW OPTIONS UNCHECKED: the proof and its twin; a line into NAME.verdict
 one() {
-    local name=$1 file=$2 old=$3 new=$4 harness=${1% *} function=${1#* } options found twin text broken
+    local name=$1 file=$2 old=$3 new=$4 harness=${1% *} function=${1#* } options found twin text broken spent
     local log=$work/$harness.$function
     read -ra options <<<"$5"
     [ -n "$6" ] || options+=(--overflow-check)
@@ -60,10 +54,12 @@ one() {
     printf '%s\n' "$broken" >"$log.broken/$file"
     found=$(check . "$log.log" "$harness" "$function" "${options[@]}")
     twin=$(check "$log.broken" "$log.broken.log" "$harness" "$function" "${options[@]}")
+    times >"$log.times" # its second line is that of this shell's children
+    spent=$(sed -nE '2s/^([0-9]+)m([0-9]+).*/\1 \2/p' "$log.times" | awk '{ print 60 * $1 + $2 }')
     if [ "$found" = proved ] && [ "$twin" = refuted ]; then
-        echo "ok     $name: proved, its broken twin refuted, $(spent) s"
+        echo "ok     $name: proved, its broken twin refuted, $spent s"
     else
-        echo "FAILED $name: $found, its broken twin $twin, $(spent) s"
+        echo "FAILED $name: $found, its broken twin $twin, $spent s"
     fi >"$log.verdict"
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Real numbers of 31 bits: results are normalised and within half a unit of the exact value, ties toward +infinity. */
-#include "arithmetic/fixed.c"
 #include "arithmetic/real.c"
+#include "arithmetic/fixed.c"
 #include "proof.h"
 
 static int normal(const drogue_real *v)
@@ -149,7 +149,6 @@ void order(void)
     PROVE(r == -drogue_real_order(&b, &a));
     if (apart >= 0 && apart <= 31) {
         const int64_t difference = (int64_t)((uint64_t)a.mantissa << apart) - b.mantissa;
-        PROVE(a.mantissa == 0 || b.mantissa == 0 ||
-              r == (difference > 0) - (difference < 0));
+        PROVE(a.mantissa == 0 || b.mantissa == 0 || r == (difference > 0) - (difference < 0));
     }
 }

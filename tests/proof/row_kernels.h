@@ -155,9 +155,9 @@ void maxima(void)
         const drogue_sector sector = drogue_canny_sector(gx, gy);
         const int32_t dx = drogue_canny_step_x(sector);
         const int32_t dy = drogue_canny_step_y(sector);
-        const int expected = m > frontend.config.canny_low &&
-                             drogue_canny_is_maximum(sector, (int32_t)magnitude(x - dx, 2 - dy), m,
-                                                     (int32_t)magnitude(x + dx, 2 + dy));
+        const int expected =
+            m > frontend.config.canny_low &&
+            drogue_canny_is_maximum(sector, (int32_t)magnitude(x - dx, 2 - dy), m, (int32_t)magnitude(x + dx, 2 + dy));
         PROVE(listed == (expected ? 1u : 0u));
     }
 }

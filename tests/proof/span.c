@@ -76,7 +76,8 @@ static int at(const uint32_t *row, int32_t x, int32_t width, int outside)
     return x < 0 || x >= width ? outside : bit_of(row, x);
 }
 
-/* Opening of rows up to two words: beyond the border everything is set for the erosion, nothing for the dilation. */
+/* Opening of rows up to two words (run with neither constants propagated nor terms simplified: ESBMC 6.7 takes ~0u >> 31 for
+ * -1): beyond the border everything is set for the erosion, nothing for the dilation. */
 void opening(void)
 {
     uint32_t words[3][2];

@@ -50,8 +50,8 @@ START_TEST(beyond_q16)
 {
     const int64_t one = INT64_C(1) << 30, far = INT64_C(1) << 60;
     drogue_ellipse e;
-    ck_assert_int_eq(of(&e, (const int64_t[6]){-one, 0, 0, 1, 0, 1}, 0, 0), DROGUE_E_DEGENERATE); /* 2^15 px */
-    ck_assert_int_eq(of(&e, (const int64_t[6]){-one, 0, 0, 1, 0, 1}, 0, 1), DROGUE_OK);           /* 2^14 px */
+    ck_assert_int_eq(of(&e, (const int64_t[6]){-one, 0, 0, 1, 0, 1}, 0, 0), DROGUE_E_DEGENERATE);   /* 2^15 px */
+    ck_assert_int_eq(of(&e, (const int64_t[6]){-one, 0, 0, 1, 0, 1}, 0, 1), DROGUE_OK);             /* 2^14 px */
     ck_assert_int_eq(of(&e, (const int64_t[6]){-1, 0, 0, far, 0, far}, 0, 0), DROGUE_E_DEGENERATE); /* 2^-30 px */
     /* centre at +-2^59, clamped before it is added to: not a wrapped coordinate */
     ck_assert_int_eq(of(&e, (const int64_t[6]){0, far, 0, 1, 0, 1}, 0, 0), DROGUE_E_DEGENERATE);
