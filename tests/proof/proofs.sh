@@ -94,7 +94,7 @@ for name in "${proofs[@]}"; do
         done
         [ $wanted -eq 1 ] || continue
     fi
-    while [ "$(jobs -rp | wc -l)" -ge "$(nproc)" ]; do
+    while [ "$(jobs -rp | wc -l)" -ge "${DROGUE_PROOF_JOBS:-$(nproc)}" ]; do
         wait -n || true
     done
     one "$name" "${file[$name]}" "${old[$name]}" "${new[$name]}" "${options[$name]}" \
