@@ -25,7 +25,8 @@ void ring(void)
     const int32_t dx = 2 * x - m.centre2_x;
     const int32_t dy = 2 * y - m.centre2_y;
     const int32_t side = m.longest_px;
-    PROVE((drogue_mask_in_ring(&m, x, y) != 0) == (9 * (dx * dx + dy * dy) >= 4 * side * side && dx * dx + dy * dy <= side * side));
+    PROVE((drogue_mask_in_ring(&m, x, y) != 0) ==
+          (9 * (dx * dx + dy * dy) >= 4 * side * side && dx * dx + dy * dy <= side * side));
 }
 
 void disc(void)
@@ -54,7 +55,8 @@ void ends(void)
         m.longest_px = (i & 4) != 0 ? 1 << 20 : 1;
         PROVE(drogue_mask_valid(&m));
         for (k = 0; k < 16; k++) {
-            n += drogue_mask_in_disc(&m, pixel[k & 3], pixel[k >> 2]) + drogue_mask_in_ring(&m, pixel[k & 3], pixel[k >> 2]);
+            n += drogue_mask_in_disc(&m, pixel[k & 3], pixel[k >> 2]) +
+                 drogue_mask_in_ring(&m, pixel[k & 3], pixel[k >> 2]);
         }
     }
     PROVE(n > 0);
