@@ -146,8 +146,9 @@ void add_rim(Set &set)
         cv::Mat image = noise(w, h, random, 0, 40 + 12 * i);
         image += discs(w, h, 120, drogue(2 * w, 2 * h, between(random, 24, 52), 60, 0));
         static const int rings[] = {36, 51, 72, 86};
-        add_cells(set, "noise-" + std::to_string(i), Tier::stress, {"noise"}, image, w / 2 + between(random, -2, 2),
-                  h / 2 + between(random, -2, 2), rings[i % 4], between(random, 1, 90));
+        const int contrast = between(random, 1, 90), y = h / 2 + between(random, -2, 2); /* arguments have no order */
+        const int x = w / 2 + between(random, -2, 2);
+        add_cells(set, "noise-" + std::to_string(i), Tier::stress, {"noise"}, image, x, y, rings[i % 4], contrast);
     }
 }
 
