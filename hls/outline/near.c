@@ -129,10 +129,10 @@ void drogue_collect_edges(drogue_moments *moments, drogue_support *support, cons
     station judged = {0};
     station added = {0};
     station fresh = {0};
+    const uint32_t end = count + (STEPS - 1) * stride;
     uint32_t i;
-    added.own = counted; /* nothing to be done */
-    for (i = 0; i < count + (STEPS - 1) * stride;
-         i += stride) { /* bound: edge points and steps, by stride, [1, 2^24] */
+    added.own = counted;                /* nothing to be done */
+    for (i = 0; i < end; i += stride) { /* bound: edge points and steps, by stride, [1, 2^24] */
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 2
 #pragma HLS loop_tripcount max = DROGUE_HLS_EDGES

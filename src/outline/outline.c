@@ -107,7 +107,7 @@ static drogue_status collect(context *c, const drogue_ellipse *ellipse, const dr
     if (stride > 1) {
         drogue_moments_clear(&c->room->own.moments);
     }
-    for (k = 0; k < c->parts && stride == 1; k++) {
+    for (k = 0; k < c->parts && stride == 1; k++) { /* bound: 4 */
         const drogue_arc *arc = c->part[k];
         drogue_collect_edges(&c->room->own.moments, &c->room->support, &frame, band, edges + at, arc->first - at, 1, 0);
         drogue_collect_edges(&c->room->own.moments, &c->room->support, &frame, band, edges + arc->first, arc->count, 1,
@@ -146,7 +146,7 @@ static int try_arcs(drogue_candidate *out, uint32_t arcs, context *c)
     fit_error = drogue_q16_mul(out->ellipse.a_px_q16, c->config->search_band_q16);
     fit_error = fit_error > c->config->quality.fit_error_px_q16 ? fit_error : c->config->quality.fit_error_px_q16;
     threshold = drogue_quality_threshold(&out->ellipse, fit_error);
-    for (k = 0; k < c->parts; k++) {
+    for (k = 0; k < c->parts; k++) { /* bound: 4 */
         near_count += drogue_near_count(&frame, threshold, c->workspace->edges + c->part[k]->first, c->part[k]->count);
     }
     (void)look(c, &out->ellipse, polarity_of_arcs(c, arcs));
