@@ -68,6 +68,7 @@ static inline void drogue_moments_count_point(drogue_moments *m, int32_t x, int3
     drogue_long_sum_add(&m->m04, drogue_product(own_yy, yy));
 }
 
+/* Add one point once. */
 static inline void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_t y)
 {
     drogue_moments_count_point(m, x, y, 1);

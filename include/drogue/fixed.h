@@ -48,15 +48,17 @@ static inline int64_t drogue_product(int32_t a, int32_t b)
 #else
 static inline uint64_t drogue_product_u32(uint32_t a, uint32_t b) { return (uint64_t)a * b; }
 
+/* The same of signed numbers. */
 static inline int64_t drogue_product(int32_t a, int32_t b) { return (int64_t)a * b; }
 #endif
 
-/* Saturate to 32 bits. */
+/* v within [least, most]. */
 static inline int32_t drogue_clamp_s32(int32_t v, int32_t least, int32_t most)
 {
     return v < least ? least : v > most ? most : v;
 }
 
+/* Saturate to 32 bits. */
 static inline int32_t drogue_sat_s32(int64_t v)
 {
     return v > INT32_MAX ? INT32_MAX : v < INT32_MIN ? INT32_MIN : (int32_t)v;
@@ -78,6 +80,7 @@ static inline int drogue_clz_u32(uint32_t v) { return v == 0 ? 32 : __builtin_cl
 int drogue_clz_u32(uint32_t v);
 #endif
 
+/* The same of 64 bits; 64 for 0. */
 static inline int drogue_clz_u64(uint64_t v)
 {
     return v >> 32 != 0 ? drogue_clz_u32((uint32_t)(v >> 32)) : 32 + drogue_clz_u32((uint32_t)v);

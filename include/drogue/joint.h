@@ -20,7 +20,7 @@ typedef struct drogue_joint_outline {
     drogue_ellipse ellipse;                    /* undistorted, px of the whole image */
     drogue_real covariance[DROGUE_PACKED_MAX]; /* of m0 .. m4, packed */
     int32_t weight[DROGUE_PACKED_MAX];         /* its inverse in units of 2^weight_exponent */
-    int32_t weight_exponent;
+    int32_t weight_exponent;                   /* of the weights */
 } drogue_joint_outline;
 
 /* The inner part as a measurement. */

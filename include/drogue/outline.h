@@ -32,10 +32,10 @@ typedef struct drogue_outline {
 
 /* Moments of points, 1 / 2^frac_bits px from an origin. */
 typedef struct drogue_collection {
-    drogue_moments moments;
-    drogue_q16 x_px_q16;
-    drogue_q16 y_px_q16;
-    int frac_bits; /* 0 .. 10 */
+    drogue_moments moments; /* in that unit */
+    drogue_q16 x_px_q16;    /* origin, region coordinates */
+    drogue_q16 y_px_q16;    /* downward */
+    int frac_bits;          /* 0 .. 10 */
 } drogue_collection;
 
 /* Edges of one sense beside a bin of the outline: sums. */
@@ -50,12 +50,12 @@ typedef struct drogue_pull_side {
 
 /* What the outline stage works on, in the workspace. */
 typedef struct drogue_outline_room {
-    drogue_candidate candidates[DROGUE_MAX_CANDIDATES];
-    drogue_collection sum;  /* of the points of the arcs that were fitted last */
-    drogue_collection own;  /* of the points that belong to the ellipse looked at last */
-    drogue_support support; /* of that */
-    drogue_outline trial;   /* being refined */
-    drogue_outline best;    /* of those so far, when a larger one is looked for */
+    drogue_candidate candidates[DROGUE_MAX_CANDIDATES]; /* scored so far */
+    drogue_collection sum;                              /* of the points of the arcs that were fitted last */
+    drogue_collection own;                              /* of the points that belong to the ellipse looked at last */
+    drogue_support support;                             /* of that */
+    drogue_outline trial;                               /* being refined */
+    drogue_outline best;                                /* of those so far, when a larger one is looked for */
     drogue_pull_side sides[DROGUE_SUPPORT_BINS][DROGUE_PULL_SIDES]; /* when all that has served */
 } drogue_outline_room;
 
