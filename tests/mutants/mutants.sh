@@ -9,14 +9,14 @@ list=tests/mutants/list.txt
 work=${DROGUE_MUTANTS_DIR:-build/mutants}
 tools=$PWD/$work/tools
 jobs=${DROGUE_MUTANTS_JOBS:-$(nproc)}
-least_percent=97
+least_percent=95
 
 usage() {
     cat <<'END'
 usage: tests/mutants/mutants.sh [--check] [--every N] [NAME...]
 
 Without NAME: every mutant of list.txt, with --every N every N-th; --check: only see that each entry still fits its file.
-Exit status 0 when at least 97 % are caught, every survivor has its reason in the list, and no entry is stale.
+Exit status 0 when at least 95 % are caught, every survivor has its reason in the list, and no entry is stale.
 Works in build/mutants (DROGUE_MUTANTS_DIR) with as many jobs as processors (DROGUE_MUTANTS_JOBS).
 END
 }
