@@ -50,7 +50,9 @@ void layout(void)
     at = after(at, w.magnitude_rows, 4 * 2 * (half + 2), 2, 4);
     at = after(at, w.slope_rows, 4 * half, sizeof(drogue_slope), 4);
     at = after(at, w.code_rows, 4 * half, 1, 1);
-    PROVE(place(w.hull) == rows && place(w.candidates) == rows && place(w.rays) == rows);
+    PROVE(place(w.hull) == rows && place(w.rays) == rows);
+    PROVE(place(w.outline) == rows || place(w.outline) == rows + 4);
+    PROVE(((uintptr_t)w.outline & 4u) == 0); /* the memory may lie at a multiple of 4 alone */
 }
 
 /* The rows, the histogram before them and what takes their place later fit into the bytes asked for. */
@@ -64,7 +66,7 @@ void room(void)
               4 * half * sizeof(drogue_slope) + 4 * half <=
           bytes);
     PROVE(DROGUE_HULL_MAX * sizeof(drogue_point) <= bytes);
-    PROVE(DROGUE_MAX_CANDIDATES * sizeof(drogue_candidate) <= bytes);
+    PROVE(sizeof(drogue_outline_room) + 4 <= bytes);
     PROVE(DROGUE_RAYS * sizeof(drogue_ray) <= bytes);
 }
 
