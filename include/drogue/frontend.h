@@ -122,13 +122,20 @@ typedef struct drogue_edge_list {
     uint32_t arc_count;  /* arcs in raster order of their first point */
 } drogue_edge_list;
 
+/* Does the front end take frames of this size?
+ *
+ *  return  DROGUE_OK, DROGUE_E_ARGUMENT (thresholds, or a ring beyond its range), DROGUE_E_REGION (sides outside
+ *          [1, DROGUE_MAX_SIDE]), DROGUE_E_WORKSPACE (wider than the workspace)
+ */
+drogue_status drogue_frontend_check(const drogue_workspace *workspace, const drogue_frontend_config *config,
+                                    int32_t width_px, int32_t height_px);
+
 /* Begin a frame.
  *
  *  frontend   out
  *  workspace  width_px <= capacity.width_px
  *  config     copied
- *  return     DROGUE_OK, DROGUE_E_ARGUMENT, DROGUE_E_REGION (sides outside [1, DROGUE_MAX_SIDE]),
- *             DROGUE_E_WORKSPACE (wider than the workspace)
+ *  return     as drogue_frontend_check()
  */
 drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace *workspace,
                                     const drogue_frontend_config *config, int32_t width_px, int32_t height_px);

@@ -99,6 +99,13 @@ typedef struct drogue_inner_edge {
     uint8_t contrast;        /* mean step of grey across the edge */
 } drogue_inner_edge;
 
+/* Squared distance of its centre from an expected one, px^2 Q32. */
+static inline uint64_t drogue_inner_away2_q32(const drogue_inner_edge *edge, const drogue_ellipse *expected)
+{
+    return drogue_square_sum(drogue_q16_sub(edge->x_px_q16, expected->xc_px_q16),
+                             drogue_q16_sub(edge->y_px_q16, expected->yc_px_q16));
+}
+
 /* Measure the disc by its edge along rays across the ellipse that a pose expects: where the grey rises fastest says which
  * rays see it, where it has risen by a quarter of the usual step above the disc's own where it is and how large, by a fit of
  * place and size to the rays that agree. Ribs, a wall or a probe that touch the disc cost rays, not place; a ring about it or

@@ -66,3 +66,19 @@ drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, s
     workspace->code_rows = at;
     return DROGUE_OK;
 }
+
+drogue_status drogue_frontend_check(const drogue_workspace *workspace, const drogue_frontend_config *config,
+                                    int32_t width_px, int32_t height_px)
+{
+    if (config->canny_low < 0 || config->canny_high < config->canny_low ||
+        (config->use_ring && !drogue_mask_valid(&config->ring))) {
+        return DROGUE_E_ARGUMENT;
+    }
+    if (width_px < 1 || width_px > DROGUE_MAX_SIDE || height_px < 1 || height_px > DROGUE_MAX_SIDE) {
+        return DROGUE_E_REGION;
+    }
+    if ((uint32_t)width_px > workspace->capacity.width_px) {
+        return DROGUE_E_WORKSPACE;
+    }
+    return DROGUE_OK;
+}

@@ -123,12 +123,6 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     return DROGUE_OK;
 }
 
-static uint64_t away2_q32(const drogue_inner_edge *edge, const drogue_ellipse *e)
-{
-    return drogue_square_sum(drogue_q16_sub(edge->x_px_q16, e->xc_px_q16),
-                             drogue_q16_sub(edge->y_px_q16, e->yc_px_q16));
-}
-
 /* An edge may be reached from both expected discs: the nearer one is what it is compared with. */
 static void name_nearer(drogue_inner_edge *edge, const drogue_inner_expected *expected)
 {
@@ -136,7 +130,7 @@ static void name_nearer(drogue_inner_edge *edge, const drogue_inner_expected *ex
     uint32_t i;
     for (i = 0; i < expected->count; i++) { /* bound: 2 */
         const drogue_ellipse *e = &expected->disc[i];
-        if (away2_q32(edge, e) < away2_q32(edge, &expected->disc[edge->which])) {
+        if (drogue_inner_away2_q32(edge, e) < drogue_inner_away2_q32(edge, &expected->disc[edge->which])) {
             edge->which = i;
         }
     }

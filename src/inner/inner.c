@@ -110,8 +110,6 @@ static int within_outline(const drogue_inner_edge *edge, const drogue_ellipse *e
 drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse *expected,
                             const drogue_ellipse *outline, const drogue_config *config)
 {
-    const uint64_t away2_q32 = drogue_square_sum(drogue_q16_sub(edge->x_px_q16, expected->xc_px_q16),
-                                                 drogue_q16_sub(edge->y_px_q16, expected->yc_px_q16));
     const drogue_q16 gate =
         drogue_q16_add(config->inner_gate_px_q16, drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16));
     const drogue_q16 room =
@@ -120,7 +118,8 @@ drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse 
     if (edge->contrast < config->min_inner_contrast ||
         (int64_t)edge->rays * DROGUE_Q16_ONE < (int64_t)config->min_inner_cover_q16 * DROGUE_RAYS ||
         edge->rms_px_q16 > config->inner_rms_px_q16 || edge->grown_px_q16 < -room ||
-        away2_q32 > drogue_square_sum(gate, 0) || !within_outline(edge, expected, outline)) {
+        drogue_inner_away2_q32(edge, expected) > drogue_square_sum(gate, 0) ||
+        !within_outline(edge, expected, outline)) {
         return 0;
     }
     if (edge->grown_px_q16 > room) {

@@ -124,10 +124,8 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         return out->status;
     }
     part = whole;
-    if (part.width_px >= 1 && part.height_px >= 1) {
-        drogue_clip(&part.x_px, &part.width_px, image->width_px);
-        drogue_clip(&part.y_px, &part.height_px, image->height_px);
-    }
+    drogue_clip(&part.x_px, &part.width_px, image->width_px);
+    drogue_clip(&part.y_px, &part.height_px, image->height_px);
     status = part.width_px >= 1 && part.height_px >= 1 ? search_part(search, image, &part) : DROGUE_E_REGION;
     if (status != DROGUE_OK) {
         out->status = status;

@@ -64,6 +64,7 @@ lookup() {
     mps2-*)
         dialect=(--specs=rdimon.specs)
         link=(-nostartfiles -T tests/matrix/mps2.ld tests/matrix/start_mps2.c)
+        [ "$where" != mps2-an500 ] || link=(-Wl,--defsym=psram=0x60000000 "${link[@]}")
         machine "$where"
         ;;
     virt)

@@ -51,6 +51,10 @@ class Browser:
                 return answer['result']
             self.events.append(answer)
 
+    def close(self):
+        self.call('Browser.close')
+        self.process.wait(timeout=30)
+
     def wait(self, method):
         while not any(event.get('method') == method for event in self.events):
             self.events.append(self.receive())
@@ -98,10 +102,12 @@ def main():
     if program is None:
         print('report: skipped, there is no Chromium')
         return 77
-    with tempfile.TemporaryDirectory() as profile:
+    # The browser's own children write in the profile until the last of them has ended: no matter of the report's.
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         browser = Browser(program, profile)
         try:
             look(browser, pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]))
+            browser.close()
         finally:
             browser.process.kill()
             browser.process.wait()

@@ -13,7 +13,6 @@ namespace vectors {
 
 namespace {
 
-using mirror::real;
 using reference::Ellipse;
 using reference::q16;
 using reference::Real;
@@ -21,8 +20,6 @@ using Words = std::vector<int64_t>;
 using namespace frame_words;
 
 constexpr Real ELLIPSE_LSB = 4; /* of a fit, as stages_words.c has it */
-
-int64_t rounded(Real v, int frac) { return static_cast<int64_t>(std::floor(std::ldexp(v, frac) + 0.5L)); }
 
 void put_ellipse(int64_t *at, const Ellipse &e)
 {

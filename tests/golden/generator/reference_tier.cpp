@@ -19,9 +19,6 @@ using reference::q16;
 using reference::Real;
 using Words = std::vector<int64_t>;
 
-Real real(int64_t word) { return static_cast<Real>(word) / 65536; }
-int64_t rounded(Real v, int frac) { return static_cast<int64_t>(std::floor(std::ldexp(v, frac) + 0.5L)); }
-
 Array image_like(const Array &exact, const cv::Mat &image)
 {
     Array a = image_array(exact.name, image);
@@ -58,8 +55,6 @@ cv::Mat canny(const Array &image, const Array &params)
 }
 
 Tiers canny_tier(const Arrays &in, const Arrays &exact) { return {{image_like(exact[0], canny(in[0], in[1])), {}}}; }
-
-int as_int(int64_t word) { return static_cast<int>(word); }
 
 /* centre2_x centre2_y longest */
 bool valid_mask(const int64_t *p)

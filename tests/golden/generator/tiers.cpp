@@ -17,10 +17,6 @@ using reference::q16;
 using reference::Real;
 using Words = std::vector<int64_t>;
 
-Real real(int64_t word) { return static_cast<Real>(word) / 65536; }
-int as_int(int64_t word) { return static_cast<int>(word); }
-int64_t rounded(Real v, int frac) { return static_cast<int64_t>(std::floor(std::ldexp(v, frac) + 0.5L)); }
-
 /* Each of n offsets is rounded to an LSB on its own: five standard deviations of their sum, or all alike where that is
  * less; and what the frame's own roundings shift every one of them by. */
 Real sum_error(Real n, const reference::Ellipse &e)

@@ -12,6 +12,14 @@ namespace vectors {
 using Arrays = std::vector<Array>;
 using Tiers = std::vector<Expected>;
 
+/* Words as numbers, and numbers as words. */
+inline reference::Real real(int64_t word) { return static_cast<reference::Real>(word) / 65536; }
+inline int as_int(int64_t word) { return static_cast<int>(word); }
+inline int64_t rounded(reference::Real v, int frac)
+{
+    return static_cast<int64_t>(std::floor(std::ldexp(v, frac) + 0.5L));
+}
+
 /* The exact tier's array with the reference's words. */
 Array like(const Array &exact, std::vector<int64_t> words);
 

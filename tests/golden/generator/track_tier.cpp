@@ -14,9 +14,6 @@ using reference::q16;
 using reference::Real;
 using Words = std::vector<int64_t>;
 
-int as_int(int64_t word) { return static_cast<int>(word); }
-int64_t rounded(Real v, int frac) { return static_cast<int64_t>(std::floor(std::ldexp(v, frac) + 0.5L)); }
-
 drogue_region region_of(const int64_t *w) { return {as_int(w[0]), as_int(w[1]), as_int(w[2]), as_int(w[3])}; }
 
 drogue_track_config track_config_of(const Words &w)
