@@ -203,5 +203,41 @@ START_TEST(outside_the_domain)
 }
 END_TEST
 
+/* Lenses that fold so steeply that a step across the fold lands where one derivative is below -128: the ideal point before
+ * the fold is found all the same. */
+START_TEST(a_steep_fold_is_not_crossed)
+{
+    static const struct {
+        drogue_q16 k[3], p[2], u, v;
+    } cases[] = {{{8264599, -6067752, -8872191}, {-166066, -70583}, 117226882, 36245031},
+                 {{3921555, -3426275, -2741061}, {-239682, 201834}, 125628358, 25757786},
+                 {{6281613, -7091004, -399828}, {-36415, 49465}, -14799002, 32130754},
+                 {{3662426, -707844, -3335528}, {-98740, 21478}, -66034060, 27006626}};
+    size_t i;
+    int k;
+    for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        drogue_camera c = pinhole(400, 400, 500, 500);
+        drogue_q16 u = cases[i].u, v = cases[i].v;
+        long double d[2], j[4], x, y;
+        c.k1_q16 = cases[i].k[0];
+        c.k2_q16 = cases[i].k[1];
+        c.k3_q16 = cases[i].k[2];
+        c.p1_q16 = cases[i].p[0];
+        c.p2_q16 = cases[i].p[1];
+        MUST(drogue_undistort_point(&u, &v, &c) == DROGUE_OK, "case %d refused", (int)i);
+        x = ((long double)u - c.cx_px_q16) / c.fx_px_q16;
+        y = ((long double)v - c.cy_px_q16) / c.fy_px_q16;
+        for (k = 0; k <= 1000; k++) {
+            model_distort(d, j, &c, x * k / 1000, y * k / 1000);
+            MUST(j[0] > 0 && j[3] > 0 && j[0] * j[3] > j[1] * j[2], "case %d: folded before (%d, %d)", (int)i, (int)u,
+                 (int)v);
+        }
+        MUST(hypotl(d[0] * c.fx_px_q16 + c.cx_px_q16 - cases[i].u, d[1] * c.fy_px_q16 + c.cy_px_q16 - cases[i].v) <
+                 2 * (j[0] + j[3]),
+             "case %d: (%d, %d) is seen elsewhere", (int)i, (int)u, (int)v);
+    }
+}
+END_TEST
+
 SUITE_MAIN("undistort", usual_cameras, long_focal_lengths, no_distortion_is_the_identity, any_coefficient_distorts,
-           outside_the_domain)
+           outside_the_domain, a_steep_fold_is_not_crossed)

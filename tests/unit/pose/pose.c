@@ -163,6 +163,12 @@ START_TEST(outside_the_domain)
     e.a_px_q16 = e.b_px_q16 = 65536; /* one pixel: 1000 radii away */
     ck_assert_int_eq(drogue_pose_from_ellipse(p, &e, &camera, 32 * 65536), DROGUE_OK);
     ck_assert_int_eq(drogue_pose_from_ellipse(p, &e, &camera, 33 * 65536), DROGUE_E_DOMAIN);
+    e.xc_px_q16 = camera.cx_px_q16; /* next to a line: the lesser square is nothing beside the larger one */
+    e.yc_px_q16 = camera.cy_px_q16;
+    e.a_px_q16 = 400 * 65536;
+    e.b_px_q16 = 1;
+    e.angle_rad_q16 = 0;
+    ck_assert_int_eq(drogue_pose_from_ellipse(p, &e, &camera, 65536), DROGUE_E_DOMAIN);
 }
 END_TEST
 
@@ -280,6 +286,9 @@ START_TEST(choice_by_the_inner_centre)
     ck_assert_int_eq(choice.ambiguity_q16, 65536);
     p[1] = pose_at(5, TEST_PI, 0); /* its inner centre at z = -1 */
     ck_assert_int_eq(drogue_choose_pose(&choice, p, x[0], y[0], 6 * 65536, &camera), DROGUE_E_BEHIND_CAMERA);
+    p[1].axis_q16[2] = -65536; /* exactly in the camera's plane, then next to it */
+    ck_assert_int_eq(drogue_project_axis_point(&x[0], &y[0], &p[1], 5 * 65536, &camera), DROGUE_E_BEHIND_CAMERA);
+    ck_assert_int_eq(drogue_project_axis_point(&x[0], &y[0], &p[1], 5 * 65536 - 1, &camera), DROGUE_OK);
 }
 END_TEST
 

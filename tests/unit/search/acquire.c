@@ -133,15 +133,16 @@ static void better(const drogue_result *r, const drogue_result *than, const drog
 
 START_TEST(what_is_worth_more_stands)
 {
-    const drogue_result none = nothing(), unsure = with_inner(40, 0), less = with_inner(39, 0), sure = with_inner(79, 0),
-                        decided = with_inner(61, 1), covered = without_inner(90, 50), alone = without_inner(76, 95);
+    const drogue_result none = nothing(), unsure = with_inner(40, 0), less = with_inner(39, 0),
+                        sure = with_inner(79, 0), decided = with_inner(61, 1), covered = without_inner(90, 50),
+                        alone = without_inner(76, 95);
     drogue_result wrong = with_inner(61, 1);
     wrong.inner.area_px = 3500; /* 33.4 px */
     better(&unsure, &none, &model, DROGUE_E_UNSURE);
     better(&unsure, &less, &model, DROGUE_E_UNSURE);
     better(&sure, &unsure, &model, DROGUE_OK);
-    better(&decided, &sure, &model, DROGUE_OK);      /* with less cover */
-    better(&decided, &wrong, &model, DROGUE_OK);     /* an inner part that is more of its size */
+    better(&decided, &sure, &model, DROGUE_OK);     /* with less cover */
+    better(&decided, &wrong, &model, DROGUE_OK);    /* an inner part that is more of its size */
     better(&alone, &covered, &no_inner, DROGUE_OK); /* sure, where the model has no inner part, with less cover */
 }
 END_TEST
