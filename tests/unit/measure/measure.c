@@ -247,6 +247,10 @@ START_TEST(arguments)
     ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &bad_image, &whole),
                      DROGUE_E_ARGUMENT);
     bad_image = image;
+    bad_image.width_px = 0;
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &bad_image, &whole),
+                     DROGUE_E_ARGUMENT);
+    bad_image = image;
     bad_image.height_px = 0;
     ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &bad_image, &whole),
                      DROGUE_E_ARGUMENT);
@@ -279,6 +283,8 @@ START_TEST(regions_that_miss)
                                         {0, -10, 10, 10},
                                         {INT32_MAX, 0, 10, 10},
                                         {INT32_MIN, INT32_MIN, 10, 10},
+                                        {0, INT32_MAX, 10, 10},
+                                        {0, INT32_MIN, 10, 10},
                                         {0, 0, INT32_MAX, 10},
                                         {0, 0, 10, INT32_MAX},
                                         {0, 0, DROGUE_MAX_REGION + 1, 10},

@@ -292,5 +292,21 @@ START_TEST(choice_by_the_inner_centre)
 }
 END_TEST
 
+START_TEST(ranges_of_the_angles)
+{
+    const drogue_q16 half = DROGUE_Q16_HALF_PI, pi = DROGUE_Q16_PI;
+    const drogue_q16 cases[][2] = {{0, 0}, {pi, half}, {-pi, -half}, {pi + 1, 0}, {-pi - 1, 0}, {0, half + 1},
+                                   {0, -half - 1}};
+    size_t i;
+    for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        drogue_pose p;
+        memset(&p, 0, sizeof p);
+        p.yaw_rad_q16 = cases[i][0];
+        p.pitch_rad_q16 = cases[i][1];
+        MUST(drogue_pose_angles_valid(&p) == (i < 3), "case %d", (int)i);
+    }
+}
+END_TEST
+
 SUITE_MAIN("pose", circles_over_distance_and_tilt, random_circles, head_on_has_one_pose, outside_the_domain, any_bits,
-           projection_within_2_lsb, choice_by_the_inner_centre)
+           projection_within_2_lsb, choice_by_the_inner_centre, ranges_of_the_angles)

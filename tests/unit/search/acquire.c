@@ -137,7 +137,12 @@ START_TEST(what_is_worth_more_stands)
                         sure = with_inner(79, 0), decided = with_inner(61, 1), covered = without_inner(90, 50),
                         alone = without_inner(76, 95);
     drogue_result wrong = with_inner(61, 1);
+    drogue_result tiny = with_inner(79, 0);
+    const drogue_model pinprick = {22938, 1, 0};
+    tiny.ellipse.a_px_q16 = tiny.ellipse.b_px_q16 = DROGUE_Q16(1, 10); /* of which an inner part rounds to nothing */
+    tiny.inner.area_px = 1;
     wrong.inner.area_px = 3500; /* 33.4 px */
+    better(&tiny, &unsure, &pinprick, DROGUE_OK);
     better(&unsure, &none, &model, DROGUE_E_UNSURE);
     better(&unsure, &less, &model, DROGUE_E_UNSURE);
     better(&sure, &unsure, &model, DROGUE_OK);
