@@ -71,7 +71,8 @@ START_TEST(radius_of_small_discs)
             for (smooth = 0; smooth < 2; smooth++) {
                 drogue_result r;
                 config.smooth = smooth;
-                MUST(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &bare, &config}, &image, &all) == DROGUE_OK,
+                MUST(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &bare, &config}, &image, &all) ==
+                         DROGUE_OK,
                      "disc %d: %s", i, drogue_status_name(r.status));
                 off[smooth] += (real_of_q16(r.ellipse.a_px_q16) + real_of_q16(r.ellipse.b_px_q16)) / 2 - radius;
             }

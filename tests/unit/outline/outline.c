@@ -487,5 +487,5 @@ END_TEST
 
 SUITE_MAIN("outline", whole_ellipses_of_both_polarities, foreign_arc_is_left_out, second_choice_of_every_quadrant,
            outline_of_mixed_polarity, bump_drops_out_of_the_band, thresholds_decide,
-           cover_is_the_share_of_the_circumference, nothing_to_find, distortion_is_removed, undistorted_without_points, undistorted_to_a_flat_one,
-           an_arc_of_too_many_points)
+           cover_is_the_share_of_the_circumference, nothing_to_find, distortion_is_removed, undistorted_without_points,
+           undistorted_to_a_flat_one, an_arc_of_too_many_points)

@@ -111,7 +111,10 @@ START_TEST(units_and_bands)
     static const struct {
         int64_t reach;
         int bits;
-    } cases[] = {{32768, 10}, {INT64_C(32) << 16, 9}, {INT64_C(2047) << 16, 4}, {INT64_C(32767) << 16, 0},
+    } cases[] = {{32768, 10},
+                 {INT64_C(32) << 16, 9},
+                 {INT64_C(2047) << 16, 4},
+                 {INT64_C(32767) << 16, 0},
                  {INT64_C(40000) << 16, 0}};
     const drogue_ellipse e = circle(40, 41, 20);
     drogue_config config;
@@ -163,7 +166,8 @@ START_TEST(harmonics_of_any_ellipse)
     uint64_t rng = 4;
     int i;
     for (i = 0; i < 2000; i++) {
-        const double a = rng_real(&rng, 10, 200), b = i % 7 == 0 ? a : a * rng_real(&rng, 0.4, 1), turn = rng_real(&rng, -1.57, 1.57);
+        const double a = rng_real(&rng, 10, 200), b = i % 7 == 0 ? a : a * rng_real(&rng, 0.4, 1),
+                     turn = rng_real(&rng, -1.57, 1.57);
         drogue_ellipse e = circle(rng_real(&rng, 0, 500), rng_real(&rng, 0, 500), a);
         int32_t pull_q24[5];
         double m[5];

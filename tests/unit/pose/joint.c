@@ -353,7 +353,8 @@ START_TEST(outside_the_domain)
     turned = outline;
     turned.ellipse.angle_rad_q16 = 2 * 65536;
     ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &turned, &inner, &f.camera, &f.model, 5), DROGUE_E_DOMAIN);
-    f.model.rim_radius_m_q16 = 2000 * 65536; /* of a drogue 32,850 m away, or as much to the left, from the nearest start */
+    f.model.rim_radius_m_q16 =
+        2000 * 65536; /* of a drogue 32,850 m away, or as much to the left, from the nearest start */
     f.model.inner_radius_m_q16 = 1000 * 65536;
     f.model.inner_depth_m_q16 = 500 * 65536;
     for (side = 0; side < 2; side++) {

@@ -169,6 +169,11 @@ START_TEST(outside_the_domain)
     e.b_px_q16 = 1;
     e.angle_rad_q16 = 0;
     ck_assert_int_eq(drogue_pose_from_ellipse(p, &e, &camera, 65536), DROGUE_E_DOMAIN);
+    { /* so far off the axis in one direction that beside it the one before the camera is nothing */
+        const drogue_camera narrow = {3, 888, -1, 0, 0, 0, 0, 0, 0};
+        const drogue_ellipse wide = {119, -1, 37139756, 530871, 85989};
+        ck_assert_int_eq(drogue_pose_from_ellipse(p, &wide, &narrow, 65536), DROGUE_E_DOMAIN);
+    }
 }
 END_TEST
 
@@ -295,8 +300,8 @@ END_TEST
 START_TEST(ranges_of_the_angles)
 {
     const drogue_q16 half = DROGUE_Q16_HALF_PI, pi = DROGUE_Q16_PI;
-    const drogue_q16 cases[][2] = {{0, 0}, {pi, half}, {-pi, -half}, {pi + 1, 0}, {-pi - 1, 0}, {0, half + 1},
-                                   {0, -half - 1}};
+    const drogue_q16 cases[][2] = {{0, 0},       {pi, half},    {-pi, -half},  {pi + 1, 0},
+                                   {-pi - 1, 0}, {0, half + 1}, {0, -half - 1}};
     size_t i;
     for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         drogue_pose p;

@@ -399,7 +399,8 @@ START_TEST(distance_by_a_false_covariance)
     }
     drogue_real_set(&noise[DROGUE_PACKED(1, 0)], 1, 0); /* of 2: 0.5 */
     drogue_kalman_distance2(&d, &filter, at, noise, PARAMETERS);
-    MUST(fabs(ldexp(d.mantissa, d.exponent) - 2) < 1e-6, "%g", ldexp(d.mantissa, d.exponent)); /* (2 4 - 2 2 + 2 1) / 3 */
+    MUST(fabs(ldexp(d.mantissa, d.exponent) - 2) < 1e-6, "%g",
+         ldexp(d.mantissa, d.exponent));                /* (2 4 - 2 2 + 2 1) / 3 */
     drogue_real_set(&noise[DROGUE_PACKED(1, 0)], 3, 0); /* of 2: none */
     drogue_kalman_distance2(&d, &filter, at, noise, PARAMETERS);
     MUST(fabs(ldexp(d.mantissa, d.exponent) - 2.5) < 1e-6, "%g", ldexp(d.mantissa, d.exponent)); /* 4 / 2 + 1 / 2 */
