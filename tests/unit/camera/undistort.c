@@ -212,6 +212,10 @@ START_TEST(outside_the_domain)
     must_refuse(&bad, 500 + 700, 500, 0);
     must_refuse(&bad, 500 + 600, 500 + 600, 0);
     bad = c;
+    bad.k1_q16 = q16_of(-240); /* where it is seen the map slopes by 1 along both axes, but by 160 across */
+    bad.k2_q16 = q16_of(80);
+    must_refuse(&bad, 500 + 1000, 500 + 1000, 0);
+    bad = c;
     bad.k3_q16 = INT32_MAX; /* the result leaves Q16 */
     must_refuse(&bad, 500 + 3900, 500 + 3900, 1);
     bad.k1_q16 = bad.k2_q16 = bad.p1_q16 = bad.p2_q16 = bad.k3_q16 = INT32_MIN;

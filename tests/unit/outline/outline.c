@@ -427,6 +427,31 @@ START_TEST(undistorted_without_points)
 }
 END_TEST
 
+/* A lens may take a wide outline to less than a pixel: none, either. */
+START_TEST(undistorted_to_less_than_a_pixel)
+{
+    enum { SMALL = 34 };
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SMALL, SMALL);
+    const ellipse_real e = {16.5, 16.5, 14, 13.5, 0};
+    drogue_camera camera = pinhole(3.7, 3.7, 16.5, 16.5);
+    drogue_config c = plain_config();
+    drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+    drogue_ellipse ideal;
+    drogue_outline out;
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    camera.k1_q16 = q16_of(100); /* to 1.2 px */
+    ck_assert_int_eq(
+        drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &(drogue_setup){&camera, NULL, &c}, 0, 0),
+        DROGUE_OK);
+    camera.k1_q16 = q16_of(256); /* 0.89 px */
+    ck_assert_int_eq(
+        drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &(drogue_setup){&camera, NULL, &c}, 0, 0),
+        DROGUE_E_DEGENERATE);
+    test_workspace_free(&t);
+}
+END_TEST
+
 /* What the lens model makes too flat of a round outline is none. */
 START_TEST(undistorted_to_a_flat_one)
 {
@@ -488,4 +513,4 @@ END_TEST
 SUITE_MAIN("outline", whole_ellipses_of_both_polarities, foreign_arc_is_left_out, second_choice_of_every_quadrant,
            outline_of_mixed_polarity, bump_drops_out_of_the_band, thresholds_decide,
            cover_is_the_share_of_the_circumference, nothing_to_find, distortion_is_removed, undistorted_without_points,
-           undistorted_to_a_flat_one, an_arc_of_too_many_points)
+           undistorted_to_a_flat_one, undistorted_to_less_than_a_pixel, an_arc_of_too_many_points)

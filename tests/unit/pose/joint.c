@@ -345,11 +345,14 @@ START_TEST(outside_the_domain)
     int side;
     ck_assert(measurement_of(&outline, &inner, poses, &f, &p));
     start = poses[0];
-    start.yaw_rad_q16 = DROGUE_Q16_PI + 1;
-    ck_assert_int_eq(drogue_joint_solve(&joint, &start, &outline, &inner, &f.camera, &f.model, 5), DROGUE_E_DOMAIN);
-    start = poses[0];
-    start.pitch_rad_q16 = -DROGUE_Q16_HALF_PI - 1;
-    ck_assert_int_eq(drogue_joint_solve(&joint, &start, &outline, &inner, &f.camera, &f.model, 5), DROGUE_E_DOMAIN);
+    for (side = -1; side <= 1; side += 2) {
+        start = poses[0];
+        start.yaw_rad_q16 = side * (DROGUE_Q16_PI + 1);
+        ck_assert_int_eq(drogue_joint_solve(&joint, &start, &outline, &inner, &f.camera, &f.model, 5), DROGUE_E_DOMAIN);
+        start = poses[0];
+        start.pitch_rad_q16 = side * (DROGUE_Q16_HALF_PI + 1);
+        ck_assert_int_eq(drogue_joint_solve(&joint, &start, &outline, &inner, &f.camera, &f.model, 5), DROGUE_E_DOMAIN);
+    }
     turned = outline;
     turned.ellipse.angle_rad_q16 = 2 * 65536;
     ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &turned, &inner, &f.camera, &f.model, 5), DROGUE_E_DOMAIN);
