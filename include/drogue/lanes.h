@@ -25,10 +25,10 @@ extern "C" {
 static inline uint32_t drogue_first_lowest(uint32_t v)
 {
     const uint32_t one = 1;
-    if (*(const uint8_t *)&one == 1) {
+    if (*(const uint8_t *)&one == 1) { /* GCOVR_EXCL_BR_LINE: the machine's order; ./run matrix runs both */
         return v;
     }
-    return (v << 24) | ((v << 8) & 0x00FF0000u) | ((v >> 8) & 0x0000FF00u) | (v >> 24);
+    return (v << 24) | ((v << 8) & 0x00FF0000u) | ((v >> 8) & 0x0000FF00u) | (v >> 24); /* GCOVR_EXCL_LINE */
 }
 
 /* Lanes (x, x + 2) and (x + 1, x + 3) of four bytes x .. x + 3. */

@@ -305,5 +305,28 @@ START_TEST(capacity_of_one_gives_no_label)
 }
 END_TEST
 
+/* A pixel takes a label of one of its neighbours, and says which other one is the same component. */
+START_TEST(a_label_of_every_neighbourhood)
+{
+    int i;
+    for (i = 0; i < 256; i++) {
+        const uint32_t above = (uint32_t)i & 3u, left = (uint32_t)i >> 2 & 3u, above_left = (uint32_t)i >> 4 & 3u,
+                       above_right = (uint32_t)i >> 6;
+        uint32_t other = 99;
+        const uint32_t label = drogue_label_choose(&other, above, left, above_left, above_right);
+        const int before = left != 0 || above_left != 0;
+        MUST((label == 0) == (above == 0 && !before && above_right == 0), "%d: label %u", i, (unsigned)label);
+        MUST(label == 0 || label == above || label == left || label == above_left || label == above_right,
+             "%d: %u is no neighbour's", i, (unsigned)label);
+        if (above != 0 || !before || above_right == 0) { /* those that there are touch each other */
+            MUST(other == 0 && (above == 0 || label == above), "%d: %u and %u", i, (unsigned)label, (unsigned)other);
+        } else { /* what is to the left, and what is above right */
+            MUST((label == left || label == above_left) && other == (label == above_right ? 0 : above_right),
+                 "%d: %u and %u", i, (unsigned)label, (unsigned)other);
+        }
+    }
+}
+END_TEST
+
 SUITE_MAIN("label", random_maps, every_small_map, spirals, combs, chequers_of_two_keys,
-           isolated_points_need_a_label_each, capacity_of_one_gives_no_label)
+           isolated_points_need_a_label_each, capacity_of_one_gives_no_label, a_label_of_every_neighbourhood)
