@@ -103,24 +103,41 @@ typedef struct frame {
     int32_t canny_low;
     int32_t canny_high;
     int32_t tried;
+    drogue_region asked;  /* where edges were looked for last */
+    int32_t others;       /* the workspace holds edges of another region than the view */
     int32_t too_large;    /* the inner disc is seen, but too large for the outline */
     drogue_q16 doubt_q16; /* by what share the inner disc's size is off; 1 and more: not seen, or no outline */
 } frame;
 
-static drogue_status find_outline(frame *f, const drogue_region *region)
+static drogue_status place_view(frame *f, const drogue_region *region)
 {
     drogue_result *out = f->out;
     drogue_status status = place_region(&out->region, &f->mask, f->image, region);
-    if (status != DROGUE_OK) {
-        return status;
+    if (status == DROGUE_OK) {
+        f->view.data = drogue_image_row(f->image, out->region.y_px) + out->region.x_px;
+        f->view.width_px = out->region.width_px;
+        f->view.height_px = out->region.height_px;
+        f->view.stride = f->image->stride;
     }
-    f->view.data = drogue_image_row(f->image, out->region.y_px) + out->region.x_px;
-    f->view.width_px = out->region.width_px;
-    f->view.height_px = out->region.height_px;
-    f->view.stride = f->image->stride;
-    status = run_frontend(&out->list, f->workspace, f->setup->config, f->canny_low, f->canny_high, &f->view, &f->mask);
-    return status == DROGUE_OK ? drogue_outline_find(&f->outline, f->workspace, &out->list, &f->mask, f->setup->config)
+    return status;
+}
+
+static drogue_status find_edges(frame *f, const drogue_region *region)
+{
+    const drogue_status status = place_view(f, region);
+    f->asked = *region;
+    f->others = 0;
+    return status == DROGUE_OK ? run_frontend(&f->out->list, f->workspace, f->setup->config, f->canny_low,
+                                              f->canny_high, &f->view, &f->mask)
                                : status;
+}
+
+static drogue_status find_outline(frame *f, const drogue_region *region)
+{
+    const drogue_status status = find_edges(f, region);
+    return status == DROGUE_OK
+               ? drogue_outline_find(&f->outline, f->workspace, &f->out->list, &f->mask, f->setup->config)
+               : status;
 }
 
 /* Is one ellipse about where the other is, and about as large: within a third of its semi-axis? Each in the coordinates
@@ -160,12 +177,14 @@ static drogue_second_look look_again(frame *f)
                : DROGUE_SECOND_NO_MORE;
 }
 
-/* An outline that the ring mask cuts is looked for once more; unless that is better, what was found first stands. */
+/* An outline that the ring mask cuts is looked for once more; unless that is better, what was found first stands, and where
+ * that is an outline its edges are found again. */
 static drogue_status find_outline_twice(frame *f, const drogue_region *region)
 {
     const drogue_config *config = f->setup->config;
     const drogue_status first = find_outline(f, region);
-    const drogue_q16 cover_q16 = f->outline.cover_q16;
+    const drogue_outline found = f->outline;
+    const drogue_q16 cover_q16 = found.cover_q16;
     f->second_look = DROGUE_SECOND_NONE;
     if ((first != DROGUE_OK && first != DROGUE_E_NO_ELLIPSE) ||
         cover_q16 < drogue_shr_round_s64(config->min_cover_q16, 1) || cover_q16 >= config->recentre_cover_q16 ||
@@ -176,8 +195,15 @@ static drogue_status find_outline_twice(frame *f, const drogue_region *region)
     switch (f->second_look) {
     case DROGUE_SECOND_BETTER: return DROGUE_OK;
     case DROGUE_SECOND_TOO_WIDE: return first; /* it was not begun */
-    default: return find_outline(f, region);
+    default: break;
     }
+    f->outline = found;
+    if (first == DROGUE_OK) {
+        return find_edges(f, region);
+    }
+    f->others = 1;
+    (void)place_view(f, region);
+    return first;
 }
 
 static drogue_q16 shifted(drogue_q16 v_px_q16, int32_t by_px)
@@ -343,19 +369,60 @@ static void refuse(drogue_result *out)
     out->tried = tried;
 }
 
+/* What the best try so far gave. */
+typedef struct best_try {
+    int what;
+    drogue_q16 least_q16; /* its doubt; DROGUE_Q16_MAX: it has no outline */
+    drogue_status status;
+    drogue_second_look second_look;
+    int32_t too_large;
+    drogue_region region; /* where its edges were looked for */
+    drogue_result result;
+} best_try;
+
+static void keep_try(best_try *best, const frame *f, int what, drogue_status status)
+{
+    best->what = what;
+    best->status = status;
+    best->second_look = f->second_look;
+    best->too_large = f->too_large;
+    best->region = f->asked;
+    best->result = *f->out;
+}
+
+/* What was best stands, and its edges are in the workspace again; where nothing was found they are those of the last try. */
+static void return_to(const best_try *best, frame *f, const drogue_region *region, int last)
+{
+    const drogue_config *config = f->setup->config;
+    const int found = best->least_q16 < DROGUE_Q16_MAX;
+    drogue_edge_list list;
+    if (found && best->what < LOWER && last >= LOWER) {
+        f->canny_low = config->canny_low;
+        f->canny_high = config->canny_high;
+        (void)find_edges(f, &best->region);
+    } else if (!found && f->others) {
+        (void)find_edges(f, region);
+    }
+    list = f->out->list;
+    *f->out = best->result;
+    f->out->list = list;
+    f->second_look = best->second_look;
+    f->too_large = best->too_large;
+}
+
 /* Measure; while the inner disc is not seen or not of its size, try what else the outline may be. What has the disc
  * nearest to its size stands. */
 static drogue_status measure(frame *f, const drogue_region *region)
 {
     const drogue_config *config = f->setup->config;
-    drogue_q16 least_q16 = DROGUE_Q16_MAX;
     drogue_status status = DROGUE_OK;
-    int best = FIRST;
+    best_try best;
     int last = -1;
     int what;
+    best.least_q16 = DROGUE_Q16_MAX;
     f->canny_low = config->canny_low;
     f->canny_high = config->canny_high;
-    for (what = FIRST; what < TRIES && least_q16 > SURE_Q16; what++) {
+    for (what = FIRST; what < TRIES && best.least_q16 > SURE_Q16; what++) {
         const int larger = what == FIRST_LARGER || what == LOWER_LARGER;
         if (larger && status != DROGUE_OK) {
             continue;
@@ -369,23 +436,22 @@ static drogue_status measure(frame *f, const drogue_region *region)
             status != DROGUE_E_NO_ARCS) {
             return status;
         }
-        if (f->doubt_q16 < least_q16 - CLEARLY_Q16) {
-            least_q16 = f->doubt_q16;
-            best = what;
+        if (f->doubt_q16 < best.least_q16 - CLEARLY_Q16) {
+            best.least_q16 = f->doubt_q16;
+            keep_try(&best, f, what, status);
+        } else if (what == FIRST) {
+            keep_try(&best, f, what, status);
         }
     }
-    if (best != last) {
-        if (best < LOWER) {
-            f->canny_low = config->canny_low;
-            f->canny_high = config->canny_high;
-        }
-        status = try_out(f, region, best, 0);
+    if (best.what != last || f->others) {
+        return_to(&best, f, region, last);
     }
-    if (status == DROGUE_OK && f->too_large) { /* an edge within the drogue: the canopy's inner one, or its wall's */
+    if (best.status == DROGUE_OK &&
+        f->too_large) { /* an edge within the drogue: the canopy's inner one, or its wall's */
         refuse(f->out);
         return DROGUE_E_NO_ELLIPSE;
     }
-    return status;
+    return best.status;
 }
 
 static int valid(const drogue_image *image, const drogue_setup *setup)
