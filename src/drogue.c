@@ -257,8 +257,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     if (best.what != last || f->others) {
         return_to(&best, f, region, last);
     }
-    if (best.status == DROGUE_OK &&
-        f->too_large) { /* an edge within the drogue: the canopy's inner one, or its wall's */
+    if (best.status == DROGUE_OK && f->too_large) { /* an edge within the drogue: the canopy's or its wall's */
         refuse(f->out);
         return DROGUE_E_NO_ELLIPSE;
     }
