@@ -15,6 +15,17 @@
 #define DROGUE_LANES_INSTRUCTIONS 0
 #endif
 
+/* Row loops, of the same bits either way: 1: plain ones that compilers turn into vector instructions; 0: what suits cores
+ * without vector registers. */
+#ifndef DROGUE_ROWS_PLAIN
+#if defined(__SSE2__) || defined(_M_X64) || defined(__ARM_NEON) || defined(__ARM_FEATURE_MVE) || \
+    defined(__ALTIVEC__) || defined(__riscv_vector)
+#define DROGUE_ROWS_PLAIN 1
+#else
+#define DROGUE_ROWS_PLAIN 0
+#endif
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
