@@ -119,8 +119,8 @@ enum drogue_hls_outline_word {
     DROGUE_HLS_O_BAND,
     DROGUE_HLS_O_POSES, /* two: x y z, axis x y z, yaw, pitch */
     DROGUE_HLS_O_EXPECTED_COUNT = DROGUE_HLS_O_POSES + 2 * 8,
-    DROGUE_HLS_O_EXPECTED,                             /* two ellipses, coordinates of the region */
-    DROGUE_HLS_O_BINS = DROGUE_HLS_O_EXPECTED + 2 * 5, /* 32 times: count dark, count bright, sum */
+    DROGUE_HLS_O_EXPECTED,                                              /* two ellipses, coordinates of the region */
+    DROGUE_HLS_O_BINS = DROGUE_HLS_O_EXPECTED + 2 * 5,                  /* 32 times: count dark, count bright, sum */
     DROGUE_HLS_O_SQUARES = DROGUE_HLS_O_BINS + 3 * DROGUE_SUPPORT_BINS, /* Q32, 64 bits */
     DROGUE_HLS_O_GRADIENT = DROGUE_HLS_O_SQUARES + 2,                   /* 64 bits */
     DROGUE_HLS_O_POINTS = DROGUE_HLS_O_GRADIENT + 2,

@@ -78,7 +78,7 @@ drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse 
 /* The inner part as evidence between the poses. */
 typedef struct drogue_inner_evidence {
     drogue_inner_part part;     /* px of the whole image; zero when it is not believed */
-    drogue_joint_inner weighed; /* its centroid without distortion; std 0 when it is not believed */
+    drogue_joint_inner weighed; /* its centre without distortion; std 0 when it is not believed */
     drogue_q16
         ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 when not believed */
     int32_t

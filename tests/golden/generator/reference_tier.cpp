@@ -439,15 +439,18 @@ Tiers kalman_tier(const Arrays &in, const Arrays &exact)
 Tiers reference_of(const std::string &stage, const Arrays &inputs, const Arrays &exact)
 {
     using Tier = Tiers (*)(const Arrays &, const Arrays &);
-    static const std::map<std::string, Tier> tiers = {
-        {"smooth", smooth_tier},   {"gradient", gradient_tier},   {"canny", canny_tier},
-        {"mask", mask_tier},       {"arcs", arcs_tier},           {"constraints", constraints_tier},
-        {"ellipse", ellipse_tier}, {"quality", quality_tier},     {"cluster", cluster_tier},
-        {"eigen", eigen_tier},     {"undistort", undistort_tier}, {"pose", pose_tier},
-        {"kalman", kalman_tier},   {"frame", frame_tier},         {"select", select_tier},
-        {"support", support_tier}, {"joint", joint_tier},         {"decide", decide_tier},
-        {"look", look_tier},       {"rim", rim_tier},             {"search", search_tier},
-        {"acquire", acquire_tier}, {"track", track_tier}};
+    static const std::map<std::string, Tier> tiers = {{"smooth", smooth_tier},       {"gradient", gradient_tier},
+                                                      {"canny", canny_tier},         {"mask", mask_tier},
+                                                      {"arcs", arcs_tier},           {"constraints", constraints_tier},
+                                                      {"ellipse", ellipse_tier},     {"quality", quality_tier},
+                                                      {"cluster", cluster_tier},     {"eigen", eigen_tier},
+                                                      {"undistort", undistort_tier}, {"pose", pose_tier},
+                                                      {"kalman", kalman_tier},       {"frame", frame_tier},
+                                                      {"select", select_tier},       {"support", support_tier},
+                                                      {"joint", joint_tier},         {"decide", decide_tier},
+                                                      {"look", look_tier},           {"rim", rim_tier},
+                                                      {"search", search_tier},       {"acquire", acquire_tier},
+                                                      {"track", track_tier}};
     return tiers.at(stage)(inputs, exact);
 }
 

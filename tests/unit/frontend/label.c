@@ -50,8 +50,8 @@ static void run_rows(labelling *t, uint8_t mask)
     for (y = 0; y < t->height; y++) {
         const uint8_t *code_row = code + y * t->width, *code_above = y ? code_row - t->width : t->zeros.data;
         uint32_t *row = labels + y * t->width;
-        drogue_label_pass p = drogue_label_pass_of(&t->state, row, y ? row - t->width : t->zeros.data, t->merges.data,
-                                                   1, t->width, mask);
+        drogue_label_pass p =
+            drogue_label_pass_of(&t->state, row, y ? row - t->width : t->zeros.data, t->merges.data, 1, t->width, mask);
         for (x = 0; x < t->width; x++) {
             if ((code_row[x] & mask) != 0) {
                 (void)drogue_label_pixel(&p, &t->state, code_row, code_above, x);
@@ -59,8 +59,8 @@ static void run_rows(labelling *t, uint8_t mask)
         }
         drogue_labels_resolve(t->parent.data, t->merges.data, (uint32_t)(p.merge - (drogue_merge *)t->merges.data));
         for (x = 0; x < t->width; x++) {
-            MUST(row[x] < t->state.count && parent[parent[row[x]]] == parent[row[x]],
-                 "row %d, x %d: parent is no root", y, x);
+            MUST(row[x] < t->state.count && parent[parent[row[x]]] == parent[row[x]], "row %d, x %d: parent is no root",
+                 y, x);
         }
     }
     MUST(guarded_intact(&t->merges), "merge table overrun, width %d", t->width);

@@ -249,5 +249,5 @@ START_TEST(any_bits)
 }
 END_TEST
 
-SUITE_MAIN("inner", expected_where_the_poses_show_it, poses_that_show_none, standard_deviation,
-            reasons_not_to_believe, any_bits)
+SUITE_MAIN("inner", expected_where_the_poses_show_it, poses_that_show_none, standard_deviation, reasons_not_to_believe,
+           any_bits)
