@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The inner part as a measurement: where it is expected, where it is looked for, and each reason not to believe it. */
+/* The inner part as a measurement: where it is expected, and each reason not to believe it. */
 #include "suite.h"
 
 #include "drogue/inner.h"
@@ -71,7 +71,7 @@ START_TEST(expected_where_the_poses_show_it)
         }
         drogue_config_default(&config);
         drogue_inner_expect(&got, poses, &(drogue_setup){&f.camera, &f.model, &config}, x_px, y_px);
-        MUST(got.count == 2 && got.min_area_px == config.min_inner_area_px, "case %d: not both", i);
+        MUST(got.count == 2, "case %d: not both", i);
         for (k = 0; k < 2; k++) {
             drogue_q16 u = q16_of(truth[k].xc), v = q16_of(truth[k].yc);
             ck_assert_int_eq(drogue_distort_point(&u, &v, &f.camera), DROGUE_OK);
@@ -111,28 +111,6 @@ START_TEST(poses_that_show_none)
     poses[0] = poses[1] = pose_of(&behind);
     drogue_inner_expect(&got, poses, &setup, 0, 0);
     ck_assert_uint_eq(got.count, 0);
-}
-END_TEST
-
-START_TEST(looked_for_within_the_outline)
-{
-    uint64_t rng = 2;
-    int i;
-    for (i = 0; i < 20000; i++) {
-        drogue_ellipse e;
-        drogue_mask m;
-        e.xc_px_q16 = rng_range(&rng, -16383 * 65536, 16383 * 65536);
-        e.yc_px_q16 = rng_range(&rng, -16383 * 65536, 16383 * 65536);
-        e.a_px_q16 = INT32_MAX;
-        e.b_px_q16 = 65536 + (rng_s32_any_width(&rng) & (INT32_MAX >> 1));
-        e.angle_rad_q16 = 0;
-        m = drogue_inner_disc(&e);
-        ck_assert(drogue_mask_valid(&m));
-        MUST(fabs(m.centre2_x - 2 * real_of_q16(e.xc_px_q16)) <= 0.5 &&
-                 fabs(m.centre2_y - 2 * real_of_q16(e.yc_px_q16)) <= 0.5,
-             "case %d: centre", i);
-        MUST(fabs(m.longest_px / 3.0 - real_of_q16(e.b_px_q16) * 5 / 6) <= 0.17, "case %d: radius", i);
-    }
 }
 END_TEST
 
@@ -331,5 +309,5 @@ START_TEST(any_bits)
 }
 END_TEST
 
-SUITE_MAIN("inner", expected_where_the_poses_show_it, poses_that_show_none, looked_for_within_the_outline,
-           standard_deviation, reasons_not_to_believe, no_evidence, flat_where_the_lens_folds, any_bits)
+SUITE_MAIN("inner", expected_where_the_poses_show_it, poses_that_show_none, standard_deviation, reasons_not_to_believe,
+           no_evidence, flat_where_the_lens_folds, any_bits)
