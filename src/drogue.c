@@ -205,7 +205,7 @@ static void keep_try(best_try *best, const drogue_frame *f, int what, drogue_sta
 static void return_to(const best_try *best, drogue_frame *f, const drogue_region *region, int last)
 {
     const drogue_config *config = f->setup->config;
-    const int found = best->least_q16 < DROGUE_Q16_MAX;
+    const int found = best->result.ellipse.a_px_q16 > 0; /* its arcs are in the list of that outline, pose or not */
     drogue_edge_list list;
     if (found && best->what < LOWER && last >= LOWER) {
         f->canny_low = config->canny_low;
