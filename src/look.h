@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Inside the measurement: a frame on its way, and the looks at it. */
+/* Inside the measurement: a frame on its way, the looks at it, and what is made of an outline. */
 #ifndef DROGUE_LOOK_H
 #define DROGUE_LOOK_H
 
@@ -30,5 +30,8 @@ drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region);
 /* An outline that the ring mask cuts is looked for once more; unless that is better, what was found first stands, and where
  * that is an outline its edges are found again. */
 drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region);
+
+/* From the outline to the pose. Apart from the rest for its stack: that of the looks is not below it. */
+drogue_status drogue_frame_judge(drogue_frame *f);
 
 #endif
