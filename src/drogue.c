@@ -95,6 +95,7 @@ typedef struct best_try {
 static void keep_try(best_try *best, const drogue_frame *f, int what, drogue_status status)
 {
     best->what = what;
+    best->least_q16 = f->doubt_q16;
     best->status = status;
     best->second_look = f->second_look;
     best->too_large = f->too_large;
@@ -148,10 +149,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
             status != DROGUE_E_NO_ARCS) {
             return status;
         }
-        if (f->doubt_q16 < best.least_q16 - CLEARLY_Q16) {
-            best.least_q16 = f->doubt_q16;
-            keep_try(&best, f, what, status);
-        } else if (what == FIRST) {
+        if (what == FIRST || f->doubt_q16 < best.least_q16 - CLEARLY_Q16) {
             keep_try(&best, f, what, status);
         }
     }
