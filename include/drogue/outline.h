@@ -10,6 +10,7 @@
 #include "drogue/ellipse.h"
 #include "drogue/frontend.h"
 #include "drogue/quality.h"
+#include "drogue/rays.h"
 #include "drogue/support.h"
 
 #ifdef __cplusplus
@@ -38,16 +39,6 @@ typedef struct drogue_collection {
     int frac_bits;          /* 0 .. 10 */
 } drogue_collection;
 
-/* Edges of one sense beside a bin of the outline: sums. */
-typedef struct drogue_pull_side {
-    int64_t off_px_q16; /* distances */
-    int64_t off_q24;    /* the same in semi-axes */
-    uint64_t gradient;  /* |gx| + |gy| */
-    uint32_t points;    /* in these sums */
-} drogue_pull_side;
-
-#define DROGUE_PULL_SIDES 3 /* within, beyond, and the outline's own */
-
 /* What the outline stage works on, in the workspace. */
 typedef struct drogue_outline_room {
     drogue_candidate candidates[DROGUE_MAX_CANDIDATES]; /* scored so far */
@@ -56,7 +47,6 @@ typedef struct drogue_outline_room {
     drogue_support support;                             /* of that */
     drogue_outline trial;                               /* being refined */
     drogue_outline best;                                /* of those so far, when a larger one is looked for */
-    drogue_pull_side sides[DROGUE_SUPPORT_BINS][DROGUE_PULL_SIDES]; /* when all that has served */
 } drogue_outline_room;
 
 /* With the four bytes that alignment may take. */
@@ -80,6 +70,17 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
  */
 int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                            const drogue_mask *mask, const drogue_config *config);
+
+/* Measure along rays how far what lies beside the outline moved it, as shading or the wall's edge, and put that back.
+ *
+ *  outline  in: found or enlarged; out: ellipse, and support.pull_q24 with the coefficients: 0 where they are no larger
+ *           than noise makes them, and at most an eighth of the semi-axis
+ *  rays     memory, as that of the workspace: nothing in it is kept
+ *  view     the region's pixels
+ *  config   as it was found with
+ */
+void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
+                         const drogue_config *config);
 
 /* Fit the edge points that belong to an outline, each with the lens distortion removed.
  *
