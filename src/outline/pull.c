@@ -151,15 +151,15 @@ static uint64_t squares_left(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], cons
     return squares_q48;
 }
 
-/* Variance of a harmonic, px^2 Q48, from the two things that show noise: a sixth of the squares that the harmonics leave of
- * the groups' means, and an eighth of the mean square of the points' offsets. Both shares are measured. */
+/* Variance of a harmonic, px^2 Q48: a quarter of what it is of a group's mean, which the three degrees of freedom show that
+ * the harmonics leave; and a quarter of the mean square of the points' offsets, as measured. */
 static uint64_t variance_of(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t c_px_q24[5],
                             const drogue_outline *outline)
 {
     const drogue_support *s = &outline->support;
     const int64_t rms_q24 = drogue_isqrt_u64(((uint64_t)s->squares_q32 << 16) / s->points);
     const uint64_t rms_px_q24 = (uint64_t)drogue_shr_round_s64(rms_q24 * outline->fitted.b_px_q16, 16);
-    return squares_left(off_px_q24, c_px_q24) / (6 * BINS * BINS) + rms_px_q24 * rms_px_q24 / 8;
+    return squares_left(off_px_q24, c_px_q24) / (12 * BINS * BINS) + rms_px_q24 * rms_px_q24 / 4;
 }
 
 /* Less what noise makes of it: c (1 - variance / c^2), or nothing. */

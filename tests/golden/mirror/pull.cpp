@@ -119,7 +119,7 @@ std::array<Real, 5> harmonics(const std::array<Real, GROUPS> &off, const Outline
         }
         left += mean * mean;
     }
-    const Real variance = left / 6 + o.support.squares / o.support.points / 8;
+    const Real variance = left / 12 + o.support.squares / o.support.points / 4;
     for (Real &v : c) {
         v = v * v <= variance ? 0 : std::clamp<Real>(v - variance / v, -0.125L, 0.125L);
     }
