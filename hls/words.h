@@ -108,7 +108,7 @@ enum drogue_hls_outline_word {
     DROGUE_HLS_O_STATUS,  /* status register; other than 0 in its low byte: the step ended there */
     DROGUE_HLS_O_FOUND,   /* drogue_status of drogue_outline_find() alone */
     DROGUE_HLS_O_ELLIPSE, /* as seen, coordinates of the region: xc yc a b angle */
-    DROGUE_HLS_O_FITTED = DROGUE_HLS_O_ELLIPSE + 5,   /* the same before blur was put back */
+    DROGUE_HLS_O_FITTED = DROGUE_HLS_O_ELLIPSE + 5,   /* the same with what moved it not put back */
     DROGUE_HLS_O_IDEAL = DROGUE_HLS_O_FITTED + 5,     /* without distortion, coordinates of the image */
     DROGUE_HLS_O_QUALITY = DROGUE_HLS_O_IDEAL + 5,    /* drogue_quality: five words */
     DROGUE_HLS_O_POLARITY = DROGUE_HLS_O_QUALITY + 5, /* drogue_polarity */
@@ -224,12 +224,14 @@ static inline void drogue_hls_pack_u64(int32_t words[2], uint64_t v)
 /* From the lists to the outline, the two poses that it allows, and where the inner part should be.
  *
  *  edges, arcs      drogue_hls.h; an arc's points lie within the list
+ *  pixels           the region's, width_px * height_px grey levels, row by row
  *  frontend_status  the front end's status register: other than 0 in its low byte is passed on, the lists are not read
  *  outline          all words are written in every case; 0 where there is nothing to say, ARCS -1
- *  STATUS           drogue_measure()'s; DROGUE_E_ARGUMENT for parameters or lists outside their range too
+ *  STATUS           drogue_measure()'s; DROGUE_E_ARGUMENT for parameters, lists or sizes outside their range too
  */
 void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_count,
                         const uint64_t arcs[DROGUE_HLS_ARCS], uint32_t arc_count, uint32_t frontend_status,
+                        const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], int32_t width_px, int32_t height_px,
                         const int32_t parameters[DROGUE_HLS_PARAMETERS], int32_t outline[DROGUE_HLS_OUTLINE_WORDS]);
 
 /* From the outline and the region's pixels to the inner disc: drogue_inner_edge_find().

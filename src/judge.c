@@ -79,6 +79,7 @@ drogue_status drogue_frame_judge(drogue_frame *f)
     drogue_result *out = f->out;
     drogue_evidence evidence;
     drogue_status status;
+    drogue_outline_pull(&f->outline, f->workspace->rays, &f->view, setup->config);
     describe(out, &f->outline);
     out->tried = f->tried;
     if (drogue_camera_distorts(setup->camera)) {

@@ -66,6 +66,15 @@ static inline int frame_read(frame *f, const conf_case *c)
     return drogue_workspace_init(&f->workspace, f->memory, sizeof f->memory, &capacity) == DROGUE_OK;
 }
 
+/* The region's pixels row by row, as the tops read them. */
+static inline void frame_pack_pixels(uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], const frame *f)
+{
+    int32_t y;
+    for (y = 0; y < f->view.height_px; y++) {
+        memcpy(pixels + y * f->view.width_px, drogue_image_row(&f->view, y), (size_t)f->view.width_px);
+    }
+}
+
 static inline void frame_run_frontend(frame *f)
 {
     drogue_frontend_config config;
@@ -105,6 +114,7 @@ static inline drogue_status frame_find_poses(frame *f, drogue_pose poses[2])
 {
     const drogue_hls_parameters *p = &f->p;
     drogue_result *r = &f->result;
+    drogue_outline_pull(&f->outline, f->workspace.rays, &f->view, &p->config);
     r->ellipse = f->outline.ellipse;
     r->ellipse.xc_px_q16 = drogue_q16_add(r->ellipse.xc_px_q16, drogue_q16_from_int(p->x_px));
     r->ellipse.yc_px_q16 = drogue_q16_add(r->ellipse.yc_px_q16, drogue_q16_from_int(p->y_px));

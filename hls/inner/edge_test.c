@@ -10,10 +10,7 @@ static int32_t got[DROGUE_HLS_EDGE_WORDS];
 
 static void call(frame *f)
 {
-    int32_t y;
-    for (y = 0; y < f->view.height_px; y++) {
-        memcpy(pixels + y * f->view.width_px, drogue_image_row(&f->view, y), (size_t)f->view.width_px);
-    }
+    frame_pack_pixels(pixels, f);
     memset(got, 0x55, sizeof got);
     drogue_hls_pack_parameters(parameters, &f->p);
     SIM_ARRAY(0, pixels);

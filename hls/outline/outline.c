@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Top: edge points and arcs in; outline, both poses and where to look for the inner part out. The same calls as
+/* Top: edge points, arcs and the region's pixels in; outline, both poses and where to look for the inner part out. The same calls as
  * drogue_measure() makes. */
 #include "../words.h"
 
@@ -20,6 +20,12 @@ static int valid(const drogue_hls_parameters *p)
 {
     return p->camera.fx_px_q16 > 0 && p->camera.fy_px_q16 > 0 && p->model.rim_radius_m_q16 > 0 &&
            p->model.inner_radius_m_q16 >= 0 && drogue_config_valid(&p->config) && drogue_mask_valid(&p->mask);
+}
+
+static int fits(const drogue_image *view)
+{
+    return view->width_px >= 1 && view->width_px <= DROGUE_HLS_WIDTH && view->height_px >= 1 &&
+           view->height_px <= DROGUE_HLS_HEIGHT;
 }
 
 /* The lists into the workspace; 0 when they cannot be a front end's. */
@@ -53,10 +59,11 @@ static inline int read_lists(drogue_edge edges[DROGUE_HLS_EDGES], drogue_arc arc
 }
 
 static drogue_status find(frame *f, const drogue_workspace *workspace, const drogue_edge_list *list,
-                          const drogue_hls_parameters *p)
+                          const drogue_image *view, const drogue_hls_parameters *p)
 {
     const drogue_setup setup = {&p->camera, &p->model, &p->config};
     drogue_status status;
+    drogue_outline_pull(&f->outline, workspace->rays, view, &p->config);
     f->ideal = f->outline.ellipse;
     f->ideal.xc_px_q16 = drogue_q16_add(f->ideal.xc_px_q16, drogue_q16_from_int(p->x_px));
     f->ideal.yc_px_q16 = drogue_q16_add(f->ideal.yc_px_q16, drogue_q16_from_int(p->y_px));
@@ -120,6 +127,7 @@ static void put(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const frame *f)
 
 void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_count,
                         const uint64_t arcs[DROGUE_HLS_ARCS], uint32_t arc_count, uint32_t frontend_status,
+                        const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], int32_t width_px, int32_t height_px,
                         const int32_t parameters[DROGUE_HLS_PARAMETERS], int32_t outline[DROGUE_HLS_OUTLINE_WORDS])
 {
 #ifndef __BAMBU__ /* registers; the other arrays are memory ports, which is the default */
@@ -131,7 +139,9 @@ void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_co
     static drogue_arc arc_memory[DROGUE_HLS_ARCS];
     static drogue_point hull[DROGUE_HULL_MAX];
     static drogue_outline_room room;
+    static drogue_ray rays[DROGUE_RAYS];
     drogue_workspace workspace;
+    drogue_image view;
     drogue_hls_parameters p;
     drogue_edge_list list;
     frame f;
@@ -146,7 +156,11 @@ void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_co
     list.edge_count = edge_count;
     list.arc_count = arc_count;
     drogue_hls_unpack_parameters(&p, parameters);
-    if (status == DROGUE_OK && !(valid(&p) && read_lists(edge_memory, arc_memory, edges, arcs, &list))) {
+    view.data = pixels;
+    view.width_px = width_px;
+    view.height_px = height_px;
+    view.stride = width_px;
+    if (status == DROGUE_OK && !(valid(&p) && fits(&view) && read_lists(edge_memory, arc_memory, edges, arcs, &list))) {
         status = DROGUE_E_ARGUMENT;
     }
     found = status;
@@ -155,13 +169,14 @@ void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_co
         workspace.arcs = arc_memory;
         workspace.hull = hull;
         workspace.outline = &room;
+        workspace.rays = rays;
         status = found = drogue_outline_find(&f.outline, &workspace, &list, &p.mask, &p.config);
     }
     if (status == DROGUE_OK && p.larger && !drogue_outline_enlarge(&f.outline, &workspace, &list, &p.mask, &p.config)) {
         status = DROGUE_E_NO_ELLIPSE;
     }
     if (status == DROGUE_OK) {
-        status = find(&f, &workspace, &list, &p);
+        status = find(&f, &workspace, &list, &view, &p);
     }
     outline[DROGUE_HLS_O_STATUS] = (int32_t)((frontend_status & ~DROGUE_HLS_STATUS) | (uint32_t)status);
     outline[DROGUE_HLS_O_FOUND] = (int32_t)found;

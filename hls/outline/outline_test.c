@@ -6,6 +6,9 @@
 
 static uint64_t edges[DROGUE_HLS_EDGES];
 static uint64_t arcs[DROGUE_HLS_ARCS];
+static uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT];
+static int32_t width_px = 1;
+static int32_t height_px = 1;
 static int32_t parameters[DROGUE_HLS_PARAMETERS];
 static int32_t outline[DROGUE_HLS_OUTLINE_WORDS];
 
@@ -14,9 +17,11 @@ static void call(uint32_t edge_count, uint32_t arc_count, uint32_t frontend_stat
     memset(outline, 0x55, sizeof outline);
     SIM_ARRAY(0, edges);
     SIM_ARRAY(2, arcs);
-    SIM_ARRAY(5, parameters);
-    SIM_ARRAY(6, outline);
-    drogue_hls_outline(edges, edge_count, arcs, arc_count, frontend_status, parameters, outline);
+    SIM_ARRAY(5, pixels);
+    SIM_ARRAY(8, parameters);
+    SIM_ARRAY(9, outline);
+    drogue_hls_outline(edges, edge_count, arcs, arc_count, frontend_status, pixels, width_px, height_px, parameters,
+                       outline);
 }
 
 static int same(bench *b, const char *what, const int32_t expected[DROGUE_HLS_OUTLINE_WORDS])
@@ -46,6 +51,9 @@ static void run(bench *b, frame *f, const conf_case *c)
     for (i = 0; i < f->list.arc_count; i++) {
         arcs[i] = drogue_hls_pack_arc(&f->workspace.arcs[i]);
     }
+    frame_pack_pixels(pixels, f);
+    width_px = f->view.width_px;
+    height_px = f->view.height_px;
     drogue_hls_pack_parameters(parameters, &f->p);
     call(f->list.edge_count, f->list.arc_count, (uint32_t)f->front);
     frame_find_outline(f);
@@ -72,6 +80,11 @@ static void run_refused(bench *b)
     refuses(b, "arc beyond the list", 4, 1);
     refuses(b, "more edges than the memory", (uint32_t)DROGUE_HLS_EDGES + 1, 0);
     refuses(b, "more arcs than the memory", 0, (uint32_t)DROGUE_HLS_ARCS + 1);
+    width_px = DROGUE_HLS_WIDTH + 1;
+    refuses(b, "wider than the memory", 0, 0);
+    width_px = 0;
+    refuses(b, "no pixel", 0, 0);
+    width_px = 1;
     arc.count = 0;
     arcs[0] = drogue_hls_pack_arc(&arc);
     refuses(b, "empty arc", 4, 1);

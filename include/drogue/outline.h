@@ -10,6 +10,7 @@
 #include "drogue/ellipse.h"
 #include "drogue/frontend.h"
 #include "drogue/quality.h"
+#include "drogue/rays.h"
 #include "drogue/support.h"
 
 #ifdef __cplusplus
@@ -18,8 +19,8 @@ extern "C" {
 
 /* The outline of the end plane and what speaks for it. */
 typedef struct drogue_outline {
-    drogue_ellipse ellipse;   /* region coordinates, as seen, what blur took put back */
-    drogue_ellipse fitted;    /* the same before the blur was put back: what edge points lie about */
+    drogue_ellipse ellipse;   /* region coordinates, as seen, what moved it put back */
+    drogue_ellipse fitted;    /* the same before: what edge points lie about */
     drogue_quality quality;   /* of the winning candidate; l_r is the share of the circumference that is covered */
     drogue_polarity polarity; /* DARK, BRIGHT, or BOTH where the background crosses the drogue's own grey */
     uint32_t arcs[4];         /* the arcs of the winning candidate by quadrant: index, or DROGUE_NO_ARC */
@@ -27,7 +28,7 @@ typedef struct drogue_outline {
     uint32_t refit_points;    /* points in the last fit; 0 when the fit of the arcs was kept */
     drogue_q16 cover_q16;     /* share of the circumference that edge points cover */
     drogue_q16 band_px_q16;   /* half width of the band about the ellipse that they lie in */
-    drogue_support support;   /* of the last fit, before the blur was put back */
+    drogue_support support;   /* of the last fit */
 } drogue_outline;
 
 /* Moments of points, 1 / 2^frac_bits px from an origin. */
@@ -38,16 +39,6 @@ typedef struct drogue_collection {
     int frac_bits;          /* 0 .. 10 */
 } drogue_collection;
 
-/* Edges of one sense beside a bin of the outline: sums. */
-typedef struct drogue_pull_side {
-    int64_t off_px_q16; /* distances */
-    int64_t off_q24;    /* the same in semi-axes */
-    uint64_t gradient;  /* |gx| + |gy| */
-    uint32_t points;    /* in these sums */
-} drogue_pull_side;
-
-#define DROGUE_PULL_SIDES 3 /* within, beyond, and the outline's own */
-
 /* What the outline stage works on, in the workspace. */
 typedef struct drogue_outline_room {
     drogue_candidate candidates[DROGUE_MAX_CANDIDATES]; /* scored so far */
@@ -56,7 +47,6 @@ typedef struct drogue_outline_room {
     drogue_support support;                             /* of that */
     drogue_outline trial;                               /* being refined */
     drogue_outline best;                                /* of those so far, when a larger one is looked for */
-    drogue_pull_side sides[DROGUE_SUPPORT_BINS][DROGUE_PULL_SIDES]; /* when all that has served */
 } drogue_outline_room;
 
 /* With the four bytes that alignment may take. */
@@ -80,6 +70,18 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
  */
 int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                            const drogue_mask *mask, const drogue_config *config);
+
+/* Measure along rays how far what lies beside the outline moved it, as shading or the wall's edge, and put that back. Who
+ * has edge points and no image does without.
+ *
+ *  outline  in: found or enlarged; out: ellipse, and support.pull_q24 with the coefficients: 0 where they are no larger
+ *           than noise makes them, and at most an eighth of the semi-axis
+ *  rays     memory, as that of the workspace: nothing in it is kept
+ *  view     the region's pixels
+ *  config   as it was found with
+ */
+void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
+                         const drogue_config *config);
 
 /* Fit the edge points that belong to an outline, each with the lens distortion removed.
  *

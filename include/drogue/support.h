@@ -26,10 +26,9 @@ typedef struct drogue_support {
     uint64_t gradient;                           /* sum of |gx| + |gy| over them, grey levels * 8 */
     uint32_t points;                             /* in these sums */
     uint32_t bright_bins; /* bit k: bin k is brighter inside; all 0 or all 1 for an outline of one polarity */
-    int32_t
-        pull_q24[5];  /* by how much opposite edges nearby moved the outline: coefficients of 1, cos t, sin t, cos 2t,
-                             sin 2t over the eccentric angle t, in semi-axes */
-    uint32_t covered; /* bins that hold enough points, less the changes of polarity round the outline beyond none */
+    int32_t pull_q24[5];  /* by how much what lies beside the outline moved it outwards, in semi-axes: 1, cos t, sin t,
+                             cos 2t, sin 2t over the eccentric angle t */
+    uint32_t covered;     /* bins that hold enough points, less the changes of polarity round the outline beyond none */
 } drogue_support;
 
 /* From the counts, decide the polarity of each bin and how many bins are covered.

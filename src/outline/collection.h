@@ -29,12 +29,7 @@ int drogue_ellipse_settled(const drogue_ellipse *p, const drogue_ellipse *q);
 void drogue_band_narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
                         const drogue_config *config);
 
-/* How edges of opposite sense near a fitted outline moved it, into its support. */
-void drogue_outline_pull(drogue_support *support, drogue_pull_side sides[DROGUE_SUPPORT_BINS][DROGUE_PULL_SIDES],
-                         const drogue_ellipse *fitted, const drogue_edge *edges, uint32_t count,
-                         const drogue_config *config);
-
-/* Put back what they did. */
+/* Put back what drogue_outline_pull() found. */
 void drogue_outline_put_back(drogue_ellipse *e, const int32_t pull_q24[5]);
 
 /* Is an ellipse round enough to be the drogue's? */

@@ -321,9 +321,6 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
         status = best_outline(out, all_candidates(&c), &c);
         out->fitted = out->ellipse;
         if (out->ellipse.b_px_q16 > 0) {
-            drogue_outline_pull(&out->support, workspace->outline->sides, &out->fitted, workspace->edges,
-                                list->edge_count, config);
-            drogue_outline_put_back(&out->ellipse, out->support.pull_q24);
             drogue_undo_blur(&out->ellipse, config);
         }
     }
@@ -389,9 +386,6 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
     }
     *out = *best;
     out->fitted = out->ellipse;
-    drogue_outline_pull(&out->support, workspace->outline->sides, &out->fitted, workspace->edges, list->edge_count,
-                        config);
-    drogue_outline_put_back(&out->ellipse, out->support.pull_q24);
     drogue_undo_blur(&out->ellipse, config);
     return 1;
 }

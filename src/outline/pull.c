@@ -1,134 +1,215 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Edges of opposite sense beside the outline, and what they do to it.
+/* What lies beside the outline, and what it does to it.
  *
- * The two edges of a narrow band, as a far drogue's canopy between what is behind it and its wall, blur into each other:
- * where the grey changes fastest lies farther apart than the edges do. With s the standard deviation of all blur and q half
- * the distance of two equal edges, the steepest places lie at h with q = h tanh(h q / s^2). */
+ * Shading that runs up to the outline, or another edge nearby as that of a narrow wall, moves the place where the grey
+ * changes fastest, the farther the more blur there is. So the edge is looked for at two blurs along rays: as the front
+ * end sees it, and sharpened. It goes from the one towards the other. */
 #include "collection.h"
 
 #include <string.h>
 
-#include "band.h"
+#define GROUPS 8                            /* equal parts of the outline */
+#define GROUP (DROGUE_RAYS / GROUPS)        /* rays taken together */
+#define BINS (DROGUE_SUPPORT_BINS / GROUPS) /* of a support beside them */
 
-#define NEAREST 14              /* sixteenths of s: half the least distance that is taken for another edge */
-#define FARTHEST 32             /* sixteenths: beyond 2 s it moves next to nothing */
-#define OWN_BLUR2_Q8_SMOOTH 363 /* px^2: smoothing 1, Sobel 1/3, the pixel 1/12 */
-#define OWN_BLUR2_Q8 107
+#define MIDDLE 11               /* the slope on the ellipse */
+#define SLOPES (2 * MIDDLE + 1) /* half a pixel apart */
+#define NEAR 3                  /* slopes: so near the ellipse lies its edge */
+#define FAR DROGUE_Q16(12, 5)   /* slopes: so far from there, 1.2 px, lies the sharpened one */
+#define TAPS 7
+#define MOST_Q24 (1 << 21) /* semi-axes, of a harmonic */
 
-#define LOOKS 256 /* edge points looked at, to about twice as many */
-
-/* (h - q) / s over h / s from 1 in steps of a sixteenth, Q8; below, the band is too narrow to say more */
-static const uint8_t moved_q8[17] = {205, 120, 79, 55, 38, 27, 19, 13, 9, 7, 4, 3, 2, 1, 1, 1, 0};
-
-/* A bin's edges: its own, and the opposite ones within and beyond. */
-enum { INSIDE, OUTSIDE, OWN, SIDES = DROGUE_PULL_SIDES };
-
-typedef drogue_pull_side side;
-
-/* By how much equal edges at a distance move each other, px Q16. */
-static int32_t moved_px_q16(int32_t half_px_q16, int32_t blur_px_q16)
+/* As the front end blurs: variance 1.33 px^2, 1 of its smoothing and 1/3 of Sobel's operator. */
+static int32_t blurred(const int32_t slope[SLOPES], int32_t i)
 {
-    const int32_t at_q12 = (int32_t)drogue_div_round_s64((int64_t)half_px_q16 * (16 << 12), blur_px_q16) - (16 << 12);
-    const int32_t i = at_q12 >> 12;
-    int32_t share_q20 = (int32_t)moved_q8[0] << 12;
-    if (i >= 16) {
-        return 0;
+    static const int32_t tap_q7[TAPS] = {117, 88, 55, 28, 12, 4, 1};
+    int32_t sum = slope[i] * 128;
+    int32_t k;
+    for (k = 0; k < TAPS; k++) {
+        sum += tap_q7[k] * (slope[i - 1 - k] + slope[i + 1 + k]);
     }
-    if (i >= 0) {
-        share_q20 = ((int32_t)moved_q8[i] << 12) + (moved_q8[i + 1] - moved_q8[i]) * (at_q12 & 4095);
-    }
-    return (int32_t)drogue_shr_round_s64((int64_t)share_q20 * blur_px_q16, 20);
+    return sum;
 }
 
-/* Add an opposite edge to its side; with r its distance from the centre in semi-axes it is (1 - r) r b / |n| off. */
-static void add_opposite(side sides[SIDES], const drogue_ellipse_frame *frame, const band_point *p, uint32_t gradient,
-                         int32_t least_px_q16)
-{
-    const int32_t f_q24 = f_q24_of(frame, p->f_b_px_q16);
-    const int32_t length_q14 = (int32_t)drogue_isqrt_u64((uint64_t)(uint32_t)p->n2_q28) + 1;
-    const int32_t r_q24 = (int32_t)drogue_isqrt_u64((uint64_t)((1 << 24) + f_q24) << 24);
-    const int32_t off_q24 = r_q24 < 1 << 24 ? (1 << 24) - r_q24 : r_q24 - (1 << 24);
-    const int64_t scaled_q24 = drogue_shr_round_s64((int64_t)off_q24 * r_q24, 24);
-    const int32_t off_px = (int32_t)drogue_div_round_s64(scaled_q24 * frame->b_px_q16, (int64_t)length_q14 << 10);
-    side *s = &sides[f_q24 > 0 ? OUTSIDE : INSIDE];
-    if (off_px >= least_px_q16) {
-        s->off_px_q16 += off_px;
-        s->off_q24 += off_q24;
-        s->gradient += gradient;
-        s->points++;
-    }
-}
+/* Less a quarter of the second difference, times 4: what blur of half a pixel took. */
+static int32_t sharpened(const int32_t slope[SLOPES], int32_t i) { return 6 * slope[i] - slope[i - 2] - slope[i + 2]; }
 
-static void add(side sides[SIDES], const drogue_ellipse_frame *frame, const band_point *p, const drogue_edge *e,
-                int own, int32_t least_px_q16)
+/* The highest peak of a curve within [from, to]; 0 when there is none. */
+static int find_peak(int32_t *at_q16, const int32_t curve[SLOPES], int32_t from, int32_t to)
 {
-    const uint32_t gradient = (uint32_t)(e->gx < 0 ? -e->gx : e->gx) + (uint32_t)(e->gy < 0 ? -e->gy : e->gy);
-    if (!own) {
-        add_opposite(sides, frame, p, gradient, least_px_q16);
-    } else if ((p->f_b_px_q16 < 0 ? -p->f_b_px_q16 : p->f_b_px_q16) < 2 * least_px_q16) {
-        sides[OWN].gradient += gradient;
-        sides[OWN].points++;
-    }
-}
-
-/* By how much the opposite edges on one side push a bin's own, in semi-axes Q24: along part of the bin, in part. */
-static int32_t push_q24(const side *s, const side *own, int32_t blur_px_q16)
-{
-    const uint32_t points = s->points < own->points ? s->points : own->points;
-    int64_t ratio_q16;
-    int64_t moved;
-    if (points == 0) {
-        return 0;
-    }
-    ratio_q16 = drogue_div_round_s64((int64_t)(s->gradient << 16) / s->points * own->points, (int64_t)own->gradient);
-    ratio_q16 = ratio_q16 > 98304 ? 98304 : ratio_q16;
-    moved = moved_px_q16((int32_t)(s->off_px_q16 / s->points / 2), blur_px_q16);
-    moved = drogue_shr_round_s64(moved * ratio_q16, 16) * points / own->points;
-    return (int32_t)drogue_div_round_s64(moved * s->off_q24, s->off_px_q16);
-}
-
-void drogue_outline_pull(drogue_support *support, side sides[DROGUE_SUPPORT_BINS][SIDES], const drogue_ellipse *fitted,
-                         const drogue_edge *edges, uint32_t count, const drogue_config *config)
-{
-    const uint64_t optics2_q32 = drogue_square_sum(config->optics_blur_px_q16, 0);
-    const drogue_q16 blur = (drogue_q16)drogue_isqrt_u64(
-        optics2_q32 + ((uint64_t)(config->smooth ? OWN_BLUR2_Q8_SMOOTH : OWN_BLUR2_Q8) << 24));
-    const int64_t wide = (int64_t)blur * FARTHEST / 8;
-    const drogue_band band =
-        drogue_band_of(wide > DROGUE_Q16(8, 1) ? DROGUE_Q16(8, 1) : (drogue_q16)wide, config->refit_cos_q16);
-    const int32_t least = (int32_t)((int64_t)blur * NEAREST / 8);
-    const uint32_t stride = count / LOOKS | 1u; /* odd: rows have their edges in pairs */
-    int64_t sum_q54[5] = {0, 0, 0, 0, 0};
-    drogue_ellipse_frame frame;
-    band_reach reach;
-    uint32_t k;
-    int i;
-    memset(support->pull_q24, 0, sizeof support->pull_q24);
-    if (support->points == 0 || drogue_ellipse_frame_of(&frame, fitted) != DROGUE_OK) {
-        return;
-    }
-    memset(sides, 0, DROGUE_SUPPORT_BINS * sizeof sides[0]);
-    reach = reach_of(&frame, &band);
-    for (k = 0; k < count; k += stride) { /* bound: LOOKS */
-        const drogue_edge *e = &edges[k];
-        band_point p;
-        if (band_holds(&p, &frame, &band, &reach, drogue_edge_x_q16(e), drogue_edge_y_q16(e), e->gx, e->gy)) {
-            const uint32_t bin = bin_of(p.u_q14, p.v_q14);
-            add(sides[bin], &frame, &p, e, (uint32_t)p.polarity == ((support->bright_bins >> bin) & 1u), least);
+    int32_t best = 0;
+    int32_t i;
+    for (i = from; i <= to; i++) {
+        if (curve[i] > curve[best] && curve[i] > curve[i - 1] && curve[i] >= curve[i + 1]) {
+            best = i;
         }
     }
+    if (best > 0) {
+        *at_q16 = best * DROGUE_Q16_ONE + drogue_ray_peak_q16(curve[best - 1], curve[best], curve[best + 1]);
+    }
+    return best > 0;
+}
+
+/* How far outwards of the sharpened edge the blurred one lies, in slopes Q16; 0 when there are not both. */
+static int32_t moved_q16(const int32_t slope[SLOPES])
+{
+    int32_t curve[SLOPES];
+    int32_t seen_q16;
+    int32_t is_q16;
+    int32_t from;
+    int32_t to;
+    int32_t i;
+    curve[0] = 0; /* what a peak is to be higher than */
+    for (i = MIDDLE - NEAR - 1; i <= MIDDLE + NEAR + 1; i++) {
+        curve[i] = blurred(slope, i);
+    }
+    if (!find_peak(&seen_q16, curve, MIDDLE - NEAR, MIDDLE + NEAR)) {
+        return 0;
+    }
+    from = (seen_q16 - FAR) >> 16;
+    to = (seen_q16 + FAR + DROGUE_Q16_ONE - 1) >> 16;
+    for (i = from - 1; i <= to + 1; i++) {
+        curve[i] = sharpened(slope, i);
+    }
+    return find_peak(&is_q16, curve, from, to) ? seen_q16 - is_q16 : 0;
+}
+
+/* The slopes of a group's rays where the outline has points, rising from bright to dark or the other way as its bin. */
+static void add_slopes(int32_t slope[SLOPES], const drogue_ray rays[DROGUE_RAYS], int32_t group,
+                       const drogue_image *view, const drogue_support *support)
+{
+    int32_t grey[SLOPES + 2];
+    int32_t i;
+    int32_t k;
+    memset(slope, 0, SLOPES * sizeof *slope);
+    for (k = group * GROUP; k < (group + 1) * GROUP; k++) {
+        const int32_t bin = k * DROGUE_SUPPORT_BINS / DROGUE_RAYS;
+        const uint32_t bright = support->bright_bins >> bin & 1u;
+        if (support->bin[bin].count[bright] > 0) {
+            drogue_ray_read(grey, &rays[k], view, -(MIDDLE + 1) * rays[k].step_px_q16, SLOPES + 2);
+            for (i = 0; i < SLOPES; i++) {
+                slope[i] += bright ? grey[i] - grey[i + 2] : grey[i + 2] - grey[i];
+            }
+        }
+    }
+}
+
+/* Offsets along the normal as radial ones, in semi-axes times b: times the length of the normal in semi-axes. */
+static void spread(int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t moved[GROUPS], const drogue_ellipse *e)
+{
+    const int64_t ratio_q24 = drogue_div_round_s64(e->b_px_q16 * (INT64_C(1) << 24), e->a_px_q16);
+    uint32_t k;
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        const int64_t push = (int64_t)push_q24(&sides[k][INSIDE], &sides[k][OWN], blur) -
-                             push_q24(&sides[k][OUTSIDE], &sides[k][OWN], blur);
+        int64_t basis_q30[5];
+        int32_t u_q24;
+        int32_t v_q24;
+        int64_t length_q24;
+        drogue_support_basis(basis_q30, k);
+        u_q24 = (int32_t)drogue_shr_round_s64(basis_q30[1] * ratio_q24, 30);
+        v_q24 = (int32_t)drogue_shr_round_s64(basis_q30[2], 6);
+        length_q24 = drogue_isqrt_u64(drogue_square_sum(u_q24, v_q24));
+        off_px_q24[k] = (int32_t)drogue_shr_round_s64(moved[k / BINS] * length_q24, 17); /* half a pixel each */
+    }
+}
+
+static void find_harmonics(int32_t c_px_q24[5], const int32_t off_px_q24[DROGUE_SUPPORT_BINS])
+{
+    int64_t sum_q54[5] = {0, 0, 0, 0, 0};
+    uint32_t k;
+    int i;
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
         int64_t basis_q30[5];
         drogue_support_basis(basis_q30, k);
         for (i = 0; i < 5; i++) {
-            sum_q54[i] += push * basis_q30[i];
+            sum_q54[i] += off_px_q24[k] * basis_q30[i];
         }
     }
     for (i = 0; i < 5; i++) {
-        support->pull_q24[i] = (int32_t)drogue_shr_round_s64(sum_q54[i], i > 0 ? 34 : 35);
+        c_px_q24[i] = (int32_t)drogue_shr_round_s64(sum_q54[i], i > 0 ? 34 : 35);
     }
+}
+
+/* Squares of the groups' offsets that the harmonics leave, px^2 Q48; each the sum of its bins'. */
+static uint64_t squares_left(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t c_px_q24[5])
+{
+    uint64_t squares_q48 = 0;
+    int64_t left_q54 = 0;
+    uint32_t k;
+    int i;
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        int64_t basis_q30[5];
+        drogue_support_basis(basis_q30, k);
+        left_q54 += off_px_q24[k] * basis_q30[0];
+        for (i = 0; i < 5; i++) {
+            left_q54 -= c_px_q24[i] * basis_q30[i];
+        }
+        if (k % BINS == BINS - 1) {
+            squares_q48 += drogue_square_sum((int32_t)drogue_shr_round_s64(left_q54, 30), 0);
+            left_q54 = 0;
+        }
+    }
+    return squares_q48;
+}
+
+/* Variance of a harmonic, px^2 Q48: a quarter of what it is of a group's mean, which the three degrees of freedom show that
+ * the harmonics leave; and a quarter of the mean square of the points' offsets, as measured. */
+static uint64_t variance_of(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t c_px_q24[5],
+                            const drogue_outline *outline)
+{
+    const drogue_support *s = &outline->support;
+    const int64_t rms_q24 = drogue_isqrt_u64(((uint64_t)s->squares_q32 << 16) / s->points);
+    const uint64_t rms_px_q24 = (uint64_t)drogue_shr_round_s64(rms_q24 * outline->fitted.b_px_q16, 16);
+    return squares_left(off_px_q24, c_px_q24) / (12 * BINS * BINS) + rms_px_q24 * rms_px_q24 / 4;
+}
+
+/* Less what noise makes of it: c (1 - variance / c^2), or nothing. */
+static int32_t shrunk(int32_t c_px_q24, uint64_t variance_q48)
+{
+    const int32_t size = c_px_q24 < 0 ? -c_px_q24 : c_px_q24;
+    int32_t kept;
+    if (drogue_square_sum(size, 0) <= variance_q48) {
+        return 0;
+    }
+    kept = size - (int32_t)drogue_div_round_s64((int64_t)variance_q48, size);
+    return c_px_q24 < 0 ? -kept : kept;
+}
+
+static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view)
+{
+    int32_t moved[GROUPS];
+    int32_t off_px_q24[DROGUE_SUPPORT_BINS];
+    int32_t c_px_q24[5];
+    uint64_t variance_q48;
+    int32_t i;
+    drogue_rays_aim(rays, &outline->fitted, 4);
+    for (i = 0; i < GROUPS; i++) {
+        int32_t slope[SLOPES];
+        add_slopes(slope, rays, i, view, &outline->support);
+        moved[i] = moved_q16(slope);
+    }
+    spread(off_px_q24, moved, &outline->fitted);
+    find_harmonics(c_px_q24, off_px_q24);
+    variance_q48 = variance_of(off_px_q24, c_px_q24, outline);
+    for (i = 0; i < 5; i++) {
+        const int64_t c_px_q40 = shrunk(c_px_q24[i], variance_q48) * (int64_t)DROGUE_Q16_ONE;
+        const int64_t c_q24 = drogue_div_round_s64(c_px_q40, outline->fitted.b_px_q16);
+        outline->support.pull_q24[i] = drogue_clamp_s32(drogue_sat_s32(c_q24), -MOST_Q24, MOST_Q24);
+    }
+}
+
+void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
+                         const drogue_config *config)
+{
+    memset(outline->support.pull_q24, 0, sizeof outline->support.pull_q24);
+    outline->ellipse = outline->fitted;
+    if (outline->fitted.b_px_q16 < DROGUE_Q16_ONE) {
+        return;
+    }
+    if (outline->support.points > 0) {
+        pull(outline, rays, view);
+        drogue_outline_put_back(&outline->ellipse, outline->support.pull_q24);
+    }
+    drogue_undo_blur(&outline->ellipse, config);
 }
 
 void drogue_outline_put_back(drogue_ellipse *e, const int32_t pull_q24[5])

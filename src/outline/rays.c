@@ -65,6 +65,12 @@ void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_ima
     }
 }
 
+int32_t drogue_ray_peak_q16(int32_t before, int32_t at, int32_t after)
+{
+    const int64_t bend = 2 * (int64_t)at - before - after; /* > 0 */
+    return (int32_t)drogue_div_round_s64(((int64_t)after - before) * HALF, bend);
+}
+
 /* Slopes along a ray by a derivative of Gaussian of two samples, and their peaks to a share of a sample: 'out' samples to
  * either side. */
 static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, int32_t least_q8)
@@ -85,8 +91,7 @@ static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, in
     r->count = 0;
     for (i = 1; i + 1 < slopes; i++) {
         if (slope[i] >= least_q8 && slope[i] > slope[i - 1] && slope[i] >= slope[i + 1]) {
-            const int32_t bend = 2 * slope[i] - slope[i - 1] - slope[i + 1]; /* > 0 */
-            const int64_t part_q16 = drogue_div_round_s64((int64_t)(slope[i + 1] - slope[i - 1]) * HALF, bend);
+            const int64_t part_q16 = drogue_ray_peak_q16(slope[i - 1], slope[i], slope[i + 1]);
             drogue_ray_edge e;
             e.at_px_q16 = (i - out) * r->step_px_q16 + (int32_t)drogue_shr_round_s64(part_q16 * r->step_px_q16, 16);
             e.slope_q8 = slope[i];

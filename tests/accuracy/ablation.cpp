@@ -79,7 +79,12 @@ Outline found(const RegionEdges &edges)
 {
     drogue_outline outline;
     Outline out;
+    const drogue_image view = {edges.view.data, edges.view.cols, edges.view.rows,
+                               static_cast<int32_t>(edges.view.step)};
     out.status = drogue_outline_find(&outline, &edges.workspace, &edges.list, &edges.mask, &edges.config);
+    if (out.status == DROGUE_OK) {
+        drogue_outline_pull(&outline, edges.workspace.rays, &view, &edges.config);
+    }
     out.ellipse = outline.ellipse;
     out.support = outline.support;
     return out;

@@ -52,24 +52,28 @@ void stages_end(uint32_t instructions[STAGE_COUNT])
         return result;                                 \
     }
 
-void __real_drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row);
-void __wrap_drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row);
-void __wrap_drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
-{
-    stage outer = enter(FRONT_END);
-    __real_drogue_frontend_row(frontend, row);
-    (void)enter(outer);
-}
+#define WRAP_VOID(where, name, parameters, arguments) \
+    void __real_##name parameters;                    \
+    void __wrap_##name parameters;                    \
+    void __wrap_##name parameters                     \
+    {                                                 \
+        stage outer = enter(where);                   \
+        __real_##name arguments;                      \
+        (void)enter(outer);                           \
+    }
 
 /* clang-format off */
 WRAP(FRONT_END, drogue_status, drogue_frontend_begin, (drogue_frontend *a, drogue_workspace *b,
      const drogue_frontend_config *c, int32_t d, int32_t e), (a, b, c, d, e))
+WRAP_VOID(FRONT_END, drogue_frontend_row, (drogue_frontend *a, const uint8_t *b), (a, b))
 WRAP(FRONT_END, drogue_status, drogue_frontend_end, (drogue_edge_list *a, drogue_frontend *b), (a, b))
 WRAP(CONSTRAINTS, drogue_status, drogue_select_arcs, (drogue_arc_choices *a, drogue_point *b, const drogue_edge *c,
      const drogue_arc *d, uint32_t e, const drogue_mask *f, drogue_q16 g, drogue_polarity h), (a, b, c, d, e, f, g, h))
 WRAP(FIT, drogue_status, drogue_ellipse_fit, (drogue_ellipse *a, const drogue_moments *b, int c), (a, b, c))
 WRAP(OUTLINE, drogue_status, drogue_outline_find, (drogue_outline *a, const drogue_workspace *b,
      const drogue_edge_list *c, const drogue_mask *d, const drogue_config *e), (a, b, c, d, e))
+WRAP_VOID(OUTLINE, drogue_outline_pull, (drogue_outline *a, drogue_ray b[DROGUE_RAYS], const drogue_image *c,
+     const drogue_config *d), (a, b, c, d))
 WRAP(OUTLINE, drogue_status, drogue_outline_undistorted, (drogue_ellipse *a, const drogue_outline *b,
      const drogue_workspace *c, const drogue_edge_list *d, const drogue_setup *e, int32_t f, int32_t g),
      (a, b, c, d, e, f, g))

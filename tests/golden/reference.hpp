@@ -113,7 +113,7 @@ struct Support {
     std::array<Real, SUPPORT_BINS> sum = {}; /* of f / 2 over the points of the bin's polarity */
     Real squares = 0, gradient = 0;
     int points = 0;
-    std::array<Real, 5> pull = {}; /* by edges of the other sense nearby: harmonics, in semi-axes */
+    std::array<Real, 5> pull = {}; /* by what lies beside the outline: harmonics, in semi-axes */
     uint32_t bright = 0;           /* bit set of the bins that are brighter inside */
     int covered = 0;
 };

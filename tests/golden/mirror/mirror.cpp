@@ -320,10 +320,17 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
 namespace {
 
 /* From the outline to the pose; the doubt in it. */
-Real judge(Result &out, Features &from, const Frame &f, const Task &task, const drogue_result *library)
+Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue_result *library)
 {
     const reference::Camera &camera = task.camera;
+    const drogue_image view = {f.view.data, f.view.cols, f.view.rows, static_cast<int32_t>(f.view.step)};
+    std::array<drogue_ray, DROGUE_RAYS> rays;
     Real doubt = 0;
+    pull(out.outline, view, f.follow.library != nullptr ? f.decided.fitted : rounded_ellipse(out.outline.fitted),
+         task.config);
+    if (f.follow.library != nullptr) {
+        drogue_outline_pull(&f.decided, rays.data(), &view, &task.config);
+    }
     out.found = true;
     out.seen = out.outline.ellipse;
     out.seen.xc += out.region.x;

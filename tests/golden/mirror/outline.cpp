@@ -408,104 +408,6 @@ drogue_status Finder::find(Outline &out)
     return out.cover >= real(config_.min_cover_q16) ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
 }
 
-/* Blur of variance v moves an edge of curvature c inward by v c / 2; the front end's own half variance as measured. */
-void undo_blur(Ellipse &e, const drogue_config &config)
-{
-    const Real own = config.smooth ? 0.82L : 0.32L, optics = real(config.optics_blur_px_q16);
-    const Real half = own + optics * optics / 2, a = e.a, b = e.b;
-    e.a += half * a / (b * b);
-    e.b += half * b / (a * a);
-}
-
-/* By how much two equal edges move each other apart, over the blur's s, by half their distance over s from 1 in steps of
- * a sixteenth, in 1/256: q = h tanh(h q / s^2) for h - q. */
-Real moved(Real half, Real blur)
-{
-    static const int table[17] = {205, 120, 79, 55, 38, 27, 19, 13, 9, 7, 4, 3, 2, 1, 1, 1, 0};
-    const Real at = std::max<Real>(0, 16 * (half / blur - 1));
-    const auto i = static_cast<size_t>(at);
-    return i >= 16 ? 0 : blur * (table[i] + (table[i + 1] - table[i]) * (at - static_cast<Real>(i))) / 256;
-}
-
-/* How edges of the other sense beside the outline moved it: harmonics over the eccentric angle, in semi-axes. */
-void find_pull(Outline &o, const FrontEnd &front, const drogue_config &config, const Follow &follow)
-{
-    struct Side {
-        Real px = 0, off = 0, gradient = 0;
-        int points = 0;
-    };
-    enum { inside, outside, mine };
-    const Real optics = real(config.optics_blur_px_q16);
-    const Real blur = std::sqrt(optics * optics + (config.smooth ? 363 : 107) / 256.0L);
-    const Real width = std::min<Real>(8, blur * 4);
-    Support &s = o.support;
-    decisions_round library = {};
-    std::array<std::array<Side, 3>, reference::SUPPORT_BINS> sides;
-    s.pull = {};
-    if (s.points == 0) {
-        return;
-    }
-    if (follow.library != nullptr) {
-        library.ellipse = follow.library->fitted;
-        library.band = drogue_band_of(reference::q16(width), config.refit_cos_q16);
-    }
-    const std::vector<BandPoint> points =
-        collect(o.fitted, {width, real(config.refit_cos_q16)}, front, follow.library != nullptr ? &library : nullptr);
-    const size_t stride = points.size() / 256 | 1;
-    for (size_t i = 0; i < points.size(); i += stride) {
-        const BandPoint &p = points[i];
-        if (!p.held || p.f == 0) {
-            continue;
-        }
-        const bool own = static_cast<int>(s.bright >> p.bin & 1) == p.polarity;
-        const Real r = std::sqrt(1 + p.f), off = std::fabs(1 - r);
-        const Real px = off * r * 2 * (p.past_width + width) / std::fabs(p.f); /* |f| / 2n is the distance in px */
-        Side &side = sides[static_cast<size_t>(p.bin)][own ? mine : p.f > 0 ? outside : inside];
-        if (own ? std::fabs(p.f) * o.fitted.b < blur * 28 / 8 : px >= blur * 14 / 8) {
-            side.px += px;
-            side.off += off;
-            side.gradient += std::fabs(front.edges[i].gx) + std::fabs(front.edges[i].gy);
-            side.points++;
-        }
-    }
-    for (int k = 0; k < reference::SUPPORT_BINS; k++) {
-        const auto &at = sides[static_cast<size_t>(k)];
-        const Side &own = at[mine];
-        const auto push = [&](const Side &side) {
-            if (side.points == 0 || own.points == 0) {
-                return Real(0);
-            }
-            const Real ratio = std::min<Real>(1.5, side.gradient / side.points / (own.gradient / own.points));
-            const Real share = static_cast<Real>(std::min(side.points, own.points)) / own.points;
-            return moved(side.px / side.points / 2, blur) * ratio * share * side.off / side.px;
-        };
-        {
-            const Real by = push(at[inside]) - push(at[outside]),
-                       t = (k + 0.5L) * 2 * std::acos(Real(-1)) / reference::SUPPORT_BINS;
-            const Real basis[5] = {0.5L, std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)};
-            for (size_t i = 0; i < 5; i++) {
-                s.pull[i] += by * basis[i] / (reference::SUPPORT_BINS / 2);
-            }
-        }
-    }
-}
-
-/* The ellipse without that: the symmetric matrix of its semi-axes, less the pull, and its principal axes again. */
-void put_back(Ellipse &e, const std::array<Real, 5> &pull)
-{
-    const Real a = e.a * (1 - pull[0] - pull[3]), b = e.b * (1 - pull[0] + pull[3]);
-    const Real cross = -2 * e.a * e.b / (e.a + e.b) * pull[4], half = (a - b) / 2, apart = std::hypot(half, cross);
-    const Real u = -e.a * pull[1], v = -e.b * pull[2], c = std::cos(e.angle), s = std::sin(e.angle);
-    const Real pi = std::acos(Real(-1));
-    e.xc += u * c - v * s;
-    e.yc += u * s + v * c;
-    if (apart > 0) {
-        e.angle = std::remainder(e.angle + std::atan2(cross, half) / 2, pi);
-    }
-    e.a = (a + b) / 2 + apart;
-    e.b = (a + b) / 2 - apart;
-}
-
 } // namespace
 
 std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &mask, const drogue_config &config,
@@ -550,8 +452,6 @@ drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mas
         out.ellipse = {0, 0, 0, 0, 0, false};
     } else {
         out.fitted = out.ellipse;
-        find_pull(out, front, config, follow);
-        put_back(out.ellipse, out.support.pull);
         undo_blur(out.ellipse, config);
     }
     return status;
@@ -564,8 +464,6 @@ bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const
         return false;
     }
     out.fitted = out.ellipse;
-    find_pull(out, front, config, follow);
-    put_back(out.ellipse, out.support.pull);
     undo_blur(out.ellipse, config);
     return true;
 }

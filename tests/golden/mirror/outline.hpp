@@ -63,6 +63,11 @@ drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mas
 bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
              const Follow &follow);
 
+/* What lies beside the outline as drogue_outline_pull(), along rays from the ellipse 'aim', and blur put back. */
+void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const drogue_config &config);
+void put_back(reference::Ellipse &e, const std::array<Real, 5> &pull);
+void undo_blur(reference::Ellipse &e, const drogue_config &config);
+
 /* Ellipse as the ideal camera would see it, px of the whole image; not ok when the lens cannot be undone. */
 reference::Ellipse ideal_of(const Outline &outline, const FrontEnd &front, const drogue_config &config,
                             const Follow &follow, const reference::Camera &camera, cv::Point origin);

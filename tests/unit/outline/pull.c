@@ -1,16 +1,83 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Edges of opposite sense beside an outline: what they do to it is known for blurred bands, and put back. */
+/* What lies beside an outline: drawn rings whose edge is known, fitted where the front end's blur shows it. */
 #include "suite.h"
 
 #include "../../../src/outline/collection.h"
 
-static drogue_pull_side sides[DROGUE_SUPPORT_BINS][DROGUE_PULL_SIDES];
+enum { SIDE = 96 };
 
-enum { ROUND = 800 }; /* points round the outline, more than are looked at; each with its opposite one beside it */
+static const double optics2 = 0.36 + 1 / 12.0;            /* px^2: 0.6 px of optics, the pixel */
+static const double all2 = 0.36 + 1 / 12.0 + 1 + 1 / 3.0; /* with the smoothing and Sobel's operator */
 
-static drogue_edge edges[2 * ROUND];
+/* A ring about (xc, yc) whose outer edge is drawn at 'outer': bright, its grey falling by 'ramp' a pixel inwards, and dark
+ * again within 'width'; both only where the row is at least 'from'. */
+typedef struct ring {
+    double outer, width, ramp, noise, xc, yc;
+    int from, negative;
+} ring;
 
-static const double blur = 1.333; /* px: of 0.6 px of optics, the smoothing, Sobel and the pixel */
+static uint8_t pixels[SIDE * SIDE];
+static drogue_ray rays[DROGUE_RAYS];
+
+static double step(double x) { return 0.5 * erfc(-x / sqrt(2 * optics2)); }
+
+static double noise(uint64_t *rng, double std)
+{
+    double sum = 0;
+    int i;
+    for (i = 0; i < 12; i++) {
+        sum += rng_real(rng, -0.5, 0.5);
+    }
+    return std * sum;
+}
+
+static drogue_image draw(const ring *r, uint64_t seed)
+{
+    const drogue_image view = {pixels, SIDE, SIDE, SIDE};
+    int x, y;
+    for (y = 0; y < SIDE; y++) {
+        for (x = 0; x < SIDE; x++) {
+            const double d = hypot(x - r->xc, y - r->yc), within = r->outer - d;
+            const int beside = y >= r->from;
+            double grey = 60 + step(within) * (100 - (beside && within > 0 ? r->ramp * within : 0));
+            grey -= beside && r->width > 0 ? 100 * step(within - r->width) : 0;
+            grey += noise(&seed, r->noise);
+            pixels[y * SIDE + x] = (uint8_t)lround(r->negative ? 220 - grey : grey);
+        }
+    }
+    return view;
+}
+
+static drogue_ellipse circle(double xc, double yc, double radius)
+{
+    const drogue_ellipse e = {q16_of(xc), q16_of(yc), q16_of(radius), q16_of(radius), 0};
+    return e;
+}
+
+/* Fitted about the ring's centre. */
+static drogue_outline fitted_at(const ring *r, double radius, double rms_px)
+{
+    const int bright = !r->negative;
+    drogue_outline o;
+    uint32_t k;
+    memset(&o, 0, sizeof o);
+    o.fitted = circle(r->xc, r->yc, radius);
+    o.support.bright_bins = bright ? UINT32_MAX : 0;
+    o.support.points = 320;
+    o.support.squares_q32 = (int64_t)ldexp(o.support.points * rms_px * rms_px / (radius * radius), 32);
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        o.support.bin[k].count[bright] = 10;
+    }
+    return o;
+}
+
+/* Radius less what drogue_undo_blur() adds. */
+static double radius_of(const drogue_outline *o, const drogue_config *config)
+{
+    drogue_ellipse e = o->ellipse;
+    drogue_undo_blur(&e, config);
+    return 2 * real_of_q16(o->ellipse.a_px_q16) - real_of_q16(e.a_px_q16);
+}
 
 /* How far beyond the edge of a band of two equal edges the grey changes fastest. */
 static double beyond(double width)
@@ -19,72 +86,79 @@ static double beyond(double width)
     int i;
     for (i = 0; i < 60; i++) { /* slope of exp(-x^2 / 2 s^2) - exp(-(x + w)^2 / 2 s^2), 0 at its peak */
         const double x = (low + high) / 2;
-        const double slope =
-            (x + width) * exp(-(x + width) * (x + width) / (2 * blur * blur)) - x * exp(-x * x / (2 * blur * blur));
+        const double slope = (x + width) * exp(-(x + width) * (x + width) / (2 * all2)) - x * exp(-x * x / (2 * all2));
         *(slope < 0 ? &high : &low) = x;
     }
     return low;
 }
 
-static drogue_edge edge_at(double xc, double yc, double radius, double turn, double gradient)
+static int32_t largest(const drogue_outline *o)
 {
-    drogue_edge e;
-    memset(&e, 0, sizeof e);
-    e.x_q5 = (uint16_t)lround(32 * (xc + radius * cos(turn)));
-    e.y_q5 = (uint16_t)lround(32 * (yc + radius * sin(turn)));
-    e.gx = (int16_t)lround(gradient * cos(turn));
-    e.gy = (int16_t)lround(gradient * sin(turn));
-    return e;
-}
-
-static drogue_ellipse circle(double xc, double yc, double radius)
-{
-    drogue_ellipse e;
-    e.xc_px_q16 = q16_of(xc);
-    e.yc_px_q16 = q16_of(yc);
-    e.a_px_q16 = e.b_px_q16 = q16_of(radius);
-    e.angle_rad_q16 = 0;
-    return e;
-}
-
-/* A bright ring about (40, 41), its outer edge fitted; the inner one along part of it, from bin to bin. */
-static void pull_of(drogue_support *s, double outer, double inner, uint32_t bins, const drogue_config *config)
-{
-    const drogue_ellipse fitted = circle(40, 41, outer);
-    uint32_t count = 0;
+    int32_t most = 0;
     int i;
-    memset(s, 0, sizeof *s);
-    s->bright_bins = UINT32_MAX;
-    for (i = 0; i < ROUND; i++) {
-        const double turn = 2 * TEST_PI * (i + 0.5) / ROUND;
-        const uint32_t k = (uint32_t)(i * DROGUE_SUPPORT_BINS / ROUND);
-        edges[count] = edge_at(40, 41, outer, turn, -300);
-        s->gradient += (uint64_t)(abs(edges[count].gx) + abs(edges[count].gy));
-        s->points++;
-        s->bin[k].count[1]++;
-        count++;
-        if ((bins >> k) & 1u) {
-            edges[count++] = edge_at(40, 41, inner, turn, 300);
-        }
+    for (i = 0; i < 5; i++) {
+        const int32_t c = o->support.pull_q24[i];
+        most = (c < 0 ? -c : c) > most ? (c < 0 ? -c : c) : most;
     }
-    drogue_outline_pull(s, sides, &fitted, edges, count, config);
+    return most;
 }
 
-/* Never less: no more is put back than was taken. */
+enum { PLACES = 16 };
+
+/* Pull at places between pixels, where it depends on how the ring lies on them; the mean radius, and the worst off. */
+static double mean_radius(double *worst, ring r, double off)
+{
+    uint64_t rng = 5;
+    double sum = 0;
+    int i;
+    drogue_config config;
+    drogue_config_default(&config);
+    *worst = 0;
+    for (i = 0; i < PLACES; i++) {
+        drogue_image view;
+        drogue_outline o;
+        double at;
+        r.xc = rng_real(&rng, 47, 48);
+        r.yc = rng_real(&rng, 47, 48);
+        r.outer = rng_real(&rng, 29, 31);
+        r.negative = i % 2;
+        view = draw(&r, 1);
+        o = fitted_at(&r, r.outer + off, 0.06);
+        drogue_outline_pull(&o, rays, &view, &config);
+        at = radius_of(&o, &config) - r.outer;
+        sum += at;
+        *worst = fabs(at) > *worst ? fabs(at) : *worst;
+        MUST(hypot(real_of_q16(o.ellipse.xc_px_q16) - r.xc, real_of_q16(o.ellipse.yc_px_q16) - r.yc) < 0.08,
+             "centre moved: place %d", i);
+    }
+    return sum / PLACES;
+}
+
 START_TEST(a_band_is_as_wide_as_it_is)
 {
     double width;
-    drogue_config config;
-    drogue_config_default(&config);
-    for (width = 1.5; width < 6; width += 0.0625) {
+    for (width = 2; width < 4.5; width += 0.25) {
+        const ring r = {0, width, 0, 0, 0, 0, 0, 0};
         const double off = beyond(width);
-        drogue_support s;
-        drogue_ellipse e = circle(40, 41, 20 + off);
-        pull_of(&s, 20 + off, 20 - width - off, UINT32_MAX, &config);
-        drogue_outline_put_back(&e, s.pull_q24);
-        MUST(real_of_q16(e.b_px_q16) - 20 > -0.01 && real_of_q16(e.a_px_q16) - 20 < 0.073,
-             "%g px wide: %g, not 20 px; seen at %g", width, real_of_q16(e.a_px_q16), 20 + off);
-        MUST(hypot(real_of_q16(e.xc_px_q16) - 40, real_of_q16(e.yc_px_q16) - 41) < 0.01, "%g px wide: moved", width);
+        double worst;
+        const double mean = mean_radius(&worst, r, off);
+        MUST(fabs(mean) < 0.03 + 0.4 * off && worst < 0.08 + 0.4 * off, "%g px wide: off by %g, %g; was %g", width,
+             mean, worst, off);
+    }
+}
+END_TEST
+
+/* A ramp of m a pixel on a step A moves the steepest place of an edge of blur s outwards by s^2 m / A. */
+START_TEST(shading_goes_back)
+{
+    double ramp;
+    for (ramp = 0; ramp < 9; ramp += 1) {
+        const ring r = {0, 0, ramp, 0, 0, 0, 0, 0};
+        const double off = all2 * ramp / 100;
+        double worst;
+        const double mean = mean_radius(&worst, r, off);
+        MUST(fabs(mean) < 0.03 + 0.3 * off && worst < 0.08 + 0.3 * off, "%g a pixel: off by %g, %g; was %g", ramp, mean,
+             worst, off);
     }
 }
 END_TEST
@@ -92,15 +166,133 @@ END_TEST
 START_TEST(half_a_band_moves_the_centre)
 {
     const double off = beyond(2.5);
+    const ring r = {30, 2.5, 0, 0, 47.3, 46.9, 47, 0};
+    const drogue_image view = draw(&r, 1);
+    drogue_outline o = fitted_at(&r, 30 + off / 2, 0.01);
     drogue_config config;
-    drogue_support s;
-    drogue_ellipse e = circle(40, 41, 20 + off);
     drogue_config_default(&config);
-    pull_of(&s, 20 + off, 17.5 - off, 0x0000FFFFu, &config); /* along +v: below in the image */
-    drogue_outline_put_back(&e, s.pull_q24);
-    ck_assert(fabs(real_of_q16(e.yc_px_q16) - (41 - off * 2 / TEST_PI)) < 0.1 * off); /* of a half wave: 2 / pi */
-    ck_assert(fabs(real_of_q16(e.xc_px_q16) - 40) < 0.01);
-    ck_assert(fabs((real_of_q16(e.a_px_q16) + real_of_q16(e.b_px_q16)) / 2 - (20 + off / 2)) < 0.1 * off);
+    o.fitted.yc_px_q16 = q16_of(r.yc + off * 2 / TEST_PI); /* of a half wave: 2 / pi */
+    drogue_outline_pull(&o, rays, &view, &config);
+    ck_assert(fabs(real_of_q16(o.ellipse.yc_px_q16) - r.yc) < 0.4 * off);
+    ck_assert(fabs(real_of_q16(o.ellipse.xc_px_q16) - r.xc) < 0.02);
+    ck_assert(fabs(radius_of(&o, &config) - 30) < 0.3 * off);
+}
+END_TEST
+
+START_TEST(no_more_than_noise)
+{
+    double moved = 0;
+    uint64_t seed;
+    int kept = 0;
+    drogue_config config;
+    drogue_config_default(&config);
+    for (seed = 1; seed <= 100; seed++) {
+        const ring r = {30, 0, 0, 6, 47.3, 46.9, 0, 0};
+        const drogue_image view = draw(&r, seed);
+        drogue_outline o = fitted_at(&r, 30, 0.1);
+        int i;
+        drogue_outline_pull(&o, rays, &view, &config);
+        for (i = 0; i < 5; i++) {
+            kept += o.support.pull_q24[i] != 0;
+            moved += fabs(ldexp(o.support.pull_q24[i], -24)) * 30 / 500;
+        }
+    }
+    MUST(kept < 200, "%d of 500 harmonics", kept);
+    MUST(moved < 0.01, "%g px at the mean", moved);
+}
+END_TEST
+
+/* Without anything beside it next to nothing is moved, and from what was fitted, not from what is there. */
+START_TEST(even_grey_moves_nothing)
+{
+    uint64_t rng = 6;
+    int kept = 0;
+    int place;
+    drogue_config config;
+    drogue_config_default(&config);
+    for (place = 0; place < 40; place++) {
+        const ring r = {rng_real(&rng, 15, 40), 0, 0, 0, rng_real(&rng, 47, 48), rng_real(&rng, 47, 48), 0, 0};
+        const drogue_image view = draw(&r, 1);
+        drogue_outline o = fitted_at(&r, r.outer, 0.08);
+        drogue_ellipse undone = o.fitted;
+        int i;
+        drogue_undo_blur(&undone, &config);
+        drogue_outline_pull(&o, rays, &view, &config);
+        for (i = 0; i < 5; i++) {
+            kept += o.support.pull_q24[i] != 0;
+        }
+        MUST(ldexp(largest(&o), -24) * r.outer < 0.05, "place %d: %g px", place, ldexp(largest(&o), -24) * r.outer);
+        if (largest(&o) == 0) {
+            ck_assert_int_eq(memcmp(&o.ellipse, &undone, sizeof undone), 0);
+        }
+        undone = o.ellipse;
+        drogue_outline_pull(&o, rays, &view, &config);
+        ck_assert_int_eq(memcmp(&o.ellipse, &undone, sizeof undone), 0);
+    }
+    MUST(kept < 20, "%d of 200 harmonics", kept);
+}
+END_TEST
+
+START_TEST(only_where_the_outline_has_points)
+{
+    const ring r = {30, 2.5, 0, 0, 47.3, 46.9, 47, 0};
+    const drogue_image view = draw(&r, 1);
+    drogue_config config;
+    drogue_outline o = fitted_at(&r, 30, 0.08);
+    uint32_t k;
+    drogue_config_default(&config);
+    for (k = 0; k < DROGUE_SUPPORT_BINS / 2; k++) { /* along +v: below */
+        o.support.bin[k].count[1] = 0;
+        o.support.bin[k].count[0] = 10; /* of the other sense: none of its own */
+    }
+    drogue_outline_pull(&o, rays, &view, &config);
+    ck_assert_int_eq(largest(&o), 0);
+    o.support.points = 0;
+    o.support.squares_q32 = 0;
+    drogue_outline_pull(&o, rays, &view, &config);
+    ck_assert_int_eq(largest(&o), 0);
+}
+END_TEST
+
+/* An eighth of the semi-axis at most, and no ellipse turned inside out; where there is none nothing is done. */
+START_TEST(the_smallest)
+{
+    const ring r = {2.2, 1.2, 0, 0, 47.3, 46.9, 0, 0};
+    const drogue_image view = draw(&r, 1);
+    drogue_config config;
+    double radius;
+    int limited = 0;
+    drogue_config_default(&config);
+    for (radius = 1; radius < 5; radius += 0.125) {
+        drogue_outline o = fitted_at(&r, radius, 0.001);
+        drogue_outline_pull(&o, rays, &view, &config);
+        ck_assert_int_le(largest(&o), 1 << 21);
+        ck_assert(o.ellipse.b_px_q16 > o.fitted.b_px_q16 / 2 && o.ellipse.a_px_q16 >= o.ellipse.b_px_q16);
+        limited += largest(&o) == 1 << 21;
+    }
+    ck_assert_int_gt(limited, 0);
+    {
+        drogue_outline o = fitted_at(&r, 0.999, 0.001);
+        o.support.pull_q24[2] = 77;
+        drogue_outline_pull(&o, rays, &view, &config);
+        ck_assert_int_eq(memcmp(&o.ellipse, &o.fitted, sizeof o.fitted), 0);
+        ck_assert_int_eq(largest(&o), 0);
+    }
+}
+END_TEST
+
+/* What is beyond the region's border reads as the border does: no edge there. */
+START_TEST(across_the_border)
+{
+    const ring r = {30, 0, 0, 0, 47.3, 46.9, 0, 0};
+    const drogue_image all = draw(&r, 1);
+    const drogue_image view = {all.data, 76, SIDE, SIDE}; /* the outline's right end is cut at 77.5 */
+    drogue_config config;
+    drogue_outline o = fitted_at(&r, 30, 0.05);
+    drogue_config_default(&config);
+    drogue_outline_pull(&o, rays, &view, &config);
+    ck_assert(fabs(radius_of(&o, &config) - 30) < 0.1);
+    ck_assert(fabs(real_of_q16(o.ellipse.xc_px_q16) - r.xc) < 0.1);
 }
 END_TEST
 
@@ -140,27 +332,6 @@ START_TEST(units_and_bands)
 }
 END_TEST
 
-START_TEST(nothing_beside_it)
-{
-    const drogue_ellipse was = circle(40, 41, 20);
-    drogue_config config;
-    drogue_support s;
-    drogue_ellipse e = was;
-    int i;
-    drogue_config_default(&config);
-    pull_of(&s, 20, 13, UINT32_MAX, &config); /* 7 px off: too far to matter */
-    drogue_outline_put_back(&e, s.pull_q24);
-    for (i = 0; i < 5; i++) {
-        ck_assert_int_eq(s.pull_q24[i], 0);
-    }
-    ck_assert_int_eq(memcmp(&e, &was, sizeof e), 0);
-    pull_of(&s, 20, 19, UINT32_MAX, &config); /* nearer than blur leaves two edges apart: noise */
-    for (i = 0; i < 5; i++) {
-        ck_assert_int_eq(s.pull_q24[i], 0);
-    }
-}
-END_TEST
-
 START_TEST(harmonics_of_any_ellipse)
 {
     uint64_t rng = 4;
@@ -197,5 +368,6 @@ START_TEST(harmonics_of_any_ellipse)
 }
 END_TEST
 
-SUITE_MAIN("pull", a_band_is_as_wide_as_it_is, half_a_band_moves_the_centre, units_and_bands, nothing_beside_it,
+SUITE_MAIN("pull", a_band_is_as_wide_as_it_is, shading_goes_back, half_a_band_moves_the_centre, no_more_than_noise,
+           even_grey_moves_nothing, only_where_the_outline_has_points, the_smallest, across_the_border, units_and_bands,
            harmonics_of_any_ellipse)

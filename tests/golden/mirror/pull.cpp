@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What lies beside the outline, and blur: what both did to it, in floating point, from the grey along rays that the library
+ * reads: integers, and where a ray goes is settled by the ellipse alone. */
+#include "outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "drogue/rays.h"
+
+namespace mirror {
+
+using reference::Ellipse;
+using reference::Support;
+
+namespace {
+
+enum { GROUPS = 8, GROUP = DROGUE_RAYS / GROUPS, BINS = reference::SUPPORT_BINS / GROUPS, SLOPES = 23, MIDDLE = 11 };
+
+using Curve = std::array<Real, SLOPES>;
+
+/* Slopes along a group's rays, half a pixel apart. */
+Curve slopes(const Support &s, const drogue_ray *rays, int group, const drogue_image &view)
+{
+    Curve sum = {};
+    for (int k = group * GROUP; k < (group + 1) * GROUP; k++) {
+        const auto bin = static_cast<size_t>(k * reference::SUPPORT_BINS / DROGUE_RAYS);
+        const uint32_t bright = s.bright >> bin & 1;
+        if (s.count[bin][bright] > 0) {
+            std::array<int32_t, SLOPES + 2> grey;
+            drogue_ray_read(grey.data(), &rays[k], &view, -(MIDDLE + 1) * 32768, SLOPES + 2);
+            for (size_t i = 0; i < SLOPES; i++) {
+                sum[i] += static_cast<Real>(bright ? grey[i] - grey[i + 2] : grey[i + 2] - grey[i]);
+            }
+        }
+    }
+    return sum;
+}
+
+/* A Gaussian of variance 1.33 px^2, in 1/128. */
+Curve blurred(const Curve &slope)
+{
+    static const int tap[] = {128, 117, 88, 55, 28, 12, 4, 1};
+    Curve out = {};
+    for (int i = 7; i + 7 < SLOPES; i++) {
+        for (int k = -7; k <= 7; k++) {
+            out[static_cast<size_t>(i)] += tap[std::abs(k)] * slope[static_cast<size_t>(i + k)];
+        }
+    }
+    return out;
+}
+
+Curve sharpened(const Curve &slope)
+{
+    Curve out = {};
+    for (size_t i = 2; i + 2 < SLOPES; i++) {
+        out[i] = slope[i] - (slope[i - 2] - 2 * slope[i] + slope[i + 2]) / 4;
+    }
+    return out;
+}
+
+/* The highest peak from one place to another; negative when there is none. */
+Real peak(const Curve &c, int from, int to)
+{
+    size_t best = 0;
+    Real highest = 0;
+    for (auto i = static_cast<size_t>(from); i <= static_cast<size_t>(to); i++) {
+        if (c[i] > highest && c[i] > c[i - 1] && c[i] >= c[i + 1]) {
+            best = i;
+            highest = c[i];
+        }
+    }
+    return best == 0 ? -1
+                     : static_cast<Real>(best) +
+                           (c[best + 1] - c[best - 1]) / (2 * (2 * c[best] - c[best - 1] - c[best + 1]));
+}
+
+/* How far outwards the front end's blur moves a group's edge, px. */
+Real moved(const Curve &slope)
+{
+    const Real seen = peak(blurred(slope), MIDDLE - 3, MIDDLE + 3);
+    if (seen < 0) {
+        return 0;
+    }
+    const Real is =
+        peak(sharpened(slope), static_cast<int>(std::floor(seen - 2.4L)), static_cast<int>(std::ceil(seen + 2.4L)));
+    return is < 0 ? 0 : (seen - is) / 2;
+}
+
+std::array<Real, 5> basis(int k)
+{
+    const Real t = (k + 0.5L) * 2 * std::acos(Real(-1)) / reference::SUPPORT_BINS;
+    return {1, std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)};
+}
+
+/* Harmonics of the groups' offsets, in semi-axes, each shrunk by what noise makes of it. */
+std::array<Real, 5> harmonics(const std::array<Real, GROUPS> &off, const Outline &o)
+{
+    const Ellipse &e = o.fitted;
+    std::array<Real, reference::SUPPORT_BINS> radial;
+    std::array<Real, 5> c = {};
+    Real left = 0;
+    for (int k = 0; k < reference::SUPPORT_BINS; k++) {
+        const auto at = basis(k);
+        radial[static_cast<size_t>(k)] = off[static_cast<size_t>(k / BINS)] * std::hypot(at[1] / e.a, at[2] / e.b);
+        for (size_t i = 0; i < 5; i++) {
+            c[i] += radial[static_cast<size_t>(k)] * at[i] /
+                    (i > 0 ? reference::SUPPORT_BINS / 2 : reference::SUPPORT_BINS);
+        }
+    }
+    for (int g = 0; g < GROUPS; g++) {
+        Real mean = 0;
+        for (int k = g * BINS; k < (g + 1) * BINS; k++) {
+            const auto at = basis(k);
+            mean += radial[static_cast<size_t>(k)] / BINS;
+            for (size_t i = 0; i < 5; i++) {
+                mean -= c[i] * at[i] / BINS;
+            }
+        }
+        left += mean * mean;
+    }
+    const Real variance = left / 12 + o.support.squares / o.support.points / 4;
+    for (Real &v : c) {
+        v = v * v <= variance ? 0 : std::clamp<Real>(v - variance / v, -0.125L, 0.125L);
+    }
+    return c;
+}
+
+} // namespace
+
+/* Blur of variance v moves an edge of curvature c inward by v c / 2; the front end's own half variance as measured. */
+void undo_blur(Ellipse &e, const drogue_config &config)
+{
+    const Real own = config.smooth ? 0.82L : 0.32L, optics = real(config.optics_blur_px_q16);
+    const Real half = own + optics * optics / 2, a = e.a, b = e.b;
+    e.a += half * a / (b * b);
+    e.b += half * b / (a * a);
+}
+
+/* The ellipse without that: the symmetric matrix of its semi-axes, less the pull, and its principal axes again. */
+void put_back(Ellipse &e, const std::array<Real, 5> &pull)
+{
+    const Real a = e.a * (1 - pull[0] - pull[3]), b = e.b * (1 - pull[0] + pull[3]);
+    const Real cross = -2 * e.a * e.b / (e.a + e.b) * pull[4], half = (a - b) / 2, apart = std::hypot(half, cross);
+    const Real u = -e.a * pull[1], v = -e.b * pull[2], c = std::cos(e.angle), s = std::sin(e.angle);
+    const Real pi = std::acos(Real(-1));
+    e.xc += u * c - v * s;
+    e.yc += u * s + v * c;
+    if (apart > 0) {
+        e.angle = std::remainder(e.angle + std::atan2(cross, half) / 2, pi);
+    }
+    e.a = (a + b) / 2 + apart;
+    e.b = (a + b) / 2 - apart;
+}
+
+void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const drogue_config &config)
+{
+    std::array<drogue_ray, DROGUE_RAYS> rays;
+    std::array<Real, GROUPS> off;
+    o.ellipse = o.fitted;
+    o.support.pull = {};
+    if (o.support.points > 0) {
+        drogue_rays_aim(rays.data(), &aim, 4);
+        for (int g = 0; g < GROUPS; g++) {
+            off[static_cast<size_t>(g)] = moved(slopes(o.support, rays.data(), g, view));
+        }
+        o.support.pull = harmonics(off, o);
+        put_back(o.ellipse, o.support.pull);
+    }
+    undo_blur(o.ellipse, config);
+}
+
+} // namespace mirror
