@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The pure operator that both streams label with. */
+/* The pure operator that the stream labels with. */
 #ifndef DROGUE_HLS_CHOOSE_LABEL_H
 #define DROGUE_HLS_CHOOSE_LABEL_H
 

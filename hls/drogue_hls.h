@@ -31,7 +31,6 @@
 #define DROGUE_HLS_ARC_LABELS_FULL 0x200u
 #define DROGUE_HLS_EDGES_FULL 0x400u
 #define DROGUE_HLS_ARCS_FULL 0x800u
-#define DROGUE_HLS_INNER_FULL 0x1000u /* labels of dark components */
 
 /* All bits when the condition (0 or 1) holds: masks instead of branches, so that a tick is one block of operations. */
 static inline uint32_t drogue_hls_when(int condition) { return 0u - (uint32_t)condition; }

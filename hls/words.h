@@ -6,7 +6,8 @@
 #define DROGUE_HLS_WORDS_H
 
 #include "drogue/drogue.h"
-#include "inner/inner.h"
+#include "drogue/inner.h"
+#include "drogue_hls.h"
 
 /* What both tops are told. */
 typedef struct drogue_hls_parameters {
@@ -102,7 +103,7 @@ static inline void drogue_hls_unpack_parameters(drogue_hls_parameters *p, const 
 #undef DROGUE_HLS_UNPACK
 }
 
-/* What drogue_hls_outline() leaves: for the second step, for the inner part's top (EXPECTED, DISC), for whoever draws. */
+/* What drogue_hls_outline() leaves: for the second step, for the inner part's top (EXPECTED), for whoever draws. */
 enum drogue_hls_outline_word {
     DROGUE_HLS_O_STATUS,  /* status register; other than 0 in its low byte: the step ended there */
     DROGUE_HLS_O_FOUND,   /* drogue_status of drogue_outline_find() alone */
@@ -118,9 +119,8 @@ enum drogue_hls_outline_word {
     DROGUE_HLS_O_BAND,
     DROGUE_HLS_O_POSES, /* two: x y z, axis x y z, yaw, pitch */
     DROGUE_HLS_O_EXPECTED_COUNT = DROGUE_HLS_O_POSES + 2 * 8,
-    DROGUE_HLS_O_EXPECTED,                             /* two ellipses, coordinates of the region */
-    DROGUE_HLS_O_DISC = DROGUE_HLS_O_EXPECTED + 2 * 5, /* drogue_mask; longest 0: nothing to look for */
-    DROGUE_HLS_O_BINS = DROGUE_HLS_O_DISC + 3,         /* 32 times: count dark, count bright, sum */
+    DROGUE_HLS_O_EXPECTED,                                              /* two ellipses, coordinates of the region */
+    DROGUE_HLS_O_BINS = DROGUE_HLS_O_EXPECTED + 2 * 5,                  /* 32 times: count dark, count bright, sum */
     DROGUE_HLS_O_SQUARES = DROGUE_HLS_O_BINS + 3 * DROGUE_SUPPORT_BINS, /* Q32, 64 bits */
     DROGUE_HLS_O_GRADIENT = DROGUE_HLS_O_SQUARES + 2,                   /* 64 bits */
     DROGUE_HLS_O_POINTS = DROGUE_HLS_O_GRADIENT + 2,

@@ -28,10 +28,8 @@ done
 flags=("--top-fname=$function" --std=c99 -O2 --generate-interface=INFER
     "--device-name=${DROGUE_HLS_BAMBU_DEVICE:-xc7z020,-1,clg484,VVD}" "--clock-period=${DROGUE_HLS_CLOCK_NS:-5}"
     "-I$root/include" "-I$root/hls" "-I$root/hls/bench" "-I$root/tests/conformance")
-# Bambu unrolls loops over the disc's rows into products of their own, and its division by Newton takes 285 multipliers.
 # The back end's many functions stay functions: all in one would not come to an end in an hour.
 case $name in
-inner) flags+=(--hls-div=as -fno-unroll-loops) ;;
 outline | pose | eigen | fit | cone | filter) flags+=(-finline-hint-functions --range-analysis-mode=skip --enable-function-proxy) ;;
 esac
 design=()

@@ -11,7 +11,6 @@
 #include "drogue/decide.h"
 #include "drogue/inner.h"
 #include "drogue/undistort.h"
-#include "inner.h"
 
 #define FRAME_BYTES DROGUE_WORKSPACE_BYTES(DROGUE_HLS_WIDTH, DROGUE_HLS_EDGES, DROGUE_HLS_LABELS, DROGUE_HLS_ARCS)
 
@@ -129,8 +128,7 @@ static inline drogue_status frame_find_poses(frame *f, drogue_pose poses[2])
     return drogue_pose_from_ellipse(poses, &r->ideal, &p->camera, p->model.rim_radius_m_q16);
 }
 
-static inline void frame_put_outline(frame *f, const drogue_pose poses[2], const drogue_inner_expected *expected,
-                                     const drogue_mask *disc)
+static inline void frame_put_outline(frame *f, const drogue_pose poses[2], const drogue_inner_expected *expected)
 {
     const drogue_outline *o = &f->outline;
     int32_t *w = f->words;
@@ -149,9 +147,6 @@ static inline void frame_put_outline(frame *f, const drogue_pose poses[2], const
         drogue_hls_pack_pose(w + DROGUE_HLS_O_POSES + 8 * k, &poses[k]);
         drogue_hls_pack_ellipse(w + DROGUE_HLS_O_EXPECTED + 5 * k, &expected->disc[k]);
     }
-    w[DROGUE_HLS_O_DISC] = disc->centre2_x;
-    w[DROGUE_HLS_O_DISC + 1] = disc->centre2_y;
-    w[DROGUE_HLS_O_DISC + 2] = disc->longest_px;
     memcpy(w + DROGUE_HLS_O_BINS, o->support.bin, sizeof o->support.bin);
     drogue_hls_pack_u64(w + DROGUE_HLS_O_SQUARES, (uint64_t)o->support.squares_q32);
     drogue_hls_pack_u64(w + DROGUE_HLS_O_GRADIENT, o->support.gradient);
@@ -166,7 +161,6 @@ static inline void frame_find_outline(frame *f)
 {
     drogue_pose poses[2];
     drogue_inner_expected expected;
-    drogue_mask disc = {0, 0, 0};
     drogue_status status = f->front == DROGUE_OK && frame_refused(f) ? DROGUE_E_ARGUMENT : f->front;
     memset(poses, 0, sizeof poses);
     memset(&expected, 0, sizeof expected);
@@ -183,17 +177,13 @@ static inline void frame_find_outline(frame *f)
         status = frame_find_poses(f, poses);
     }
     if (status == DROGUE_OK && f->p.model.inner_radius_m_q16 > 0) {
-        disc = drogue_inner_disc(&f->outline.ellipse);
-        if (!drogue_mask_valid(&disc)) {
-            memset(&disc, 0, sizeof disc);
-        }
         drogue_inner_expect(&expected, poses, &(drogue_setup){&f->p.camera, &f->p.model, &f->p.config}, f->p.x_px,
                             f->p.y_px);
         f->words[DROGUE_HLS_O_EXPECTED_COUNT] = (int32_t)expected.count;
     }
     f->words[DROGUE_HLS_O_STATUS] = (int32_t)status;
     f->result.status = status;
-    frame_put_outline(f, poses, &expected, &disc);
+    frame_put_outline(f, poses, &expected);
 }
 
 /* The inner disc, where the outline says. */
@@ -201,8 +191,7 @@ static inline void frame_find_inner(int32_t words[DROGUE_HLS_EDGE_WORDS], const 
 {
     const drogue_inner_expected expected = {{drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED),
                                              drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5)},
-                                            (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT],
-                                            f->p.config.min_inner_area_px};
+                                            (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT]};
     drogue_ray rays[DROGUE_RAYS];
     drogue_inner_edge edge;
     memset(&edge, 0, sizeof edge);

@@ -51,7 +51,7 @@ expect_files() {
         verdict "files of src/: $1" 1
     fi
 }
-expect_files 'arithmetic/eigen arithmetic/fixed inner/otsu arithmetic/real' '^hls/tops.txt:0: sources: eigen: src/inner/otsu.c is listed'
+expect_files 'arithmetic/eigen arithmetic/fixed inner/shade arithmetic/real' '^hls/tops.txt:0: sources: eigen: src/inner/shade.c is listed'
 expect_files 'arithmetic/eigen arithmetic/real' '^[a-z/]+\.c:[0-9]+: external: .* has no source here$'
 ok=1
 [ ! -e ../__pycache__ ] || ok=0

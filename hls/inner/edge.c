@@ -27,7 +27,6 @@ void drogue_hls_edge(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
     drogue_hls_unpack_parameters(&p, parameters);
     memset(&found, 0, sizeof found);
     expected.count = (uint32_t)outline[DROGUE_HLS_O_EXPECTED_COUNT];
-    expected.min_area_px = p.config.min_inner_area_px;
     expected.disc[0] = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED);
     expected.disc[1] = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED + 5);
     view.data = pixels;

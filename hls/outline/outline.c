@@ -14,7 +14,6 @@ typedef struct frame {
     drogue_ellipse ideal;
     drogue_pose poses[2];
     drogue_inner_expected expected;
-    drogue_mask disc;
 } frame;
 
 static int valid(const drogue_hls_parameters *p)
@@ -75,10 +74,6 @@ static drogue_status find(frame *f, const drogue_workspace *workspace, const dro
     }
     status = drogue_pose_from_ellipse(f->poses, &f->ideal, &p->camera, p->model.rim_radius_m_q16);
     if (status == DROGUE_OK && p->model.inner_radius_m_q16 > 0) {
-        f->disc = drogue_inner_disc(&f->outline.ellipse);
-        if (!drogue_mask_valid(&f->disc)) {
-            memset(&f->disc, 0, sizeof f->disc);
-        }
         drogue_inner_expect(&f->expected, f->poses, &setup, p->x_px, p->y_px);
     }
     return status;
@@ -127,9 +122,6 @@ static void put(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const frame *f)
     words[DROGUE_HLS_O_EXPECTED_COUNT] = (int32_t)f->expected.count;
     drogue_hls_pack_ellipse(words + DROGUE_HLS_O_EXPECTED, &f->expected.disc[0]);
     drogue_hls_pack_ellipse(words + DROGUE_HLS_O_EXPECTED + 5, &f->expected.disc[1]);
-    words[DROGUE_HLS_O_DISC] = f->disc.centre2_x;
-    words[DROGUE_HLS_O_DISC + 1] = f->disc.centre2_y;
-    words[DROGUE_HLS_O_DISC + 2] = f->disc.longest_px;
     put_support(words, &o->support);
 }
 

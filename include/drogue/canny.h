@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Canny's non-maximum suppression and double threshold on the L1 Sobel magnitude, and the subpixel offset
- * across the edge; equal to cv::Canny(aperture 3, L1) in every pixel once hysteresis has run (label.h). */
+/* Canny's non-maximum suppression on the L1 Sobel magnitude, and the subpixel offset across the edge; with both thresholds
+ * equal to cv::Canny(aperture 3, L1) in every pixel once hysteresis has run (frontend.h). */
 #ifndef DROGUE_CANNY_H
 #define DROGUE_CANNY_H
 
@@ -19,9 +19,6 @@ typedef enum drogue_sector {
     DROGUE_SECTOR_DIAGONAL = 2,    /* above left, below right */
     DROGUE_SECTOR_ANTIDIAGONAL = 3 /* above right, below left */
 } drogue_sector;
-
-/* Verdict of suppression and thresholds. */
-enum { DROGUE_CANNY_NONE = 0, DROGUE_CANNY_WEAK = 1, DROGUE_CANNY_STRONG = 2 };
 
 /* Sector of a gradient; ax |gx|, tg22 ax tan(22.5 degrees) * 2^15. */
 static inline drogue_sector drogue_canny_sector_by(int16_t gx, int16_t gy, uint32_t ax, uint32_t tg22)
@@ -137,16 +134,6 @@ static inline uint32_t drogue_direction_class(int16_t gx, int16_t gy_down)
     const uint32_t third = (gx <= 0) & (gy < 0);
     return 3u - 3u * first - 2u * second - third;
 }
-
-/* Suppression and thresholds for one row.
- *
- *  out        width_px verdicts: DROGUE_CANNY_NONE, _WEAK (m > low) or _STRONG (m > high)
- *  magnitude  rows y-1, y, y+1; a row outside the image is all 0
- *  gx, gy     row y
- *  low, high  L1 magnitude, 0 <= low <= high
- */
-void drogue_canny_row(uint8_t *out, const uint16_t *const magnitude[3], const int16_t *gx, const int16_t *gy,
-                      int32_t width_px, int32_t low, int32_t high);
 
 #ifdef __cplusplus
 }

@@ -52,21 +52,22 @@ typedef struct drogue_result {
     drogue_status status;           /* what drogue_measure() returned */
     drogue_second_look second_look; /* from TOO_WIDE on, a larger workspace may give another result */
     drogue_region region;           /* the region used: the one asked for, clipped to the image */
-    drogue_edge_list list;          /* edges and arcs in the workspace, in coordinates of the region */
-    uint32_t arcs[4];               /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
-    int32_t tried;                  /* what stands: 0 the outline found, 1 a larger one about it; 2, 3 the same with
+    drogue_edge_list list;    /* edges and arcs in the workspace, in coordinates of the region; where no try gave an
+                                       outline those of the last one */
+    uint32_t arcs[4];         /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
+    int32_t tried;            /* what stands: 0 the outline found, 1 a larger one about it; 2, 3 the same with
                                        thresholds of Canny that follow the region's noise */
-    drogue_ellipse ellipse;         /* outline of the end plane, as seen (distorted) */
-    drogue_ellipse ideal;           /* the same without distortion: what the pose is computed from */
-    drogue_quality quality;         /* of the fit of the arcs */
-    drogue_polarity polarity;       /* DARK or BRIGHT: the outline's inside against its outside; BOTH: it changes */
-    uint32_t cluster_members;       /* candidates that agree with the winner, itself included */
-    uint32_t refit_points;          /* points in the final fit */
-    drogue_q16 cover_q16;           /* edge points that belong to the outline over its circumference, at most 1 */
-    int32_t has_inner;       /* 1: an inner part was found and believed: of its size, in its place, with contrast */
-    drogue_inner_part inner; /* its centre, as seen; meaningful when has_inner */
-    drogue_pose pose;        /* the pose chosen; unresolved: the one nearer to what is dark inside, unproved */
-    drogue_pose alternative; /* the other one that the outline allows */
+    drogue_ellipse ellipse;   /* outline of the end plane, as seen (distorted) */
+    drogue_ellipse ideal;     /* the same without distortion: what the pose is computed from */
+    drogue_quality quality;   /* of the fit of the arcs */
+    drogue_polarity polarity; /* DARK or BRIGHT: the outline's inside against its outside; BOTH: it changes */
+    uint32_t cluster_members; /* candidates that agree with the winner, itself included */
+    uint32_t refit_points;    /* points in the final fit */
+    drogue_q16 cover_q16;     /* edge points that belong to the outline over its circumference, at most 1 */
+    int32_t has_inner;        /* 1: an inner part was found and believed: of its size, in its place, with contrast */
+    drogue_inner_part inner;  /* its centre, as seen; meaningful when has_inner */
+    drogue_pose pose;         /* the pose chosen; unresolved: the one nearer to what is dark inside, unproved */
+    drogue_pose alternative;  /* the other one that the outline allows */
     int32_t orientation_resolved; /* 1: the inner part decided between the two */
     drogue_q16 ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 without one */
     int64_t covariance_q48[5][5];  /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric */

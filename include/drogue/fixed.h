@@ -116,9 +116,6 @@ drogue_q16 drogue_q16_div(drogue_q16 a, drogue_q16 b);
 /* floor(sqrt(v)), exact over the whole domain. */
 uint32_t drogue_isqrt_u64(uint64_t v);
 
-/* Square root of a Q16 number, rounded to nearest; 0 for negative v. */
-drogue_q16 drogue_q16_sqrt(drogue_q16 v);
-
 /* Angle of the vector (x, y).
  *
  *  y, x    any pair in the same scale; (0, 0) gives 0
@@ -126,9 +123,6 @@ drogue_q16 drogue_q16_sqrt(drogue_q16 v);
  *  error   <= 2^-28 rad
  */
 int32_t drogue_atan2_q29(int64_t y, int64_t x);
-
-/* Angle of the vector (x, y), rad Q16 in [-pi, pi]; error <= 1 LSB. */
-drogue_q16 drogue_q16_atan2(drogue_q16 y, drogue_q16 x);
 
 /* Sine and cosine.
  *

@@ -23,7 +23,7 @@ extern "C" {
 typedef struct drogue_capacity {
     uint32_t width_px; /* widest region, [1, DROGUE_MAX_SIDE] */
     uint32_t edges;    /* candidate edge points in the ring mask, weak ones included; [1, 2^24] */
-    uint32_t labels;   /* provisional labels of candidate components, of arcs, of dark components, each; [2, 2^24] */
+    uint32_t labels;   /* provisional labels of candidate components and of arcs, each; [2, 2^24] */
     uint32_t arcs;     /* arcs of the least length and more; [1, 2^24] */
 } drogue_capacity;
 
@@ -62,7 +62,7 @@ typedef struct drogue_workspace {
     drogue_capacity capacity;            /* what it was laid out for */
     drogue_edge *edges;                  /* edges */
     drogue_arc *arcs;                    /* arcs */
-    uint32_t *component_parent;          /* labels; these four also serve the inner part's components */
+    uint32_t *component_parent;          /* labels */
     uint32_t *component_strong;          /* labels */
     uint32_t *arc_parent;                /* labels */
     uint32_t *arc_component;             /* labels */

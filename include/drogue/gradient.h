@@ -70,15 +70,6 @@ static inline uint16_t drogue_magnitude_l1(int16_t gx, int16_t gy)
     return (uint16_t)drogue_sobel_l1(dx, drogue_sobel_mask(dx), dy, drogue_sobel_mask(dy));
 }
 
-/* Gradient of one row.
- *
- *  gx, gy     out, width_px each, grey levels * 8 in [-1020, 1020]
- *  magnitude  out, width_px, L1
- *  rows       the rows y-1, y, y+1, border already replicated
- *  width_px   [1, DROGUE_MAX_SIDE]
- */
-void drogue_gradient_row(int16_t *gx, int16_t *gy, uint16_t *magnitude, const uint8_t *const rows[3], int32_t width_px);
-
 /* Gradient of a whole image; gx, gy, magnitude hold width_px * height_px each, rows adjacent.
  *
  *  return  DROGUE_OK, DROGUE_E_ARGUMENT

@@ -1,77 +1,32 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The inner part: where a pose expects it, its edge by rays, and how far what was found is to be believed.
- *
- * The way of the paper (17), disc mask, Otsu's threshold, 3x3 opening, dark components and their centroid, is here as a
- * stage of its own for who wants it, drogue_inner_find(); drogue_measure() goes by the edge. */
+/* The inner part: where a pose expects it, its edge by rays, and how far what was found is to be believed. */
 #ifndef DROGUE_INNER_H
 #define DROGUE_INNER_H
 
 #include "drogue/config.h"
 #include "drogue/frontend.h"
 #include "drogue/joint.h"
-#include "drogue/mask.h"
 #include "drogue/rays.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* Otsu's threshold: the level t that maximises the variance between the classes <= t and > t.
- *
- *  histogram  256 counts; their sum at most 2^22
- *  return     threshold in [0, 255]: the least of equals; 0 for a histogram of fewer than two levels
- *  error      exact: variances are compared as integer fractions
- */
-uint8_t drogue_otsu(const uint32_t *histogram);
-
-/* The inner part as found in the image. In brackets what a result of drogue_measure() holds. */
+/* The inner part as a result of drogue_measure() holds it, px of the whole image. */
 typedef struct drogue_inner_part {
-    drogue_q16 x_px_q16;      /* centroid, region coordinates [centre of the edge, px of the whole image] */
+    drogue_q16 x_px_q16;      /* centre of the edge */
     drogue_q16 y_px_q16;      /* downward */
-    uint32_t area_px;         /* pixels; drogue_inner_find(): sum of darkness [of the ellipse] */
-    drogue_q16 spread_px_q16; /* drogue_inner_find(): between the centroids at a lower and a higher threshold [root mean
-                                 square of the rays' residuals] */
-    uint8_t
-        threshold; /* Otsu's of the disc, or of drogue_inner_find()'s window about the part; grey level [at the edge] */
-    uint8_t
-        contrast; /* drogue_inner_find(): between the means of what is above and below it, grey levels [across the edge] */
+    uint32_t area_px;         /* of the ellipse */
+    drogue_q16 spread_px_q16; /* root mean square of the rays' residuals */
+    uint8_t threshold;        /* grey level at the edge */
+    uint8_t contrast;         /* grey levels across the edge */
 } drogue_inner_part;
-
-/* Find the largest dark component inside a disc.
- *
- *  out        centroid and area; of equal areas the one whose first pixel comes first
- *  workspace  its edges and arcs are left alone
- *  image      the region's pixels, width_px <= capacity.width_px
- *  disc       in the image's own coordinates; the disc is of radius longest / 3
- *  min_area   least area of the component, px
- *  return     DROGUE_OK, DROGUE_E_NO_INNER_PART, DROGUE_E_LABELS_FULL, DROGUE_E_ARGUMENT, DROGUE_E_WORKSPACE
- *  error      threshold and mask exact; centroid <= 1 LSB
- */
-drogue_status drogue_inner_part_find(drogue_inner_part *out, drogue_workspace *workspace, const drogue_image *image,
-                                     const drogue_mask *disc, uint32_t min_area);
 
 /* What is looked for. */
 typedef struct drogue_inner_expected {
     drogue_ellipse disc[2]; /* images of the inner disc for either pose, as seen, region coordinates */
     uint32_t count;         /* how many of them there are */
-    uint32_t min_area_px;   /* smaller components are noise */
 } drogue_inner_expected;
-
-/* Find the inner part where it is expected: the components whose centroids lie within one of the expected discs, taken
- * together (bright ribs may cut it), then the centroid of darkness in a window about it, which counts the pixels at its
- * edge by their grey.
- *
- *  out         centroid, area (sum of darkness, rounded), Otsu's threshold
- *  which       out: index of the expected disc that fits better in place and area
- *  workspace, image, disc, return  as drogue_inner_part_find()
- *  error       centroid <= 1 LSB of the exact sums' quotient
- */
-drogue_status drogue_inner_find(drogue_inner_part *out, uint32_t *which, drogue_workspace *workspace,
-                                const drogue_image *image, const drogue_mask *disc,
-                                const drogue_inner_expected *expected);
-
-/* Area of an inner part over that of an expected disc, Q16, saturated. */
-drogue_q16 drogue_inner_fill(const drogue_inner_part *part, const drogue_ellipse *expected);
 
 /* Images of the inner disc for both poses, through the lens: a pose whose disc is behind the camera, edge-on or under a
  * pixel has none.
@@ -80,9 +35,6 @@ drogue_q16 drogue_inner_fill(const drogue_inner_part *part, const drogue_ellipse
  */
 void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose poses[2], const drogue_setup *setup,
                          int32_t x_px, int32_t y_px);
-
-/* Where to look: a disc about the outline's centre of 5/6 of its semi-minor axis. */
-drogue_mask drogue_inner_disc(const drogue_ellipse *outline);
 
 typedef char drogue_assume_rays_fit[DROGUE_RAYS * sizeof(drogue_ray) <= DROGUE_SCRATCH_BYTES ? 1 : -1];
 
@@ -133,7 +85,7 @@ drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse 
 /* The inner part as evidence between the poses. */
 typedef struct drogue_inner_evidence {
     drogue_inner_part part;     /* px of the whole image; zero when it is not believed */
-    drogue_joint_inner weighed; /* its centroid without distortion; std 0 when it is not believed */
+    drogue_joint_inner weighed; /* its centre without distortion; std 0 when it is not believed */
     drogue_q16
         ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 when not believed */
     int32_t

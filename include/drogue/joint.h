@@ -25,7 +25,7 @@ typedef struct drogue_joint_outline {
 
 /* The inner part as a measurement. */
 typedef struct drogue_joint_inner {
-    drogue_q16 x_px_q16;   /* centroid of the inner disc, undistorted, px of the whole image */
+    drogue_q16 x_px_q16;   /* centre of the inner disc, undistorted, px of the whole image */
     drogue_q16 y_px_q16;   /* downward */
     drogue_q16 std_px_q16; /* of either coordinate; 0: there is none */
 } drogue_joint_inner;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Connected components in one raster pass: a union-find over row labels, used for Canny's hysteresis, for
- * arcs within a direction class and for the inner parts.
+/* Connected components in one raster pass: a union-find over row labels, used for Canny's hysteresis and for
+ * arcs within a direction class.
  *
  * The pixel loop does bounded work a pixel: it looks only at labels of the row above, which are roots, and
  * notes at most one merge. Merges are resolved at the end of the row, in two steps each: no chain is ever followed. */
@@ -93,19 +93,6 @@ static inline void drogue_labels_resolve(uint32_t *parent, drogue_merge *merges,
         drogue_set_parent(parent, &recent, merges[i - 1].b, drogue_parent_of(parent, &recent, merges[i - 1].a));
     }
 }
-
-/* Label one row: 8-connected pixels of equal key share a component. A pixel's key is code & mask; key 0 is background.
- *
- *  current   out, labels of the points, each a root when the call returns; the others are left alone
- *  labels    in/out
- *  merges    work area, width_px entries: at most one merge a pixel
- *  above     labels of the row above as this function left them
- *  code      width_px codes; code_above those of the row above, zeros for the first row
- *  points    names the 'count' columns, ascending, where 'code' is not 0
- */
-void drogue_label_points(uint32_t *current, drogue_labels *labels, drogue_merge *merges, const uint32_t *above,
-                         const uint8_t *code, const uint8_t *code_above, uint8_t mask, int32_t width_px,
-                         const drogue_slope *points, uint32_t count);
 
 /* Point every label straight at its root: after it parent[i] is the root of i. What a caller has summed
  * by label over the rows it then joins in one ascending pass, into parent[i] from i. */

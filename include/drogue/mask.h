@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Ring and disc masks as integer inequalities on squared distances. */
+/* Ring mask as integer inequalities on squared distances. */
 #ifndef DROGUE_MASK_H
 #define DROGUE_MASK_H
 
@@ -61,26 +61,6 @@ static inline int drogue_mask_in_ring(const drogue_mask *mask, int32_t x, int32_
 {
     drogue_ring_row row = drogue_mask_ring_row(mask, y);
     return drogue_ring_row_holds(&row, x);
-}
-
-/* Disc: distance <= longest / 3 (paper, section III-A-2). What it leaves to a row: 9 (2x - centre2_x)^2 is at most this. */
-static inline int64_t drogue_mask_disc_row(const drogue_mask *mask, int32_t y)
-{
-    int64_t dy = 2 * (int64_t)y - mask->centre2_y;
-    return 4 * (int64_t)mask->longest_px * mask->longest_px - 9 * dy * dy;
-}
-
-/* Is a column in the disc, by what drogue_mask_disc_row() gave? */
-static inline int drogue_disc_row_holds(int64_t most_x9, int32_t centre2_x, int32_t x)
-{
-    const int64_t dx = 2 * (int64_t)x - centre2_x;
-    return 9 * dx * dx <= most_x9;
-}
-
-/* Is a pixel in the disc? */
-static inline int drogue_mask_in_disc(const drogue_mask *mask, int32_t x, int32_t y)
-{
-    return drogue_disc_row_holds(drogue_mask_disc_row(mask, y), mask->centre2_x, x);
 }
 
 /* Mask of a region of its own coordinates, (0, 0) its top-left pixel. */

@@ -58,9 +58,6 @@ drogue_q16 drogue_quality_threshold(const drogue_ellipse *ellipse, drogue_q16 fi
 /* Circumference by Ramanujan's formula pi (3(a+b) - sqrt((3a+b)(a+3b))), px Q16, saturated; a + b < 2^13 px. */
 drogue_q16 drogue_ellipse_circumference(const drogue_ellipse *ellipse);
 
-/* Points over circumference (12), Q16, at most 1. A whole outline of 8-connected pixels gives about 0.9. */
-drogue_q16 drogue_length_ratio(uint32_t points, const drogue_ellipse *ellipse);
-
 /* Scores of a fit. */
 typedef struct drogue_quality {
     drogue_q16 fit_ratio_q16;    /* phi (11), [0, 1] */

@@ -42,6 +42,7 @@ typedef struct drogue_search {
     int32_t count;    /* of sightings */
     drogue_search_level levels[DROGUE_SEARCH_LEVELS]; /* from 2 to 64 px a cell */
     drogue_sighting best[DROGUE_SEARCH_MAX];          /* by falling score */
+    drogue_result found; /* drogue_track_frame()'s work area: what it acquired beside what it measured */
 } drogue_search;
 
 /* Lay a search out in the caller's memory, which must live as long as the search.

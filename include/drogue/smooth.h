@@ -41,16 +41,6 @@ static inline int32_t drogue_reflect_101(int32_t i, int32_t n)
     return i < 0 ? -i : i;
 }
 
-/* Smooth one row.
- *
- *  out       width_px grey levels
- *  column    width_px words of work area (overwritten)
- *  rows      the rows y-2 .. y+2, border already reflected; width_px grey levels each
- *  width_px  [1, DROGUE_MAX_SIDE]
- *  scaling   sums reach 256 * 255, no overflow
- */
-void drogue_smooth_row(uint8_t *out, uint16_t *column, const uint8_t *const rows[5], int32_t width_px);
-
 /* Smooth a whole image.
  *
  *  out     width_px * height_px grey levels, rows adjacent

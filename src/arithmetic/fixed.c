@@ -150,21 +150,6 @@ uint32_t drogue_isqrt_u64(uint64_t v)
     return root >> (shift / 2);
 }
 
-drogue_q16 drogue_q16_sqrt(drogue_q16 v)
-{
-    uint64_t square;
-    uint32_t root;
-    if (v <= 0) {
-        return 0;
-    }
-    square = (uint64_t)v << 16;
-    root = drogue_isqrt_u64(square);
-    if (square - drogue_product_u32(root, root) > root) {
-        root++; /* square > (root + 1/2)^2 */
-    }
-    return (drogue_q16)root;
-}
-
 /* Upper word of a product. */
 static uint32_t upper(uint32_t a, uint32_t b) { return (uint32_t)(drogue_product_u32(a, b) >> 32); }
 
@@ -221,11 +206,6 @@ int32_t drogue_atan2_q29(int64_t y, int64_t x)
         angle_q32 = PI_Q32 - angle_q32;
     }
     return (int32_t)drogue_shr_round_s64(y < 0 ? -angle_q32 : angle_q32, 3);
-}
-
-drogue_q16 drogue_q16_atan2(drogue_q16 y, drogue_q16 x)
-{
-    return (drogue_q16)drogue_shr_round_s64(drogue_atan2_q29(y, x), 13);
 }
 
 void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29)

@@ -17,7 +17,8 @@ static void gradient_pixel(int16_t *gx, int16_t *gy, uint16_t *magnitude, const 
     DROGUE_NOTE("gradient: L1 magnitude", magnitude[x], 11);
 }
 
-void drogue_gradient_row(int16_t *gx, int16_t *gy, uint16_t *magnitude, const uint8_t *const rows[3], int32_t width_px)
+/* Gradient of a row from rows y-1, y, y+1, border already replicated. */
+static void gradient_row(int16_t *gx, int16_t *gy, uint16_t *magnitude, const uint8_t *const rows[3], int32_t width_px)
 {
     int32_t last = width_px - 1;
     int32_t x;
@@ -42,7 +43,7 @@ drogue_status drogue_gradient_image(int16_t *gx, int16_t *gy, uint16_t *magnitud
         rows[0] = drogue_image_row(image, y > 0 ? y - 1 : 0);
         rows[1] = drogue_image_row(image, y);
         rows[2] = drogue_image_row(image, y < image->height_px - 1 ? y + 1 : y);
-        drogue_gradient_row(gx + at, gy + at, magnitude + at, rows, image->width_px);
+        gradient_row(gx + at, gy + at, magnitude + at, rows, image->width_px);
     }
     return DROGUE_OK;
 }

@@ -6,15 +6,7 @@
 #define DROGUE_ROWS_H
 
 #include "drogue/frontend.h"
-
-#ifndef DROGUE_ROWS_PLAIN
-#if defined(__SSE2__) || defined(_M_X64) || defined(__ARM_NEON) || defined(__ARM_FEATURE_MVE) || \
-    defined(__ALTIVEC__) || defined(__riscv_vector)
-#define DROGUE_ROWS_PLAIN 1
-#else
-#define DROGUE_ROWS_PLAIN 0
-#endif
-#endif
+#include "drogue/lanes.h"
 
 enum {
     DROGUE_ROW_PARTS = DROGUE_ROWS_PLAIN ? 1 : 2, /* in which a row's maxima come */

@@ -2,7 +2,8 @@
 /* 5x5 binomial smoothing: the vertical sum of a row first, then the horizontal one. */
 #include "drogue/smooth.h"
 
-void drogue_smooth_row(uint8_t *out, uint16_t *column, const uint8_t *const rows[5], int32_t width_px)
+/* Smooth a row from rows y-2 .. y+2, border already reflected; 'column' is work area. Sums reach 256 * 255. */
+static void smooth_row(uint8_t *out, uint16_t *column, const uint8_t *const rows[5], int32_t width_px)
 {
     const uint8_t *r0 = rows[0];
     const uint8_t *r1 = rows[1];
@@ -37,7 +38,7 @@ drogue_status drogue_smooth_image(uint8_t *out, uint16_t *column, const drogue_i
         for (k = 0; k < 5; k++) {
             rows[k] = drogue_image_row(image, drogue_reflect_101(y + k - 2, image->height_px));
         }
-        drogue_smooth_row(out + (size_t)y * (size_t)image->width_px, column, rows, image->width_px);
+        smooth_row(out + (size_t)y * (size_t)image->width_px, column, rows, image->width_px);
     }
     return DROGUE_OK;
 }

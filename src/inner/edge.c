@@ -9,18 +9,18 @@
 #define INWARD DROGUE_Q16(45, 100) /* px: a quarter of a blurred step is this far within its middle */
 
 /* Squared residuals of the bins over their weights; the number of bins that hold rays. */
-static int32_t scatter_of(drogue_real *scatter, const drogue_ray_sums *s)
+static int32_t scatter_of(drogue_real *scatter, const drogue_ray_bins *b)
 {
     int32_t bins = 0;
     int32_t k;
     drogue_real_set(scatter, 0, 0);
     for (k = 0; k < BINS; k++) {
-        if (s->bin_weight[k] > 0) {
+        if (b->weight[k] > 0) {
             drogue_real square;
             drogue_real weight;
-            drogue_real_set(&square, s->bin_q16[k], -16);
+            drogue_real_set(&square, b->off_q16[k], -16);
             drogue_real_product(&square, &square, &square);
-            drogue_real_set(&weight, s->bin_weight[k], 0);
+            drogue_real_set(&weight, b->weight[k], 0);
             drogue_real_quotient(&square, &square, &weight);
             drogue_real_sum(scatter, scatter, &square);
             bins++;
@@ -39,7 +39,7 @@ static int settle(drogue_ray_sums *s, drogue_q16 v_px_q16[3], const drogue_ray r
     memset(v_px_q16, 0, 3 * sizeof v_px_q16[0]);
     for (round = 0; round < 10; round++) {
         memset(s, 0, sizeof *s);
-        drogue_ray_sums_add_edges(s, rays, v_px_q16, within, 0);
+        drogue_ray_sums_add_edges(s, NULL, rays, v_px_q16, within);
         if (!drogue_ray_sums_solve(v_px_q16, normal, s, round > 1)) {
             return 0;
         }
@@ -56,7 +56,7 @@ static int narrow(drogue_ray_sums *s, drogue_q16 v_px_q16[3], drogue_q16 *within
     for (round = 0; round < 3; round++) {
         drogue_q16 rms;
         memset(s, 0, sizeof *s);
-        drogue_ray_sums_add_edges(s, rays, v_px_q16, *within_px_q16, 0);
+        drogue_ray_sums_add_edges(s, NULL, rays, v_px_q16, *within_px_q16);
         if (!drogue_ray_sums_solve(v_px_q16, normal, s, 1)) {
             return 0;
         }
@@ -80,8 +80,9 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     drogue_q16 size;
     drogue_inner_shade grey;
     drogue_ray_sums s;
+    drogue_ray_bins bins;
     int32_t phases = e->a_px_q16 / DROGUE_Q16(10, 1); /* 2 pi a over 64 */
-    int32_t bins;
+    int32_t filled;
     int32_t k;
     phases = drogue_clamp_s32(phases, 1, 8);
     drogue_rays_cast(rays, image, e, 0, 4, least);
@@ -98,20 +99,21 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
         return DROGUE_E_NO_INNER_PART;
     }
     memset(&s, 0, sizeof s);
+    memset(&bins, 0, sizeof bins);
     for (k = 0; k < phases; k++) {
         const drogue_q16 about[3] = {v[0], v[1], size};
         drogue_rays_aim(rays, e, (8 * k + 4) / phases % 8);
         drogue_inner_shade_cross(rays, image, &grey, about);
-        drogue_ray_sums_add_edges(&s, rays, v, within, 1);
+        drogue_ray_sums_add_edges(&s, &bins, rays, v, within);
     }
-    bins = scatter_of(&scatter, &s);
-    if (!drogue_ray_sums_solve(v, normal, &s, 1) || bins < 5) {
+    filled = scatter_of(&scatter, &bins);
+    if (!drogue_ray_sums_solve(v, normal, &s, 1) || filled < 5) {
         return DROGUE_E_NO_INNER_PART;
     }
     drogue_cholesky_invert(inverse, normal, 3);
     k = drogue_real_order(&inverse[DROGUE_PACKED(0, 0)], &inverse[DROGUE_PACKED(1, 1)]) > 0 ? 0 : 1;
     drogue_real_product(&scatter, &scatter, &inverse[DROGUE_PACKED(k, k)]);
-    drogue_real_set(&t, bins - 3, 0);
+    drogue_real_set(&t, filled - 3, 0);
     drogue_real_quotient(&t, &scatter, &t);
     drogue_real_root(&t, &t);
     out->std_px_q16 = drogue_real_to_q16(t);

@@ -39,8 +39,8 @@ void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int64_t weight
     s->rays++;
 }
 
-void drogue_ray_sums_add_edges(drogue_ray_sums *s, const drogue_ray rays[RAYS], const drogue_q16 v_px_q16[3],
-                               drogue_q16 within_px_q16, int by_slope)
+void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const drogue_ray rays[RAYS],
+                               const drogue_q16 v_px_q16[3], drogue_q16 within_px_q16)
 {
     int32_t k;
     for (k = 0; k < RAYS; k++) {
@@ -50,12 +50,14 @@ void drogue_ray_sums_add_edges(drogue_ray_sums *s, const drogue_ray rays[RAYS], 
             const drogue_ray_edge *e = &rays[k].edges[which];
             const int64_t off = (int64_t)e->at_px_q16 - expected;
             const int64_t grey = drogue_clamp_s32(e->slope_q8 / (DROGUE_RAY_WEIGHT * 256), 0, 254) + 1;
-            const int64_t weight = by_slope ? grey * grey : 1;
+            const int64_t weight = bins != NULL ? grey * grey : 1;
             drogue_ray_sums_add(s, &rays[k], weight, off);
             s->slopes_q8 += e->slope_q8;
             s->levels_q8 += e->level_q8;
-            s->bin_q16[k / 4] += weight * off;
-            s->bin_weight[k / 4] += weight;
+            if (bins != NULL) {
+                bins->off_q16[k / 4] += weight * off;
+                bins->weight[k / 4] += weight;
+            }
         }
     }
 }

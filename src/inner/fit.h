@@ -18,9 +18,13 @@ typedef struct drogue_ray_sums {
     int64_t slopes_q8;
     int64_t levels_q8;
     uint32_t rays;
-    int64_t bin_q16[BINS]; /* weighted residuals of four neighbours, of all phases together: they see one edge */
-    int64_t bin_weight[BINS];
 } drogue_ray_sums;
+
+/* Residuals of four neighbours, of all phases together: they see one edge. */
+typedef struct drogue_ray_bins {
+    int64_t off_q16[BINS]; /* weighted */
+    int64_t weight[BINS];
+} drogue_ray_bins;
 
 /* Where an offset puts the edge on a ray. */
 drogue_q16 drogue_ray_along(const drogue_ray *r, const drogue_q16 v_px_q16[3]);
@@ -32,9 +36,10 @@ int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogu
 /* Add what a ray says, 'off' from what is known. */
 void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int64_t weight, int64_t off_q16);
 
-/* Add the edges that agree with an offset. */
-void drogue_ray_sums_add_edges(drogue_ray_sums *s, const drogue_ray rays[RAYS], const drogue_q16 v_px_q16[3],
-                               drogue_q16 within_px_q16, int by_slope);
+/* Add the edges that agree with an offset: weighted by their slopes, and to bins, where there are bins; all alike where
+ * 'bins' is NULL. */
+void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const drogue_ray rays[RAYS],
+                               const drogue_q16 v_px_q16[3], drogue_q16 within_px_q16);
 
 /* Solve for the offset: 'size' 0 leaves the size as it is. 'normal' becomes the root of the normal equations. 0 when there
  * are too few rays. */

@@ -66,7 +66,6 @@ void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose pose
 {
     int i;
     memset(expected, 0, sizeof *expected);
-    expected->min_area_px = setup->config->min_inner_area_px;
     for (i = 0; i < 2; i++) {
         drogue_ellipse *e = &expected->disc[expected->count];
         if (drogue_inner_disc_image(e, &poses[i], setup->camera, setup->model) == DROGUE_OK &&
@@ -76,15 +75,6 @@ void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose pose
             expected->count++;
         }
     }
-}
-
-drogue_mask drogue_inner_disc(const drogue_ellipse *outline)
-{
-    drogue_mask disc; /* radius longest / 3 */
-    disc.centre2_x = (int32_t)drogue_shr_round_s64(outline->xc_px_q16, 15);
-    disc.centre2_y = (int32_t)drogue_shr_round_s64(outline->yc_px_q16, 15);
-    disc.longest_px = (int32_t)drogue_shr_round_s64((int64_t)outline->b_px_q16 * 5, 17);
-    return disc;
 }
 
 /* Does the expected disc lie wholly within the outline when its centre is the part's? */

@@ -77,7 +77,6 @@ int drogue_inner_shade_find(drogue_inner_shade *out, const drogue_ray rays[RAYS]
 {
     int32_t dark_q16[RAYS];
     int32_t beyond_q16[RAYS];
-    int32_t sorted[RAYS];
     uint32_t count = 0;
     int32_t k;
     for (k = 0; k < RAYS; k++) {
@@ -100,10 +99,10 @@ int drogue_inner_shade_find(drogue_inner_shade *out, const drogue_ray rays[RAYS]
     }
     for (k = 0; k < RAYS; k++) {
         if (dark_q16[k] >= 0) {
-            sorted[count++] = beyond_q16[k] - drogue_ray_along(&rays[k], out->dark_q16);
+            beyond_q16[count++] = beyond_q16[k] - drogue_ray_along(&rays[k], out->dark_q16);
         }
     }
-    out->rise_q16 = median_of(sorted, count) / 4;
+    out->rise_q16 = median_of(beyond_q16, count) / 4;
     return out->rise_q16 > 0;
 }
 

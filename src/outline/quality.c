@@ -163,7 +163,8 @@ static drogue_q16 axis_ratio_score(const drogue_ellipse *e, const drogue_quality
 
 static drogue_q16 ratio_to_one(int64_t num, int64_t den) { return den <= 0 ? DROGUE_Q16_ONE : share(num, den, 16); }
 
-drogue_q16 drogue_length_ratio(uint32_t points, const drogue_ellipse *ellipse)
+/* Points over circumference (12), Q16, at most 1. A whole outline of 8-connected pixels gives about 0.9. */
+static drogue_q16 length_ratio(uint32_t points, const drogue_ellipse *ellipse)
 {
     const uint32_t most = (uint32_t)1 << 26; /* more points than any region has */
     return ratio_to_one(drogue_shl_s64(points > most ? most : points, 16), drogue_ellipse_circumference(ellipse));
@@ -182,5 +183,5 @@ void drogue_quality_of_cover(drogue_quality *out, const drogue_ellipse *ellipse,
 void drogue_quality_score(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
                           const drogue_quality_config *config)
 {
-    drogue_quality_of_cover(out, ellipse, near_count, total, drogue_length_ratio(total, ellipse), config);
+    drogue_quality_of_cover(out, ellipse, near_count, total, length_ratio(total, ellipse), config);
 }

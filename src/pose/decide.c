@@ -39,8 +39,22 @@ static int within(drogue_q16 a_rad_q16, drogue_q16 b_rad_q16, const drogue_real 
     return drogue_real_order(&d, variance) <= 0;
 }
 
+/* What matters of the solution not taken. */
+typedef struct other_solution {
+    drogue_q16 yaw_rad_q16;
+    drogue_q16 pitch_rad_q16;
+    drogue_real chi2;
+} other_solution;
+
+static void put_by(other_solution *other, const drogue_joint *joint)
+{
+    other->yaw_rad_q16 = joint->pose.yaw_rad_q16;
+    other->pitch_rad_q16 = joint->pose.pitch_rad_q16;
+    other->chi2 = joint->chi2;
+}
+
 /* Do two solutions differ by less than their standard deviations? Then there is nothing to choose. */
-static int same_solution(const drogue_joint *p, const drogue_pose *q)
+static int same_solution(const drogue_joint *p, const other_solution *q)
 {
     return within(p->pose.yaw_rad_q16, q->yaw_rad_q16, &p->covariance[DROGUE_PACKED(3, 3)]) &&
            within(p->pose.pitch_rad_q16, q->pitch_rad_q16, &p->covariance[DROGUE_PACKED(4, 4)]);
@@ -54,19 +68,16 @@ static int same_solution(const drogue_joint *p, const drogue_pose *q)
 static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved, const drogue_joint_outline *outline,
                           const drogue_evidence *seen, const drogue_setup *setup)
 {
-    drogue_pose other; /* what matters of the solution not taken */
-    drogue_real chi2;
+    other_solution other;
     drogue_real limit;
     drogue_status near_status;
     const drogue_status far_status = drogue_joint_solve(best, &seen->poses[1 - *index], outline, &seen->inner,
                                                         setup->camera, setup->model, OTHER_STEPS);
-    other = best->pose;
-    chi2 = best->chi2;
+    put_by(&other, best);
     near_status =
         drogue_joint_solve(best, &seen->poses[*index], outline, &seen->inner, setup->camera, setup->model, STEPS);
-    if (far_status == DROGUE_OK && (near_status != DROGUE_OK || drogue_real_order(&chi2, &best->chi2) < 0)) {
-        other = best->pose;
-        chi2 = best->chi2;
+    if (far_status == DROGUE_OK && (near_status != DROGUE_OK || drogue_real_order(&other.chi2, &best->chi2) < 0)) {
+        put_by(&other, best);
         *index = 1 - *index;
         if (drogue_joint_solve(best, &seen->poses[*index], outline, &seen->inner, setup->camera, setup->model, STEPS) !=
             DROGUE_OK) {
@@ -75,10 +86,10 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
     } else if (near_status != DROGUE_OK) {
         return 0;
     }
-    drogue_real_difference(&chi2, &chi2, &best->chi2);
+    drogue_real_difference(&other.chi2, &other.chi2, &best->chi2);
     drogue_real_set_q16(&limit, setup->config->min_chi2_gap_q16);
     *resolved = far_status != DROGUE_OK || near_status != DROGUE_OK || same_solution(best, &other) ||
-                drogue_real_order(&chi2, &limit) >= 0;
+                drogue_real_order(&other.chi2, &limit) >= 0;
     drogue_real_set_q16(&limit, setup->config->max_chi2_q16);
     return drogue_real_order(&best->chi2, &limit) <= 0;
 }
@@ -110,7 +121,7 @@ static void add_spread(drogue_joint *joint, const drogue_pose *other)
 
 drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup)
 {
-    const drogue_joint_inner none = {0, 0, 0};
+    static const drogue_joint_inner none = {0, 0, 0};
     drogue_joint_outline outline;
     drogue_joint joint;
     uint32_t index = evidence->nearer;

@@ -49,6 +49,15 @@ void drogue_joint_turn(drogue_joint_state *state);
 /* Bring the position to its range. */
 void drogue_joint_rescale(drogue_joint_state *state);
 
+/* State of a pose.
+ *
+ *  return  DROGUE_OK; DROGUE_E_DOMAIN when the pose is 2^16 radii away, or an angle beyond its range
+ */
+drogue_status drogue_joint_place(drogue_joint_state *state, const drogue_pose *pose, const drogue_model *model);
+
+/* Depth and radius of the inner disc. */
+void drogue_joint_size_disc(drogue_joint_frame *frame, const drogue_model *model);
+
 /* State of a pose, and what was measured; 'inner' counts where its std_px_q16 is above 0.
  *
  *  return  DROGUE_OK; DROGUE_E_DOMAIN when the pose is 2^16 radii away, or a ray two focal lengths off the axis

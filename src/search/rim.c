@@ -2,6 +2,8 @@
 /* Rays from a dark disc, and a circle through what they meet. */
 #include "drogue/rim.h"
 
+#include <string.h>
+
 #include "drogue/real.h"
 
 #define RAYS 16
@@ -10,22 +12,24 @@
 #define DIFFERENT_RAYS 3 /* on fewer, another choice of steps is the same circle */
 
 /* Directions of the rays, Q8. */
-static const int32_t ray_x[RAYS] = {256, 237, 181, 98, 0, -98, -181, -237, -256, -237, -181, -98, 0, 98, 181, 237};
-static const int32_t ray_y[RAYS] = {0, 98, 181, 237, 256, 237, 181, 98, 0, -98, -181, -237, -256, -237, -181, -98};
+static const int16_t ray_x[RAYS] = {256, 237, 181, 98, 0, -98, -181, -237, -256, -237, -181, -98, 0, 98, 181, 237};
+static const int16_t ray_y[RAYS] = {0, 98, 181, 237, 256, 237, 181, 98, 0, -98, -181, -237, -256, -237, -181, -98};
 
 #define MOST_STEP 64 /* grey levels that count of an edge's contrast */
 #define LEAST_STEP 3 /* grey levels: less is no edge */
 
-/* Steps along the rays, bright beyond dark positive, 0 outside the level; and the place taken on each. */
+/* Steps along the rays, bright beyond dark positive, 0 outside the level; and the place taken on each. Rays lie beside each
+ * other, so that loops over them become vector instructions. */
 typedef struct rays {
     int32_t first; /* cells from the disc's centre; what is nearer may belong to the disc */
     int32_t last;
-    int16_t steps[RAYS][DROGUE_SEARCH_REACH];
-    int32_t taken[RAYS]; /* cells; 0: none */
-    int32_t x_q4[RAYS];
-    int32_t y_q4[RAYS];
-    int32_t step[RAYS]; /* of the sign looked for; 0: none */
-    int32_t used[RAYS];
+    int16_t steps[DROGUE_SEARCH_REACH][RAYS];
+    int16_t largest[RAYS]; /* step of the sign looked for; LEAST_STEP - 1: none */
+    int16_t taken[RAYS];   /* cells; 0: none */
+    int16_t x_q4[RAYS];    /* of the place taken */
+    int16_t y_q4[RAYS];
+    int16_t step[RAYS]; /* taken; 0: none */
+    int16_t used[RAYS]; /* 1 or 0 */
 } rays;
 
 /* num / den, rounded and saturated */
@@ -40,31 +44,30 @@ static int32_t quotient(int64_t num, int64_t den)
 }
 
 /* A circle by least squares (Kasa 1976): x^2 + y^2 = 2 a x + 2 b y + c. 0 when the points do not determine one.
- * Coordinates stay within 2^9, sums about the mean of second order within 2^26, of third within 2^37. */
+ * Coordinates stay within 2^9, so sums within 2^31; about the mean, those of second order within 2^26, of third within 2^37. */
 static int fit_circle(drogue_rim *out, const rays *r)
 {
-    int32_t n = 0, sx = 0, sy = 0, sz = 0, sxx = 0, sxy = 0, syy = 0;
-    int64_t sxz = 0, syz = 0;
+    int32_t n = 0, sx = 0, sy = 0, sz = 0, sxx = 0, sxy = 0, syy = 0, txz = 0, tyz = 0;
+    int64_t sxz;
+    int64_t syz;
     int64_t det;
     int32_t radius2;
     int32_t xz;
     int32_t yz;
     int i;
     for (i = 0; i < RAYS; i++) {
-        if (r->used[i]) {
-            const int32_t x = r->x_q4[i];
-            const int32_t y = r->y_q4[i];
-            const int32_t z = x * x + y * y;
-            n++;
-            sx += x;
-            sy += y;
-            sz += z;
-            sxx += x * x;
-            sxy += x * y;
-            syy += y * y;
-            sxz += x * z;
-            syz += y * z;
-        }
+        const int16_t x = r->used[i] > 0 ? r->x_q4[i] : 0;
+        const int16_t y = r->used[i] > 0 ? r->y_q4[i] : 0;
+        const int32_t z = x * x + y * y;
+        n += r->used[i];
+        sx += x;
+        sy += y;
+        sz += z;
+        sxx += x * x;
+        sxy += x * y;
+        syy += y * y;
+        txz += x * z;
+        tyz += y * z;
     }
     if (n < 5) {
         return 0;
@@ -73,8 +76,8 @@ static int fit_circle(drogue_rim *out, const rays *r)
     sxx = n * sxx - sx * sx;
     sxy = n * sxy - sx * sy;
     syy = n * syy - sy * sy;
-    sxz = n * sxz - (int64_t)sx * sz;
-    syz = n * syz - (int64_t)sy * sz;
+    sxz = n * (int64_t)txz - (int64_t)sx * sz;
+    syz = n * (int64_t)tyz - (int64_t)sy * sz;
     det = (int64_t)sxx * syy - (int64_t)sxy * sxy; /* < 2^54 */
     if (det < (INT64_C(1) << 24)) {
         return 0;
@@ -97,73 +100,128 @@ static int fit_circle(drogue_rim *out, const rays *r)
 static void read_rays(rays *r, const drogue_search_level *level, const drogue_search_disc *disc)
 {
     const int32_t far = (7 * disc->ring_q4 + 16) >> 5; /* 1.7 radii of the rim: the inner part may lie aside */
+    const int32_t highest = -disc->y;                  /* rows of the level from the disc */
+    const int32_t lowest = level->rows_in - 1 - disc->y;
+    const uint8_t *rows[2 * DROGUE_SEARCH_REACH + 1];
+    int32_t t;
     int i;
     r->first = ((disc->ring_q4 + 8) >> 4) + 1;
     r->last = far < DROGUE_SEARCH_REACH ? far : DROGUE_SEARCH_REACH - 1;
+    for (t = -r->last - 1; t <= r->last + 1; t++) {
+        rows[DROGUE_SEARCH_REACH + t] = drogue_search_level_row(level, disc->y + (t >= highest && t <= lowest ? t : 0));
+    }
     for (i = 0; i < RAYS; i++) {
+        int32_t x_q8 = 256 * disc->x + 128 + ray_x[i] * (r->first - 1);
+        int32_t down_q8 = 128 + ray_y[i] * (r->first - 1);
         int32_t before = 0;
         int32_t here = 0;
-        int32_t t;
         for (t = r->first - 1; t <= r->last + 1; t++) {
-            const int32_t x = disc->x + ((ray_x[i] * t + 128) >> 8);
-            const int32_t y = disc->y + ((ray_y[i] * t + 128) >> 8);
+            const int32_t x = x_q8 >> 8;
+            const int32_t down = down_q8 >> 8;
             int32_t next;
-            if (x < 0 || x >= level->width || y < 0 || y >= level->rows_in) {
+            if (x < 0 || x >= level->width || down < highest || down > lowest) {
                 break;
             }
-            next = drogue_search_level_row(level, y)[x];
-            if (t == r->first - 1) {
-                before = here = next;
-                continue;
+            next = rows[DROGUE_SEARCH_REACH + down][x];
+            if (t >= r->first) {
+                r->steps[t - 1][i] = (int16_t)(next - before);
             }
-            r->steps[i][t - 1] = (int16_t)(next - before);
-            before = here;
+            before = t >= r->first ? here : next;
             here = next;
+            x_q8 += ray_x[i];
+            down_q8 += ray_y[i];
         }
         for (t = t > r->first ? t - 1 : r->first - 1; t <= r->last; t++) {
-            r->steps[i][t] = 0;
+            r->steps[t][i] = 0;
         }
+    }
+}
+
+/* Now steps to darker are positive. */
+static void turn_steps(rays *r)
+{
+    int32_t t;
+    int i;
+    for (t = r->first - 1; t <= r->last; t++) {
+        for (i = 0; i < RAYS; i++) {
+            r->steps[t][i] = (int16_t)-r->steps[t][i];
+        }
+    }
+}
+
+/* The largest step of each ray, the first of equal ones. */
+static void find_largest(rays *r, int16_t at[RAYS])
+{
+    int32_t t;
+    int i;
+    for (i = 0; i < RAYS; i++) {
+        r->largest[i] = LEAST_STEP - 1;
+        at[i] = 0;
+    }
+    for (t = r->first - 1; t <= r->last; t++) {
+        const int16_t *steps = r->steps[t];
+        for (i = 0; i < RAYS; i++) {
+            at[i] = steps[i] > r->largest[i] ? (int16_t)t : at[i];
+            r->largest[i] = steps[i] > r->largest[i] ? steps[i] : r->largest[i];
+        }
+    }
+    for (i = 0; i < RAYS; i++) { /* a step in the centre is none */
+        r->largest[i] = at[i] > 0 ? r->largest[i] : LEAST_STEP - 1;
+    }
+}
+
+/* The first step on the way along each ray that is half as large as the largest, up to the top of its slope. */
+static void find_first(const rays *r, int16_t *restrict at, int16_t *restrict step, int32_t from, int32_t way)
+{
+    int16_t open[RAYS]; /* all ones until the top is passed */
+    int32_t t;
+    int i;
+    for (i = 0; i < RAYS; i++) {
+        const int16_t half = (int16_t)((r->largest[i] + 1) >> 1);
+        step[i] = (int16_t)((half > LEAST_STEP ? half : LEAST_STEP) - 1); /* what the next must exceed */
+        at[i] = 0;
+        open[i] = r->largest[i] >= LEAST_STEP ? -1 : 0;
+    }
+    for (t = from; t >= r->first - 1 && t <= r->last; t += way) {
+        const int16_t *steps = r->steps[t];
+        const int16_t next = (int16_t)(t + 1);
+        for (i = 0; i < RAYS; i++) {
+            const int16_t higher = (int16_t)(-(steps[i] > step[i]) & open[i]);
+            at[i] = (int16_t)((next & higher) | (at[i] & ~higher));
+            step[i] = (int16_t)((steps[i] & higher) | (step[i] & ~higher));
+            open[i] = (int16_t)(open[i] & (higher | -(at[i] == 0)));
+        }
+    }
+    for (i = 0; i < RAYS; i++) {
+        at[i] = at[i] > 0 ? (int16_t)(at[i] - 1) : at[i];
     }
 }
 
 /* Which step of each ray is taken. */
 typedef enum choice { LARGEST, OUTERMOST, INNERMOST } choice; /* the last two: of those half as large as the largest */
 
-/* Take a step of the given sign on each ray; returns how many rays differ from what was taken before. */
-static int32_t take_steps(rays *r, int32_t sign, choice which)
+/* Take a step on each ray; returns how many rays differ from what was taken before. */
+static int32_t take_steps(rays *r, choice which)
 {
+    int16_t at[RAYS];
+    int16_t step[RAYS];
     int32_t differ = 0;
     int i;
+    switch (which) {
+    case LARGEST:
+        find_largest(r, at);
+        memcpy(step, r->largest, sizeof step);
+        break;
+    case OUTERMOST: find_first(r, at, step, r->last, -1); break;
+    default: find_first(r, at, step, r->first - 1, 1); break;
+    }
     for (i = 0; i < RAYS; i++) {
-        int32_t best = LEAST_STEP - 1;
-        int32_t at = 0;
-        int32_t t;
-        for (t = r->first - 1; t <= r->last; t++) {
-            if (sign * r->steps[i][t] > best) {
-                best = sign * r->steps[i][t];
-                at = t;
-            }
-        }
-        if (at > 0 && which != LARGEST) {
-            const int32_t half = (best + 1) / 2 > LEAST_STEP ? (best + 1) / 2 : LEAST_STEP;
-            const int32_t way = which == OUTERMOST ? -1 : 1;
-            t = which == OUTERMOST ? r->last : r->first - 1;
-            while (sign * r->steps[i][t] < half) { /* ends at the largest */
-                t += way;
-            }
-            while (t + way >= r->first - 1 && t + way <= r->last &&
-                   sign * r->steps[i][t + way] > sign * r->steps[i][t]) {
-                t += way; /* up to the top of its slope */
-            }
-            at = t;
-            best = sign * r->steps[i][t];
-        }
-        differ += at != r->taken[i];
-        r->taken[i] = at;
-        r->step[i] = at > 0 ? best : 0;
-        r->used[i] = at > 0;
-        r->x_q4[i] = (ray_x[i] * at) >> 4;
-        r->y_q4[i] = (ray_y[i] * at) >> 4;
+        differ += at[i] != r->taken[i];
+        r->taken[i] = at[i];
+        r->step[i] = at[i] > 0 ? step[i] : 0;
+        r->used[i] = at[i] > 0;
+        r->x_q4[i] = (int16_t)((ray_x[i] * at[i]) >> 4);
+        r->y_q4[i] = (int16_t)((ray_y[i] * at[i]) >> 4);
     }
     return differ;
 }
@@ -174,13 +232,15 @@ static int32_t keep_near(rays *r, const drogue_rim *c, int32_t tolerance_q8)
     const int32_t room = 16 + ((c->radius_q4 * tolerance_q8) >> 8);
     const int32_t most = c->radius_q4 + room;
     const int32_t least = c->radius_q4 > room ? c->radius_q4 - room : 0;
+    const int32_t most2 = most * most;
+    const int32_t least2 = least * least;
     int32_t count = 0;
     int i;
     for (i = 0; i < RAYS; i++) {
-        const int32_t dx = r->x_q4[i] - c->x_q4;
-        const int32_t dy = r->y_q4[i] - c->y_q4;
+        const int16_t dx = (int16_t)(r->x_q4[i] - c->x_q4);
+        const int16_t dy = (int16_t)(r->y_q4[i] - c->y_q4);
         const int32_t distance2 = dx * dx + dy * dy;
-        r->used[i] = r->step[i] > 0 && distance2 >= least * least && distance2 <= most * most;
+        r->used[i] = (int16_t)((r->step[i] > 0) & (distance2 >= least2) & (distance2 <= most2));
         count += r->used[i];
     }
     return count;
@@ -213,7 +273,7 @@ static uint32_t find_circle(drogue_rim *rim, rays *r, const drogue_search_disc *
         return 0;
     }
     for (i = 0; i < RAYS; i++) {
-        step += r->used[i] ? (r->step[i] > MOST_STEP ? MOST_STEP : r->step[i]) : 0;
+        step += r->used[i] * (r->step[i] > MOST_STEP ? MOST_STEP : r->step[i]);
     }
     return score_of(count, step / count, disc);
 }
@@ -229,12 +289,13 @@ int32_t drogue_rim_find(drogue_rim rims[DROGUE_RIMS], const drogue_search_level 
     int k;
     read_rays(&r, level, disc);
     for (sign = 1; sign >= -1; sign -= 2) {
-        for (k = 0; k < RAYS; k++) {
-            r.taken[k] = 0;
+        memset(r.taken, 0, sizeof r.taken);
+        if (sign < 0) {
+            turn_steps(&r);
         }
         for (k = 0; k < DROGUE_RIMS / 2; k++) {
             drogue_rim *rim = &rims[count];
-            if (take_steps(&r, sign, choices[k]) < DIFFERENT_RAYS) {
+            if (take_steps(&r, choices[k]) < DIFFERENT_RAYS) {
                 continue;
             }
             rim->score = find_circle(rim, &r, disc);

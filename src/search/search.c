@@ -4,14 +4,13 @@
 
 #include <string.h>
 
-#define SCALES 4
-#define REACH DROGUE_SEARCH_REACH
+#include "cells.h"
 
-/* The circle of eight cells (+-p, +-q), (+-q, +-p) lies between inner part and rim: about half the rim's radius. The
- * first serves the smallest drogues, in the first level alone. */
-static const int32_t ring_p[SCALES] = {2, 3, 4, 5};
-static const int32_t ring_q[SCALES] = {1, 1, 2, 2};
-static const int32_t inner_at[SCALES] = {1, 1, 2, 2};    /* samples of the disc beside its centre */
+#define SCALES DROGUE_SEARCH_SCALES
+#define REACH DROGUE_SEARCH_REACH
+#define RING DROGUE_SEARCH_RING
+#define PLACES 128 /* looked at together */
+
 static const int32_t ring_q4[SCALES] = {36, 51, 72, 86}; /* radius of the circle, 16ths of a cell */
 
 drogue_status drogue_search_init(drogue_search *search, void *memory, size_t bytes, int32_t width_px)
@@ -166,9 +165,8 @@ static void judge_above(drogue_search *search, int k, int32_t y)
 
 /* Add a dark disc; of those beside each other the one of most contrast stays, and so when there are too many at once: what
  * a row of texture costs is bounded. */
-static void keep_disc(drogue_search *search, int k, const drogue_search_disc *disc)
+static void keep_disc(drogue_search_level *level, const drogue_search_disc *disc)
 {
-    drogue_search_level *level = &search->levels[k];
     const int32_t near = disc->ring_q4 >> 4;
     int32_t faintest = 0;
     int32_t i;
@@ -191,82 +189,87 @@ static void keep_disc(drogue_search *search, int k, const drogue_search_disc *di
     }
 }
 
-/* Contrast of a dark disc at x: the second darkest of the eight cells about it less its mean; at most 'least' when
- * two of them are no brighter than the centre by more than that. */
-static int32_t disc_contrast(const uint8_t *const rows[2 * REACH + 1], int32_t x, int scale, int32_t least)
+/* Up to which contrast a disc in row y changes nothing of the list: beside pending ones the least of theirs, elsewhere the
+ * faintest's of a full list. 255, while it is sought, is also where none is near. */
+static void limit_contrasts(uint8_t limits[PLACES], const drogue_search_level *level, int32_t x, int32_t y,
+                            int32_t radius_q4)
 {
-    const int32_t p = ring_p[scale];
-    const int32_t q = ring_q[scale];
-    const int32_t i = inner_at[scale];
-    const uint8_t *middle = rows[REACH] + x;
-    const int32_t dim = *middle + least;
-    int32_t lowest = 255;
-    int32_t second = 255;
-    int32_t v[8];
-    int n;
-    v[0] = rows[REACH - q][x - p];
-    v[1] = rows[REACH + q][x + p];
-    if (v[0] <= dim && v[1] <= dim) {
-        return 0;
+    const int32_t near = radius_q4 >> 4;
+    int32_t faintest = level->pending_count < DROGUE_SEARCH_PENDING ? 0 : 255;
+    int32_t i;
+    int32_t n;
+    for (i = 0; i < level->pending_count && faintest > 0; i++) {
+        faintest = level->pending[i].contrast < faintest ? level->pending[i].contrast : faintest;
     }
-    v[2] = rows[REACH - p][x + q];
-    v[3] = rows[REACH + p][x - q];
-    if ((v[0] <= dim) + (v[1] <= dim) + (v[2] <= dim) + (v[3] <= dim) > 1) {
-        return 0;
-    }
-    v[4] = rows[REACH - p][x - q];
-    v[5] = rows[REACH - q][x + p];
-    v[6] = rows[REACH + q][x - p];
-    v[7] = rows[REACH + p][x + q];
-    for (n = 0; n < 8; n++) {
-        if (v[n] < lowest) {
-            second = lowest;
-            lowest = v[n];
-        } else if (v[n] < second) {
-            second = v[n];
+    memset(limits, 255, PLACES);
+    for (i = 0; i < level->pending_count; i++) {
+        const drogue_search_disc *p = &level->pending[i];
+        if (p->ring_q4 == radius_q4 && y - p->y <= near) {
+            const int32_t end = p->x + near + 1 - x < PLACES ? p->x + near + 1 - x : PLACES;
+            for (n = p->x - near > x ? p->x - near - x : 0; n < end; n++) {
+                limits[n] = p->contrast < limits[n] ? (uint8_t)p->contrast : limits[n];
+            }
         }
     }
-    return second - ((2 * *middle + middle[-i] + middle[i] + rows[REACH - i][x] + rows[REACH + i][x] + 3) / 6);
+    for (n = 0; n < PLACES; n++) {
+        limits[n] = limits[n] < 255 ? limits[n] : (uint8_t)faintest;
+    }
+}
+
+/* Add the dark discs among places from x on in row y. */
+static void keep_discs(drogue_search *search, int k, const uint8_t contrasts[PLACES], int32_t x, int32_t y, int scale)
+{
+    uint8_t limits[PLACES];
+    int known = 0;
+    int32_t n;
+    for (n = 0; n < PLACES; n++) {
+        uint64_t eight;
+        memcpy(&eight, &contrasts[n & ~7], sizeof eight);
+        if (eight == 0) {
+            n |= 7;
+            continue;
+        }
+        if (contrasts[n] > 0 && !known) {
+            limit_contrasts(limits, &search->levels[k], x, y, ring_q4[scale]);
+            known = 1;
+        }
+        if (contrasts[n] > 0 && contrasts[n] > limits[n]) {
+            drogue_search_disc disc;
+            disc.x = x + n;
+            disc.y = y;
+            disc.ring_q4 = ring_q4[scale];
+            disc.contrast = contrasts[n];
+            keep_disc(&search->levels[k], &disc);
+            known = 0; /* the list may be another */
+        }
+    }
 }
 
 /* Look for dark discs centred in row y of a level. */
 static void scan_row(drogue_search *search, int k, int32_t y)
 {
     drogue_search_level *level = &search->levels[k];
-    const uint8_t *rows[2 * REACH + 1];
+    const uint8_t *rows[2 * RING + 1];
     int32_t i;
     int scale;
-    for (i = -REACH; i <= REACH; i++) {
+    for (i = -RING; i <= RING; i++) {
         const int32_t at = y + i;
-        rows[REACH + i] = drogue_search_level_row(level, at < 0 ? 0 : at >= level->rows_in ? level->rows_in - 1 : at);
+        rows[RING + i] = drogue_search_level_row(level, at < 0 ? 0 : at >= level->rows_in ? level->rows_in - 1 : at);
     }
     for (scale = k == 0 ? 0 : 1; scale < SCALES; scale++) {
-        const int32_t margin = ring_p[scale];
+        const int32_t margin = drogue_ring_p[scale];
         int32_t x;
         if (y < margin || y + margin >= level->rows_in) {
             continue;
         }
-        for (x = margin; x + margin < level->width; x++) {
-            drogue_search_disc disc;
-            disc.contrast = disc_contrast(rows, x, scale, search->min_contrast);
-            if (disc.contrast > search->min_contrast) {
-                disc.x = x;
-                disc.y = y;
-                disc.ring_q4 = ring_q4[scale];
-                keep_disc(search, k, &disc);
-            }
+        for (x = margin; x + margin < level->width; x += PLACES) {
+            const int32_t left = level->width - margin - x;
+            uint8_t contrasts[PLACES] = {0};
+            drogue_search_contrasts(contrasts, rows, x, left < PLACES ? left : PLACES, scale, search->min_contrast);
+            keep_discs(search, k, contrasts, x, y, scale);
         }
     }
-    judge_above(search, k, y - ring_p[SCALES - 1]);
-}
-
-/* out[x] = mean of two cells of each of two rows. */
-static void halve(uint8_t *out, int32_t width, const uint8_t *above, const uint8_t *below)
-{
-    int32_t x;
-    for (x = 0; x < width; x++) {
-        out[x] = (uint8_t)((above[2 * x] + above[2 * x + 1] + below[2 * x] + below[2 * x + 1] + 2) >> 2);
-    }
+    judge_above(search, k, y - RING);
 }
 
 void drogue_search_row(drogue_search *search, const uint8_t *row)
@@ -282,7 +285,7 @@ void drogue_search_row(drogue_search *search, const uint8_t *row)
     for (k = 0; k < DROGUE_SEARCH_LEVELS; k++) {
         drogue_search_level *level = &search->levels[k];
         const int32_t y = level->rows_in;
-        halve(level->rows + (y % DROGUE_SEARCH_ROWS) * level->width, level->width, above, below);
+        drogue_search_halve(level->rows + (y % DROGUE_SEARCH_ROWS) * level->width, level->width, above, below);
         level->rows_in++;
         if (y >= REACH) {
             scan_row(search, k, y - REACH);

@@ -57,8 +57,6 @@ int stage_gradient(stage_run *r);
 int stage_canny(stage_run *r);
 int stage_mask_images(stage_run *r);
 int stage_arcs(stage_run *r);
-int stage_centroid(stage_run *r);
-int stage_disc(stage_run *r);
 int stage_constraints(stage_run *r);
 int stage_select(stage_run *r);
 int stage_ellipse_fit(stage_run *r);

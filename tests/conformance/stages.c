@@ -212,8 +212,6 @@ static const stage_spec stages[] = {
     {"quality", stage_quality, {{"ellipse", 32, 5, 0}, {"points", 32, 2, 1}, {"params", 32, 3, 0}}},
     {"support", stage_support, {{"ellipse", 32, 5, 0}, {"edges", 32, 4, 1}, {"params", 32, 4, 0}}},
     {"cluster", stage_cluster, {{"candidates", 32, 7, 1}, {"config", 32, 5, 0}}},
-    {"centroid", stage_centroid, {{"image", 0, 0, 0}, {"params", 32, 4, 0}}},
-    {"disc", stage_disc, {{"image", 0, 0, 0}, {"params", 32, 4, 0}, {"expected", 32, 4, 1}}},
     {"eigen", stage_eigen, {{"matrix", 64, 6, 0}}},
     {"undistort", stage_undistort, {{"camera", 32, 9, 0}, {"points", 32, 2, 1}}},
     {"pose", stage_pose, {{"ellipse", 32, 5, 0}, {"camera", 32, 9, 0}, {"params", 32, 4, 0}}},

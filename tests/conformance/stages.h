@@ -55,13 +55,13 @@ enum {
  *  outputs  out, in the order below; names and widths set; data valid until the next call
  *  return   number of outputs, or CONF_E_*
  *
- * A failed status leaves the other words of its output 0 (centroid: but the threshold), unless said otherwise.
+ * A failed status leaves the other words of its output 0, unless said otherwise.
  *
  *  stage        inputs -> outputs
  *  smooth       image -> image
  *  gradient     image -> gx (16 bits), gy (16 bits): grey levels * 8, y down, raster order
  *  canny        image; params: low high smooth -> map (image: 255 on edges)
- *  mask         params: width height centre2_x centre2_y longest -> ring (image: 255 inside), disc (image)
+ *  mask         params: width height centre2_x centre2_y longest -> ring (image: 255 inside)
  *  arcs         image; params: low high smooth use_ring centre2_x centre2_y longest min_arc_px
  *               -> arcs: status edge_count arc_count, then per edge point x_px y_px class arc (-1: none);
  *                  edges: per edge point x_q5 y_q5 gx gy; points by arc, each in raster order, then the rest in raster order
@@ -81,9 +81,6 @@ enum {
  *                  members: bin + 32 polarity of each edge (-1: does not belong); sums (64 bits): squares (Q32) gradient
  *  cluster      candidates: xc yc a b angle reliability polarity each; config: centre a b angle round
  *               -> winner: index members
- *  centroid     image; params: centre2_x centre2_y longest min_area -> part: status threshold area x y
- *  disc         image; params: centre2_x centre2_y longest min_area; expected: xc yc a b of one or two discs
- *               -> part: status threshold area x y spread which fill contrast
  *  eigen        matrix (64 bits): a00 a01 a02 a11 a12 a22
  *               -> values: 3, matrix's unit * 2^30; vectors: 3 x 3, Q30; full (64 bits): both unrounded, vectors Q60
  *  undistort    camera: fx fy cx cy k1 k2 p1 p2 k3; points: x y

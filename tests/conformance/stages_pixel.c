@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Adapters of the stages that read an image: smooth to arcs, centroid, disc. */
+/* Adapters of the stages that read an image: smooth to arcs. */
 #include "stage_run.h"
 
 #include <string.h>
@@ -78,21 +78,18 @@ int stage_mask_images(stage_run *r)
     const int32_t *p = stage_input32(r, 0);
     drogue_mask mask;
     uint8_t *ring;
-    uint8_t *disc;
     int32_t x;
     int32_t y;
     if (p[0] < 1 || p[0] > DROGUE_MAX_SIDE || p[1] < 1 || p[1] > DROGUE_MAX_SIDE || !stage_mask(&mask, p + 2)) {
         return CONF_E_MALFORMED;
     }
     ring = stage_output_image(r, "ring", p[0], p[1]);
-    disc = stage_output_image(r, "disc", p[0], p[1]);
-    if (ring == NULL || disc == NULL) {
+    if (ring == NULL) {
         return CONF_E_MEMORY;
     }
     for (y = 0; y < p[1]; y++) {
         for (x = 0; x < p[0]; x++) {
             *ring++ = drogue_mask_in_ring(&mask, x, y) ? 255 : 0;
-            *disc++ = drogue_mask_in_disc(&mask, x, y) ? 255 : 0;
         }
     }
     return 0;
@@ -142,75 +139,6 @@ int stage_arcs(stage_run *r)
         *edges++ = e->y_q5;
         *edges++ = e->gx;
         *edges++ = e->gy;
-    }
-    return 0;
-}
-
-int stage_centroid(stage_run *r)
-{
-    const drogue_image image = stage_input_image(r);
-    const int32_t *p = stage_input32(r, 1);
-    int32_t *out = stage_output32(r, "part", 5);
-    drogue_workspace workspace;
-    drogue_inner_part part;
-    drogue_mask disc;
-    if (!stage_mask(&disc, p) || p[3] < 0) {
-        return CONF_E_MALFORMED;
-    }
-    if (out == NULL || !stage_workspace(r, &workspace, image.width_px)) {
-        return CONF_E_MEMORY;
-    }
-    out[0] = (int32_t)drogue_inner_part_find(&part, &workspace, &image, &disc, (uint32_t)p[3]);
-    out[1] = part.threshold;
-    if (out[0] == DROGUE_OK) {
-        out[2] = (int32_t)part.area_px;
-        out[3] = part.x_px_q16;
-        out[4] = part.y_px_q16;
-    }
-    return 0;
-}
-
-int stage_disc(stage_run *r)
-{
-    const drogue_image image = stage_input_image(r);
-    const int32_t *p = stage_input32(r, 1);
-    const int32_t *w = stage_input32(r, 2);
-    const size_t count = r->in[2].count / 4;
-    int32_t *out = stage_output32(r, "part", 9);
-    drogue_workspace workspace;
-    drogue_inner_part part;
-    drogue_inner_expected expected;
-    drogue_mask disc;
-    uint32_t which;
-    size_t i;
-    if (!stage_mask(&disc, p) || p[3] < 0 || count < 1 || count > 2) {
-        return CONF_E_MALFORMED;
-    }
-    memset(&expected, 0, sizeof expected);
-    expected.count = (uint32_t)count;
-    expected.min_area_px = (uint32_t)p[3];
-    for (i = 0; i < count; i++, w += 4) {
-        expected.disc[i].xc_px_q16 = w[0];
-        expected.disc[i].yc_px_q16 = w[1];
-        expected.disc[i].a_px_q16 = w[2];
-        expected.disc[i].b_px_q16 = w[3];
-        if (w[2] < DROGUE_Q16_ONE || w[2] > DROGUE_Q16(2048, 1) || w[3] < 1 || w[3] > w[2]) {
-            return CONF_E_MALFORMED;
-        }
-    }
-    if (out == NULL || !stage_workspace(r, &workspace, image.width_px)) {
-        return CONF_E_MEMORY;
-    }
-    out[0] = (int32_t)drogue_inner_find(&part, &which, &workspace, &image, &disc, &expected);
-    out[1] = part.threshold;
-    if (out[0] == DROGUE_OK) {
-        out[2] = (int32_t)part.area_px;
-        out[3] = part.x_px_q16;
-        out[4] = part.y_px_q16;
-        out[5] = part.spread_px_q16;
-        out[6] = (int32_t)which;
-        out[7] = drogue_inner_fill(&part, &expected.disc[which]);
-        out[8] = part.contrast;
     }
     return 0;
 }

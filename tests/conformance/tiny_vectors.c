@@ -161,9 +161,7 @@ static void pixel_cases(const conf_array *image)
     static const int32_t canny[] = {40, 100, 1};
     static const int32_t mask[] = {33, 21, 32, 20, 33};
     static const int32_t arcs[] = {40, 100, 1, 1, SIDE - 1, SIDE - 1, SIDE, 10};
-    static const int32_t centroid[] = {SIDE - 1, SIDE - 1, SIDE, 9};
-    static const int32_t expected[] = {47 * ONE, 47 * ONE, 10 * ONE, 9 * ONE, 30 * ONE, 40 * ONE, 10 * ONE, 9 * ONE};
-    conf_array in[3];
+    conf_array in[2];
     in[0] = *image;
     write_case("smooth", in, 1, NULL, 0, 0);
     write_case("gradient", in, 1, NULL, 0, 0);
@@ -174,10 +172,6 @@ static void pixel_cases(const conf_array *image)
     in[0] = *image;
     in[1] = words("params", 32, COUNT(arcs), arcs);
     write_case("arcs", in, 2, NULL, 0, 0);
-    in[1] = words("params", 32, COUNT(centroid), centroid);
-    write_case("centroid", in, 2, "[0, 0, 0, 1, 1]", 3, 1);
-    in[2] = words("expected", 32, COUNT(expected), expected);
-    write_case("disc", in, 3, "[0, 0, 0, 1, 1, 3, 0, 2, 0]", 3, 1);
 }
 
 static void geometry_cases(void)

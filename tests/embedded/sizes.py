@@ -192,7 +192,7 @@ def data_table(ram):
             ('drogue_arc', 'front end', 'a run of edge points of one direction class'),
             ('drogue_outline', 'outline', 'ellipse in Q16 pixels, quality, support by bins'),
             ('drogue_ellipse', 'outline', 'the ideal ellipse, without distortion, Q16 pixels'),
-            ('drogue_inner_evidence', 'inner part', 'centroid in Q16 pixels, its standard deviation, the nearer pose'),
+            ('drogue_inner_evidence', 'inner part', 'centre in Q16 pixels, its standard deviation, the nearer pose'),
             ('drogue_evidence', 'pose', 'both poses of the cone, outline, inner part'),
             ('drogue_decision', 'pose', 'pose in Q16 metres and radians, covariance Q48'),
             ('drogue_result', 'measure', 'all of a frame'),

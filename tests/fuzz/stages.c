@@ -29,8 +29,6 @@ static const struct {
     {"quality", {{"ellipse", 32, 5, 0}, {"points", 32, 2, 1}, {"params", 32, 3, 0}}},
     {"support", {{"ellipse", 32, 5, 0}, {"edges", 32, 4, 1}, {"params", 32, 4, 0}}},
     {"cluster", {{"candidates", 32, 7, 1}, {"config", 32, 5, 0}}},
-    {"centroid", {{"image", 0, 0, 0}, {"params", 32, 4, 0}}},
-    {"disc", {{"image", 0, 0, 0}, {"params", 32, 4, 0}, {"expected", 32, 4, 1}}},
     {"eigen", {{"matrix", 64, 6, 0}}},
     {"undistort", {{"camera", 32, 9, 0}, {"points", 32, 2, 1}}},
     {"pose", {{"ellipse", 32, 5, 0}, {"camera", 32, 9, 0}, {"params", 32, 4, 0}}},

@@ -65,18 +65,16 @@ double canny_difference(const cv::Mat &image, int low, int high, bool smooth)
     return got.empty() ? INFINITY : cv::countNonZero(got != reference::canny(image, low, high, smooth));
 }
 
-/* Pixels of the ring and the disc of a region that differ. */
+/* Pixels of the ring of a region that differ. */
 double mask_difference(cv::Size size)
 {
     const drogue_mask mask = drogue_mask_of_size(size.width, size.height);
     const int longest = std::max(size.width, size.height);
     const cv::Mat ring = reference::ring(size.width, size.height, size.width - 1, size.height - 1, longest);
-    const cv::Mat disc = reference::disc(size.width, size.height, size.width - 1, size.height - 1, longest);
     double different = 0;
     for (int y = 0; y < size.height; y++) {
         for (int x = 0; x < size.width; x++) {
             different += (drogue_mask_in_ring(&mask, x, y) != 0) != (ring.at<std::uint8_t>(y, x) != 0);
-            different += (drogue_mask_in_disc(&mask, x, y) != 0) != (disc.at<std::uint8_t>(y, x) != 0);
         }
     }
     return different;

@@ -28,9 +28,8 @@ cv::Mat smooth(const cv::Mat &image);                                  /* cv::Ga
 void gradient(const cv::Mat &image, cv::Mat &gx, cv::Mat &gy);         /* cv::Sobel, CV_16S, replicate, y down */
 cv::Mat canny(const cv::Mat &image, int low, int high, bool smoothed); /* cv::Canny L1: 0 and 255 */
 
-/* Masks by the inequality on squared distances: 0 and 255. */
+/* Ring mask by the inequality on squared distances: 0 and 255. */
 cv::Mat ring(int width, int height, int centre2_x, int centre2_y, int longest);
-cv::Mat disc(int width, int height, int centre2_x, int centre2_y, int longest);
 
 struct Arc {
     int direction;                 /* class 0..3 */
@@ -39,36 +38,11 @@ struct Arc {
 /* Arcs of an edge map by cv::connectedComponents per direction class, in raster order of their first pixel. */
 std::vector<Arc> arcs(const cv::Mat &edges, const cv::Mat &gx, const cv::Mat &gy);
 
-struct InnerPart {
-    bool found;           /* a component of at least min_area */
-    int threshold;        /* of the levels that maximise the variance the least, exact; 0: fewer than two levels */
-    int threshold_opencv; /* cv::threshold(OTSU) over the disc's pixels, in double */
-    bool opencv_equal;    /* that level has the same variance, or there are fewer than two levels */
-    cv::Mat dark, opened; /* 0 and 255, inside the disc */
-    int area;             /* of the largest component, found or not; 0: none */
-    bool area_unique;     /* no other component is as large */
-    Real x, y;            /* its centroid; of equals the one whose first pixel comes first */
-};
-InnerPart inner_part(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area);
-
 /* --- geometry --- */
 struct Ellipse {
     Real xc, yc, a, b, angle; /* semi-axes a >= b; angle of the major axis in (-pi/2, pi/2] */
     bool ok = true;
 };
-
-struct InnerDisc {
-    bool found;
-    int which;         /* index of the expected disc that fits better */
-    int threshold;     /* of the disc looked in when nothing is found, else of the window about the part */
-    int64_t area;      /* sum of darkness, rounded */
-    Real x, y, spread; /* centroid of darkness, and between those at a lower and a higher threshold */
-    int contrast;      /* between the means above and below the threshold, each rounded down */
-    Real fill;         /* area over that of the expected disc */
-};
-/* The inner disc where one of the expected ones lies, as drogue/inner.h describes it. */
-InnerDisc inner_disc(const cv::Mat &image, int centre2_x, int centre2_y, int longest, int min_area,
-                     const std::vector<Ellipse> &expected);
 
 struct Rect {
     Real xc, yc, shorter, longer;

@@ -59,7 +59,7 @@ class Ellipse:
 
 @dataclass(frozen=True)
 class InnerPart:
-    """Centroid and spread over thresholds in pixels, area in pixels, threshold and contrast in grey levels."""
+    """Centre and root mean square of the rays' residuals in pixels, area in pixels, grey at the edge and step across it."""
     x: float
     y: float
     area: int

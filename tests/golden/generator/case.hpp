@@ -96,8 +96,6 @@ void add_ellipse(Set &set);
 void add_quality(Set &set);
 void add_support(Set &set);
 void add_cluster(Set &set);
-void add_centroid(Set &set);
-void add_disc(Set &set);
 void add_eigen(Set &set);
 void add_undistort(Set &set);
 void add_pose(Set &set);

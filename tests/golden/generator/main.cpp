@@ -147,8 +147,6 @@ int main(int argc, char **argv)
         add_quality(set);
         add_support(set);
         add_cluster(set);
-        add_centroid(set);
-        add_disc(set);
         add_eigen(set);
         add_undistort(set);
         add_pose(set);

@@ -65,10 +65,8 @@ bool valid_mask(const int64_t *p)
 Tiers mask_tier(const Arrays &in, const Arrays &exact)
 {
     const Words &p = in[0].words;
-    const auto mask = [&](auto shape) {
-        return shape(as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]), as_int(p[4]));
-    };
-    return {{image_like(exact[0], mask(reference::ring)), {}}, {image_like(exact[1], mask(reference::disc)), {}}};
+    const cv::Mat ring = reference::ring(as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]), as_int(p[4]));
+    return {{image_like(exact[0], ring), {}}};
 }
 
 /* Across the edge, the vertex of the parabola through the L1 magnitudes of a pixel and its two neighbours, Q5. */
@@ -262,21 +260,6 @@ Tiers cluster_tier(const Arrays &in, const Arrays &exact)
     return {{like(exact[0], {best, members}), {}}};
 }
 
-Tiers centroid_tier(const Arrays &in, const Arrays &exact)
-{
-    const Words &p = in[1].words;
-    if (!valid_mask(&p[0])) {
-        return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0, 0, 0}), {}}};
-    }
-    const reference::InnerPart part =
-        reference::inner_part(image_of(in[0]), as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]));
-    if (!part.found) {
-        return {{like(exact[0], {DROGUE_E_NO_INNER_PART, part.threshold, 0, 0, 0}), {}}};
-    }
-    const Array words = like(exact[0], {DROGUE_OK, part.threshold, part.area, q16(part.x), q16(part.y)});
-    return {{words, bounds("centroid", words)}};
-}
-
 int64_t q30(Real v) { return static_cast<int64_t>(std::floor(v * 0x1p30L + 0.5L)); }
 
 /* How far vector k may turn, of 1, when each entry of the matrix is off by so much. */
@@ -451,16 +434,18 @@ Tiers kalman_tier(const Arrays &in, const Arrays &exact)
 Tiers reference_of(const std::string &stage, const Arrays &inputs, const Arrays &exact)
 {
     using Tier = Tiers (*)(const Arrays &, const Arrays &);
-    static const std::map<std::string, Tier> tiers = {
-        {"smooth", smooth_tier},     {"gradient", gradient_tier}, {"canny", canny_tier},
-        {"mask", mask_tier},         {"arcs", arcs_tier},         {"constraints", constraints_tier},
-        {"ellipse", ellipse_tier},   {"quality", quality_tier},   {"cluster", cluster_tier},
-        {"centroid", centroid_tier}, {"eigen", eigen_tier},       {"undistort", undistort_tier},
-        {"pose", pose_tier},         {"kalman", kalman_tier},     {"frame", frame_tier},
-        {"select", select_tier},     {"support", support_tier},   {"disc", disc_tier},
-        {"joint", joint_tier},       {"decide", decide_tier},     {"look", look_tier},
-        {"rim", rim_tier},           {"search", search_tier},     {"acquire", acquire_tier},
-        {"track", track_tier}};
+    static const std::map<std::string, Tier> tiers = {{"smooth", smooth_tier},       {"gradient", gradient_tier},
+                                                      {"canny", canny_tier},         {"mask", mask_tier},
+                                                      {"arcs", arcs_tier},           {"constraints", constraints_tier},
+                                                      {"ellipse", ellipse_tier},     {"quality", quality_tier},
+                                                      {"cluster", cluster_tier},     {"eigen", eigen_tier},
+                                                      {"undistort", undistort_tier}, {"pose", pose_tier},
+                                                      {"kalman", kalman_tier},       {"frame", frame_tier},
+                                                      {"select", select_tier},       {"support", support_tier},
+                                                      {"joint", joint_tier},         {"decide", decide_tier},
+                                                      {"look", look_tier},           {"rim", rim_tier},
+                                                      {"search", search_tier},       {"acquire", acquire_tier},
+                                                      {"track", track_tier}};
     return tiers.at(stage)(inputs, exact);
 }
 

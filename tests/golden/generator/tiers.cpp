@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The reference tier of arcs selected, of support, of the inner disc and of the joint pose. */
+/* The reference tier of arcs selected, of support and of the joint pose. */
 #include "tiers.hpp"
 
 #include <algorithm>
@@ -149,27 +149,6 @@ Tiers support_tier(const Arrays &in, const Arrays &exact)
             {like(exact[1], bins), bounds("support", like(exact[1], bins), more)},
             {like(exact[2], members), {}},
             {sums, bounds("support", sums, {squares, 0})}};
-}
-
-Tiers disc_tier(const Arrays &in, const Arrays &exact)
-{
-    const Words &p = in[1].words, &w = in[2].words;
-    if (p[2] < 1 || p[2] > 1 << 20 || std::abs(p[0]) > 1 << 15 || std::abs(p[1]) > 1 << 15) {
-        return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0, 0, 0, 0, 0, 0, 0}), {}}};
-    }
-    std::vector<reference::Ellipse> expected;
-    for (size_t i = 0; i < w.size(); i += 4) {
-        expected.push_back({real(w[i]), real(w[i + 1]), real(w[i + 2]), real(w[i + 3]), 0, true});
-    }
-    const reference::InnerDisc d =
-        reference::inner_disc(image_of(in[0]), as_int(p[0]), as_int(p[1]), as_int(p[2]), as_int(p[3]), expected);
-    if (!d.found) {
-        return {{like(exact[0], {DROGUE_E_NO_INNER_PART, d.threshold, 0, 0, 0, 0, 0, 0, 0}), {}}};
-    }
-    /* each centroid is rounded once, their distance twice from those */
-    const Array part = like(exact[0], {DROGUE_OK, d.threshold, d.area, q16(d.x), q16(d.y), q16(d.spread), d.which,
-                                       q16(d.fill), d.contrast});
-    return {{part, bounds("disc", part, {0, 0, 0, 0, 0, 0, 0, std::floor(std::min<Real>(d.fill, 32767)), 0})}};
 }
 
 Tiers joint_tier(const Arrays &in, const Arrays &exact)

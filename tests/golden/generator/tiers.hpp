@@ -39,7 +39,6 @@ reference::Real angle_turn(reference::Real a, reference::Real b, reference::Real
 
 Tiers select_tier(const Arrays &inputs, const Arrays &exact);
 Tiers support_tier(const Arrays &inputs, const Arrays &exact);
-Tiers disc_tier(const Arrays &inputs, const Arrays &exact);
 Tiers joint_tier(const Arrays &inputs, const Arrays &exact);
 Tiers frame_tier(const Arrays &inputs, const Arrays &exact);
 Tiers decide_tier(const Arrays &inputs, const Arrays &exact);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ring and disc masks (include/drogue/mask.h) in Verilog: a pixel a clock in raster order. All in units of half a
-// pixel, squared: ring is longest / 3 to longest / 2 from the centre, disc up to longest / 3.
+// The ring mask (include/drogue/mask.h) in Verilog: a pixel a clock in raster order. All in units of half a pixel,
+// squared: longest / 3 to longest / 2 from the centre.
 module mask (
     input  logic               clk,
     input  logic               start,
@@ -10,8 +10,7 @@ module mask (
     input  logic signed [31:0] centre2_y,
     input  logic        [31:0] longest,
     output logic               valid,
-    output logic         [7:0] ring,
-    output logic         [7:0] disc
+    output logic         [7:0] ring
 );
     logic [15:0] x, y;
     logic signed [63:0] dx, dy, distance, side;
@@ -23,7 +22,6 @@ module mask (
     assign distance = dx * dx + dy * dy;
     assign side = $signed({32'b0, longest}) * $signed({32'b0, longest});
     assign ring = (9 * distance >= 4 * side && distance <= side) ? 8'd255 : 8'd0;
-    assign disc = (9 * distance <= 4 * side) ? 8'd255 : 8'd0;
 
     always_ff @(posedge clk)
         if (start) begin

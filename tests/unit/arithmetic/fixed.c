@@ -99,20 +99,12 @@ static void check_isqrt(uint64_t v)
     MUST(r * r <= (wide128)v && (r + 1) * (r + 1) > (wide128)v, "isqrt %llu", (unsigned long long)v);
 }
 
-static void check_q16_sqrt(int32_t v)
-{
-    wide128 r = drogue_q16_sqrt(v);
-    wide128 four = (wide128)4 * 65536 * (v > 0 ? v : 0);
-    MUST(r >= 0 && (2 * r + 1) * (2 * r + 1) > four && (r == 0 || (2 * r - 1) * (2 * r - 1) <= four), "q16_sqrt %d", v);
-}
-
 START_TEST(edge_values)
 {
     size_t i, j;
     for (i = 0; i < EDGES; i++) {
         check_shift_and_sign(edges64[i]);
         check_isqrt((uint64_t)edges64[i]);
-        check_q16_sqrt((int32_t)edges64[i]);
         MUST(drogue_q16_from_int((int32_t)edges64[i]) == model_sat((wide128)(int32_t)edges64[i] * 65536), "from_int");
         for (j = 0; j < EDGES; j++) {
             check_q16_pair((int32_t)edges64[i], (int32_t)edges64[j]);
@@ -133,7 +125,6 @@ START_TEST(random_values)
         check_integer_division(a, b);
         check_integer_division(a >> 2, (int64_t)(drogue_abs_u64(b) >> 2));
         check_isqrt((uint64_t)a);
-        check_q16_sqrt((int32_t)b);
     }
     for (i = 0; i < RANDOM_CASES / 30; i++) {
         check_shift_and_sign(rng_s64_any_width(&rng));
@@ -209,25 +200,6 @@ START_TEST(atan2_within_2_to_minus_26)
     }
     MUST(worst <= 8.0, "error %.3f of 2^-29 rad", worst);
     ck_assert_int_eq(drogue_atan2_q29(0, 0), 0);
-    ck_assert_int_eq(drogue_q16_atan2(0, 0), 0);
-}
-END_TEST
-
-START_TEST(q16_atan2_within_1_lsb)
-{
-    double worst = 0;
-    uint64_t rng = 4;
-    int32_t i;
-    for (i = 0; i < 1000000; i++) {
-        int32_t y = i < (int32_t)(EDGES * EDGES) ? (int32_t)edges64[(size_t)i / EDGES] : rng_s32_any_width(&rng);
-        int32_t x = i < (int32_t)(EDGES * EDGES) ? (int32_t)edges64[(size_t)i % EDGES] : rng_s32_any_width(&rng);
-        int32_t r = drogue_q16_atan2(y, x);
-        if (x != 0 || y != 0) {
-            worst = fmax(worst, fabs(r - atan2(y, x) * 65536.0));
-        }
-        MUST(r >= -DROGUE_Q16_PI && r <= DROGUE_Q16_PI, "q16_atan2(%d, %d) leaves [-pi, pi]", y, x);
-    }
-    MUST(worst <= 1.0, "error %.3f LSB", worst);
 }
 END_TEST
 
@@ -277,5 +249,4 @@ START_TEST(exp_within_2_to_minus_28)
 END_TEST
 
 SUITE_MAIN("fixed", edge_values, random_values, isqrt_next_to_every_kind_of_square, shift_left_keeps_the_value,
-           constants, atan2_within_2_to_minus_26, q16_atan2_within_1_lsb, sincos_within_2_to_minus_29,
-           exp_within_2_to_minus_28)
+           constants, atan2_within_2_to_minus_26, sincos_within_2_to_minus_29, exp_within_2_to_minus_28)

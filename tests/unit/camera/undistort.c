@@ -175,6 +175,23 @@ static void must_refuse(const drogue_camera *c, double u, double v, int forth)
     MUST(forth || (x == q16_of(u) && y == q16_of(v)), "(%g, %g) changed", u, v);
 }
 
+/* Along one axis the map is steeper than a step can be taken at, along the other it is not: found with half the steps. */
+START_TEST(steep_along_one_axis)
+{
+    drogue_camera c = pinhole(400, 400, 500, 500);
+    int k;
+    c.k1_q16 = q16_of(10);
+    for (k = 0; k < 4; k++) { /* right, down, left, up, 1.5 focal lengths: r (1 + 10 r^2) = 1.5 */
+        const double r = 0.4689206;
+        const double dx = k == 0 ? 1 : k == 2 ? -1 : 0, dy = k == 1 ? 1 : k == 3 ? -1 : 0;
+        drogue_q16 u = q16_of(500 + 600 * dx), v = q16_of(500 + 600 * dy);
+        MUST(drogue_undistort_point(&u, &v, &c) == DROGUE_OK, "direction %d refused", k);
+        MUST(fabs(real_of_q16(u) - 500 - 400 * r * dx) < 0.001 && fabs(real_of_q16(v) - 500 - 400 * r * dy) < 0.001,
+             "direction %d: (%g, %g)", k, real_of_q16(u), real_of_q16(v));
+    }
+}
+END_TEST
+
 START_TEST(outside_the_domain)
 {
     drogue_camera c = pinhole(1000, 1000, 500, 500), bad;
@@ -195,6 +212,10 @@ START_TEST(outside_the_domain)
     must_refuse(&bad, 500 + 700, 500, 0);
     must_refuse(&bad, 500 + 600, 500 + 600, 0);
     bad = c;
+    bad.k1_q16 = q16_of(-240); /* where it is seen the map slopes by 1 along both axes, but by 160 across */
+    bad.k2_q16 = q16_of(80);
+    must_refuse(&bad, 500 + 1000, 500 + 1000, 0);
+    bad = c;
     bad.k3_q16 = INT32_MAX; /* the result leaves Q16 */
     must_refuse(&bad, 500 + 3900, 500 + 3900, 1);
     bad.k1_q16 = bad.k2_q16 = bad.p1_q16 = bad.p2_q16 = bad.k3_q16 = INT32_MIN;
@@ -203,5 +224,41 @@ START_TEST(outside_the_domain)
 }
 END_TEST
 
+/* Lenses that fold so steeply that a step across the fold lands where one derivative is below -128: the ideal point before
+ * the fold is found all the same. */
+START_TEST(a_steep_fold_is_not_crossed)
+{
+    static const struct {
+        drogue_q16 k[3], p[2], u, v;
+    } cases[] = {{{8264599, -6067752, -8872191}, {-166066, -70583}, 117226882, 36245031},
+                 {{3921555, -3426275, -2741061}, {-239682, 201834}, 125628358, 25757786},
+                 {{6281613, -7091004, -399828}, {-36415, 49465}, -14799002, 32130754},
+                 {{3662426, -707844, -3335528}, {-98740, 21478}, -66034060, 27006626}};
+    size_t i;
+    int k;
+    for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        drogue_camera c = pinhole(400, 400, 500, 500);
+        drogue_q16 u = cases[i].u, v = cases[i].v;
+        long double d[2], j[4], x, y;
+        c.k1_q16 = cases[i].k[0];
+        c.k2_q16 = cases[i].k[1];
+        c.k3_q16 = cases[i].k[2];
+        c.p1_q16 = cases[i].p[0];
+        c.p2_q16 = cases[i].p[1];
+        MUST(drogue_undistort_point(&u, &v, &c) == DROGUE_OK, "case %d refused", (int)i);
+        x = ((long double)u - c.cx_px_q16) / c.fx_px_q16;
+        y = ((long double)v - c.cy_px_q16) / c.fy_px_q16;
+        for (k = 0; k <= 1000; k++) {
+            model_distort(d, j, &c, x * k / 1000, y * k / 1000);
+            MUST(j[0] > 0 && j[3] > 0 && j[0] * j[3] > j[1] * j[2], "case %d: folded before (%d, %d)", (int)i, (int)u,
+                 (int)v);
+        }
+        MUST(hypotl(d[0] * c.fx_px_q16 + c.cx_px_q16 - cases[i].u, d[1] * c.fy_px_q16 + c.cy_px_q16 - cases[i].v) <
+                 2 * (j[0] + j[3]),
+             "case %d: (%d, %d) is seen elsewhere", (int)i, (int)u, (int)v);
+    }
+}
+END_TEST
+
 SUITE_MAIN("undistort", usual_cameras, long_focal_lengths, no_distortion_is_the_identity, any_coefficient_distorts,
-           outside_the_domain)
+           steep_along_one_axis, outside_the_domain, a_steep_fold_is_not_crossed)

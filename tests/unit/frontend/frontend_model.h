@@ -7,6 +7,9 @@
 
 #include "drogue/frontend.h"
 
+/* Verdict of suppression and thresholds. */
+enum { VERDICT_NONE = 0, VERDICT_WEAK = 1, VERDICT_STRONG = 2 };
+
 /* What two passes over a stored image give. */
 typedef struct model {
     int32_t width, height;
@@ -66,16 +69,17 @@ static inline void model_verdicts(model *m, const uint8_t *pixels, const drogue_
         rows[0] = y > 0 ? magnitude + (y - 1) * m->width : (const uint16_t *)(const void *)zero;
         rows[1] = magnitude + y * m->width;
         rows[2] = y + 1 < m->height ? magnitude + (y + 1) * m->width : (const uint16_t *)(const void *)zero;
-        drogue_canny_row(m->verdict + y * m->width, rows, gx + y * m->width, gy + y * m->width, m->width,
-                         config->canny_low, config->canny_high);
         for (x = 0; x < m->width; x++) {
             int32_t at = y * m->width + x, before, after, offset;
             drogue_sector sector = drogue_canny_sector(gx[at], gy[at]);
             drogue_canny_neighbours(&before, &after, sector, rows, x, m->width);
+            if (rows[1][x] > config->canny_low && drogue_canny_is_maximum(sector, before, rows[1][x], after)) {
+                m->verdict[at] = rows[1][x] > config->canny_high ? VERDICT_STRONG : VERDICT_WEAK;
+            }
             offset = drogue_canny_offset_q5(before, rows[1][x], after);
             m->edge[at].gx = gx[at];
             m->edge[at].gy = gy[at];
-            if (m->verdict[at] != DROGUE_CANNY_NONE) {
+            if (m->verdict[at] != VERDICT_NONE) {
                 m->edge[at].x_q5 = (uint16_t)(32 * x + drogue_canny_step_x(sector) * offset);
                 m->edge[at].y_q5 = (uint16_t)(32 * y + drogue_canny_step_y(sector) * offset);
                 if (!config->use_ring || drogue_mask_in_ring(&config->ring, x, y)) {
@@ -126,7 +130,7 @@ static inline model model_of(const uint8_t *pixels, int32_t width, int32_t heigh
     length = pixels_of(&m, sizeof *length);
     model_verdicts(&m, pixels, config);
     for (i = 0; i < width * height; i++) {
-        candidate[i] = m.verdict[i] != DROGUE_CANNY_NONE;
+        candidate[i] = m.verdict[i] != VERDICT_NONE;
     }
     for (i = 0; i < width * height; i++) {
         if (candidate[i] && mark[i] == 0) {
@@ -138,7 +142,7 @@ static inline model model_of(const uint8_t *pixels, int32_t width, int32_t heigh
         }
     }
     for (i = 0; i < width * height; i++) {
-        strong[mark[i]] |= m.verdict[i] == DROGUE_CANNY_STRONG; /* components are fewer than pixels */
+        strong[mark[i]] |= m.verdict[i] == VERDICT_STRONG; /* components are fewer than pixels */
     }
     for (i = 0; i < width * height; i++) {
         m.alive[i] = candidate[i] && strong[mark[i]];

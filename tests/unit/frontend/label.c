@@ -2,11 +2,11 @@
 /* One-pass labelling against flood fill: same partition, roots in raster order, nothing written beyond the tables. */
 #include "suite.h"
 
-#include "drogue/label.h"
+#include "../../../src/frontend/label_pass.h"
 
 typedef struct labelling {
     int32_t width, height;
-    guarded code, labels, model, parent, merges, zeros, points;
+    guarded code, labels, model, parent, merges, zeros;
     drogue_labels state;
 } labelling;
 
@@ -22,7 +22,6 @@ static labelling labelling_of_size(int32_t width, int32_t height, uint32_t capac
     t.parent = guarded_alloc(capacity * sizeof(uint32_t));
     t.merges = guarded_alloc((size_t)width * sizeof(drogue_merge));
     t.zeros = guarded_alloc((size_t)width * sizeof(uint32_t));
-    t.points = guarded_alloc((size_t)width * sizeof(drogue_slope));
     memset(t.labels.data, 0, t.labels.bytes);
     memset(t.zeros.data, 0, t.zeros.bytes);
     memset(t.code.data, 0, t.code.bytes);
@@ -38,30 +37,30 @@ static void labelling_free(labelling *t)
     guarded_free(&t->parent);
     guarded_free(&t->merges);
     guarded_free(&t->zeros);
-    guarded_free(&t->points);
 }
 
+/* As the front end labels: a row's pixels by the parents of the row above, then the merges that they brought. */
 static void run_rows(labelling *t, uint8_t mask)
 {
     const uint8_t *code = t->code.data;
     uint32_t *labels = t->labels.data;
     const uint32_t *parent = t->parent.data;
-    drogue_slope *points = t->points.data;
     int32_t x, y;
-    uint32_t i, count;
+    uint32_t i;
     for (y = 0; y < t->height; y++) {
-        for (x = 0, count = 0; x < t->width; x++) {
-            if (code[y * t->width + x] != 0) {
-                points[count++].x = (uint16_t)x;
+        const uint8_t *code_row = code + y * t->width, *code_above = y ? code_row - t->width : t->zeros.data;
+        uint32_t *row = labels + y * t->width;
+        drogue_label_pass p =
+            drogue_label_pass_of(&t->state, row, y ? row - t->width : t->zeros.data, t->merges.data, 1, t->width, mask);
+        for (x = 0; x < t->width; x++) {
+            if ((code_row[x] & mask) != 0) {
+                (void)drogue_label_pixel(&p, &t->state, code_row, code_above, x);
             }
         }
-        drogue_label_points(labels + y * t->width, &t->state, t->merges.data,
-                            y ? labels + (y - 1) * t->width : t->zeros.data, code + y * t->width,
-                            y ? code + (y - 1) * t->width : t->zeros.data, mask, t->width, points, count);
+        drogue_labels_resolve(t->parent.data, t->merges.data, (uint32_t)(p.merge - (drogue_merge *)t->merges.data));
         for (x = 0; x < t->width; x++) {
-            uint32_t label = labels[y * t->width + x];
-            MUST(label < t->state.count && (label == 0 || parent[label] == label), "row %d, x %d: label is no root", y,
-                 x);
+            MUST(row[x] < t->state.count && parent[parent[row[x]]] == parent[row[x]], "row %d, x %d: parent is no root",
+                 y, x);
         }
     }
     MUST(guarded_intact(&t->merges), "merge table overrun, width %d", t->width);
@@ -305,5 +304,28 @@ START_TEST(capacity_of_one_gives_no_label)
 }
 END_TEST
 
+/* A pixel takes a label of one of its neighbours, and says which other one is the same component. */
+START_TEST(a_label_of_every_neighbourhood)
+{
+    int i;
+    for (i = 0; i < 256; i++) {
+        const uint32_t above = (uint32_t)i & 3u, left = (uint32_t)i >> 2 & 3u, above_left = (uint32_t)i >> 4 & 3u,
+                       above_right = (uint32_t)i >> 6;
+        uint32_t other = 99;
+        const uint32_t label = drogue_label_choose(&other, above, left, above_left, above_right);
+        const int before = left != 0 || above_left != 0;
+        MUST((label == 0) == (above == 0 && !before && above_right == 0), "%d: label %u", i, (unsigned)label);
+        MUST(label == 0 || label == above || label == left || label == above_left || label == above_right,
+             "%d: %u is no neighbour's", i, (unsigned)label);
+        if (above != 0 || !before || above_right == 0) { /* those that there are touch each other */
+            MUST(other == 0 && (above == 0 || label == above), "%d: %u and %u", i, (unsigned)label, (unsigned)other);
+        } else { /* what is to the left, and what is above right */
+            MUST((label == left || label == above_left) && other == (label == above_right ? 0 : above_right),
+                 "%d: %u and %u", i, (unsigned)label, (unsigned)other);
+        }
+    }
+}
+END_TEST
+
 SUITE_MAIN("label", random_maps, every_small_map, spirals, combs, chequers_of_two_keys,
-           isolated_points_need_a_label_each, capacity_of_one_gives_no_label)
+           isolated_points_need_a_label_each, capacity_of_one_gives_no_label, a_label_of_every_neighbourhood)

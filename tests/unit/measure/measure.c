@@ -247,6 +247,10 @@ START_TEST(arguments)
     ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &bad_image, &whole),
                      DROGUE_E_ARGUMENT);
     bad_image = image;
+    bad_image.width_px = 0;
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &bad_image, &whole),
+                     DROGUE_E_ARGUMENT);
+    bad_image = image;
     bad_image.height_px = 0;
     ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &bad_image, &whole),
                      DROGUE_E_ARGUMENT);
@@ -279,6 +283,8 @@ START_TEST(regions_that_miss)
                                         {0, -10, 10, 10},
                                         {INT32_MAX, 0, 10, 10},
                                         {INT32_MIN, INT32_MIN, 10, 10},
+                                        {0, INT32_MAX, 10, 10},
+                                        {0, INT32_MIN, 10, 10},
                                         {0, 0, INT32_MAX, 10},
                                         {0, 0, 10, INT32_MAX},
                                         {0, 0, DROGUE_MAX_REGION + 1, 10},
@@ -291,6 +297,37 @@ START_TEST(regions_that_miss)
     for (i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         MUST(measure(&r, &t, &config, &model, &bad[i]) == DROGUE_E_REGION, "region %d: %s", (int)i,
              drogue_status_name(r.status));
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* Coordinates are Q16: what lies beyond 32767 px of an image is no region, and what lies before is one. */
+START_TEST(images_beyond_the_coordinates)
+{
+    enum { LONG = 32900, SHORT = 60 };
+    static uint8_t flat[LONG * SHORT];
+    static const drogue_image wide = {flat, LONG, SHORT, LONG}, high = {flat, SHORT, LONG, SHORT};
+    test_workspace t = usual_workspace();
+    const drogue_camera camera = the_camera();
+    drogue_config config;
+    drogue_result r;
+    int32_t end;
+    drogue_config_default(&config);
+    for (end = INT16_MAX - 1; end <= INT16_MAX + 1; end++) {
+        const drogue_region right = {end - 50, 0, 50, 50}, low = {0, end - 50, 50, 50};
+        const drogue_status want = end > INT16_MAX ? DROGUE_E_REGION : DROGUE_E_NO_EDGES;
+        ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &wide, &right),
+                         want);
+        ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &high, &low),
+                         want);
+    }
+    { /* nor are parts of them that are too long to be measured */
+        const drogue_region across = {0, 0, DROGUE_MAX_SIDE + 1, 50}, down = {0, 0, 50, DROGUE_MAX_SIDE + 1};
+        ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &wide, &across),
+                         DROGUE_E_REGION);
+        ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &config}, &high, &down),
+                         DROGUE_E_REGION);
     }
     test_workspace_free(&t);
 }
@@ -717,7 +754,8 @@ START_TEST(capacity_by_macro_is_capacity_by_function)
 END_TEST
 
 SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline, without_inner_part, regions_of_one_image,
-           ring_of_a_clipped_region, arguments, regions_that_miss, full_tables, nothing_to_measure,
-           geometry_out_of_range, inner_part_that_cannot_decide, inner_part_that_contradicts, covariance_of_the_result,
-           off_centre_region, second_look_that_fails, second_look_is_told, background_across_the_canopys_grey,
-           outline_across_a_fold, version_is_the_macros, capacity_by_macro_is_capacity_by_function)
+           ring_of_a_clipped_region, arguments, regions_that_miss, images_beyond_the_coordinates, full_tables,
+           nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide, inner_part_that_contradicts,
+           covariance_of_the_result, off_centre_region, second_look_that_fails, second_look_is_told,
+           background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
+           capacity_by_macro_is_capacity_by_function)

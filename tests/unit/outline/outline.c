@@ -279,6 +279,42 @@ START_TEST(bump_drops_out_of_the_band)
 }
 END_TEST
 
+/* Points as far apart as the band is wide, each of them twice, so that every second one shows the same ellipse: that it
+ * does not change with those that were looked at is no reason not to collect all. */
+START_TEST(all_points_are_collected)
+{
+    const ellipse_real e = {127, 127, 100, 90, 0.3};
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    const drogue_config c = plain_config();
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+    static drogue_edge twice[MOST];
+    drogue_outline out;
+    uint32_t i, n = 0;
+    for (i = 0; i < list.arc_count; i++) {
+        drogue_arc *arc = &t.workspace.arcs[i];
+        const uint32_t first = n;
+        uint32_t k;
+        for (k = 0; k < arc->count; k += 2) { /* in turn 1.2 px outward and inward */
+            drogue_edge p = t.workspace.edges[arc->first + k];
+            const double off = (k % 4 < 2 ? 38.4 : -38.4) / hypot(p.gx, p.gy);
+            p.x_q5 = (uint16_t)(p.x_q5 + lround(off * p.gx));
+            p.y_q5 = (uint16_t)(p.y_q5 + lround(off * p.gy));
+            twice[n++] = p;
+            twice[n++] = p;
+        }
+        arc->first = first;
+        arc->count = n - first;
+    }
+    memcpy(t.workspace.edges, twice, n * sizeof twice[0]);
+    list.edge_count = n;
+    ck_assert(n >= 512 && n < 1024); /* of so many every second one is looked at */
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    ck_assert_uint_eq(out.refit_points, n);
+    test_workspace_free(&t);
+}
+END_TEST
+
 START_TEST(thresholds_decide)
 {
     test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
@@ -427,6 +463,90 @@ START_TEST(undistorted_without_points)
 }
 END_TEST
 
+/* A lens may take a wide outline to less than a pixel: none, either. */
+START_TEST(undistorted_to_less_than_a_pixel)
+{
+    enum { SMALL = 34 };
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SMALL, SMALL);
+    const ellipse_real e = {16.5, 16.5, 14, 13.5, 0};
+    drogue_camera camera = pinhole(3.7, 3.7, 16.5, 16.5);
+    drogue_config c = plain_config();
+    drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+    drogue_ellipse ideal;
+    drogue_outline out;
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    camera.k1_q16 = q16_of(100); /* to 1.2 px */
+    ck_assert_int_eq(
+        drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &(drogue_setup){&camera, NULL, &c}, 0, 0),
+        DROGUE_OK);
+    camera.k1_q16 = q16_of(256); /* 0.89 px */
+    ck_assert_int_eq(
+        drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &(drogue_setup){&camera, NULL, &c}, 0, 0),
+        DROGUE_E_DEGENERATE);
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* What the lens model makes too flat of a round outline is none. */
+START_TEST(undistorted_to_a_flat_one)
+{
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    const ellipse_real e = {127, 128, 100, 80, 0};
+    const drogue_camera camera = pinhole(400, 400, 127, 128);
+    drogue_config c = plain_config();
+    drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+    drogue_ellipse ideal;
+    drogue_outline out;
+    ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+    c.min_axis_ratio_q16 = DROGUE_Q16(79, 100);
+    ck_assert_int_eq(
+        drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &(drogue_setup){&camera, NULL, &c}, 0, 0),
+        DROGUE_OK);
+    c.min_axis_ratio_q16 = DROGUE_Q16(81, 100);
+    ck_assert_int_eq(
+        drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &(drogue_setup){&camera, NULL, &c}, 0, 0),
+        DROGUE_E_DEGENERATE);
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* An arc of more points than moments hold is noise: the outline is found without it. */
+START_TEST(an_arc_of_too_many_points)
+{
+    enum { NOISE = DROGUE_MAX_FIT_POINTS / 4 + 1 };
+    const ellipse_real e = {127, 128, 100, 90, 0.4};
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    const drogue_config c = plain_config();
+    test_workspace t = test_workspace_of(SIDE, MOST + NOISE, 4096, 64);
+    static drogue_edge many[NOISE];
+    uint32_t n;
+    for (n = NOISE - 1; n <= NOISE; n++) {
+        drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+        const uint32_t index = list.arc_count - 1;
+        drogue_arc *last = &t.workspace.arcs[index];
+        drogue_outline out;
+        uint32_t i;
+        int used = 0;
+        for (i = 0; i < n; i++) { /* the same points over and over, in their order */
+            many[i] = t.workspace.edges[last->first + (uint64_t)i * last->count / n];
+        }
+        memcpy(t.workspace.edges + last->first, many, n * sizeof many[0]);
+        last->count = n;
+        list.edge_count = last->first + n;
+        ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+        for (i = 0; i < 4; i++) {
+            used |= out.arcs[i] == index;
+        }
+        MUST(used == (n < NOISE), "%u points: used %d", (unsigned)n, used);
+        MUST(apart(&out.ellipse, &e) < 0.5, "%u points: %g px off", (unsigned)n, apart(&out.ellipse, &e));
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
 SUITE_MAIN("outline", whole_ellipses_of_both_polarities, foreign_arc_is_left_out, second_choice_of_every_quadrant,
-           outline_of_mixed_polarity, bump_drops_out_of_the_band, thresholds_decide,
-           cover_is_the_share_of_the_circumference, nothing_to_find, distortion_is_removed, undistorted_without_points)
+           outline_of_mixed_polarity, bump_drops_out_of_the_band, all_points_are_collected, thresholds_decide,
+           cover_is_the_share_of_the_circumference, nothing_to_find, distortion_is_removed, undistorted_without_points,
+           undistorted_to_a_flat_one, undistorted_to_less_than_a_pixel, an_arc_of_too_many_points)

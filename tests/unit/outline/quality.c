@@ -280,6 +280,11 @@ START_TEST(score_at_the_ends)
     drogue_quality_score(&q, &flat, 0, 1, &c);
     ck_assert_int_le(q.score_q16 - q.length_ratio_q16 / 2, 1);        /* at k2 the axis ratio earns nothing */
     ck_assert_int_eq(drogue_quality_threshold(&circle, 65536), 1311); /* 2 / 100 */
+    {                                                                 /* what is no ellipse is longer than anything */
+        const drogue_ellipse inward[2] = {{0, 0, -1, 65536, 0}, {0, 0, 65536, -1, 0}};
+        ck_assert_int_eq(drogue_ellipse_circumference(&inward[0]), DROGUE_Q16_MAX);
+        ck_assert_int_eq(drogue_ellipse_circumference(&inward[1]), DROGUE_Q16_MAX);
+    }
 }
 END_TEST
 

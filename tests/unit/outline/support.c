@@ -349,6 +349,24 @@ START_TEST(sums)
 }
 END_TEST
 
+/* The harmonics of a bin's middle: 1, cos, sin, cos of twice and sin of twice its angle. */
+START_TEST(basis_of_every_bin)
+{
+    uint32_t k;
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        const double t = 2 * TEST_PI * (k + 0.5) / DROGUE_SUPPORT_BINS;
+        const double want[5] = {1, cos(t), sin(t), cos(2 * t), sin(2 * t)};
+        int64_t basis_q30[5];
+        int i;
+        drogue_support_basis(basis_q30, k);
+        for (i = 0; i < 5; i++) {
+            MUST(fabs((double)basis_q30[i] - ldexp(want[i], 30)) <= 3, "bin %u, harmonic %d: %lld", (unsigned)k, i,
+                 (long long)basis_q30[i]);
+        }
+    }
+}
+END_TEST
+
 SUITE_MAIN("support", bins_of_random_directions, bins_of_axes_and_diagonals, bins_are_alike, counts_against_brute_force,
            outlines_of_one_polarity, outlines_of_two_halves, random_polarity_is_penalised, partial_outlines,
-           thin_outlines_cover_nothing, sums)
+           thin_outlines_cover_nothing, sums, basis_of_every_bin)

@@ -169,4 +169,38 @@ START_TEST(no_covariance)
 }
 END_TEST
 
-SUITE_MAIN("decide", the_right_pose_from_both_sides, outline_alone, contradiction, head_on, no_covariance)
+/* Farther away than numbers go: from the nearer start at once, from the other one after its first step. The outline's
+ * own pose stands, and nothing is decided. */
+START_TEST(solutions_that_leave_the_numbers)
+{
+    const pose_real far = {{0, 0, 33500, 0.2, 0.1}};
+    uint64_t rng = 12;
+    field f = usual_field();
+    drogue_joint_outline outline;
+    drogue_joint joint;
+    seen s;
+    int k;
+    f.model.rim_radius_m_q16 = 2000 * 65536;
+    f.model.inner_radius_m_q16 = 1000 * 65536;
+    f.model.inner_depth_m_q16 = 500 * 65536;
+    ck_assert_int_eq(look_at(&s, &f, &far, &rng), 0); /* no pose of it: */
+    for (k = 0; k < 2; k++) {
+        s.evidence.poses[k].position_m_q16[2] = (k == 0 ? 32760 : 20000) * 65536;
+        s.evidence.poses[k].yaw_rad_q16 = q16_of(0.2);
+        s.evidence.poses[k].pitch_rad_q16 = q16_of(0.1);
+    }
+    outline.ellipse = s.evidence.ideal;
+    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s.support, 0, 0), DROGUE_OK);
+    for (k = 1; k <= 5; k += 4) {
+        MUST((drogue_joint_solve(&joint, &s.evidence.poses[1], &outline, &s.evidence.inner, &f.camera, &f.model, k) ==
+              DROGUE_OK) == (k == 1),
+             "%d steps", k);
+    }
+    ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
+    ck_assert_int_eq(s.result.orientation_resolved, 0);
+    ck_assert_int_le(abs(s.result.pose.position_m_q16[2] - 32760 * 65536), 1);
+}
+END_TEST
+
+SUITE_MAIN("decide", the_right_pose_from_both_sides, outline_alone, contradiction, head_on, no_covariance,
+           solutions_that_leave_the_numbers)

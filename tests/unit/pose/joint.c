@@ -5,6 +5,8 @@
 #include "drogue/joint.h"
 #include "joint_model.h"
 
+#include "../../../src/pose/joint_model.h"
+
 /* What the pose shows, exact but for the rounding to Q16; offsets known to 1 / 10 px over 200 points. */
 static int measurement_of(drogue_joint_outline *outline, drogue_joint_inner *inner, drogue_pose poses[2],
                           const field *f, const pose_real *p)
@@ -331,6 +333,71 @@ START_TEST(what_cannot_be_solved)
 }
 END_TEST
 
+/* Angles that are none, of the start and of the ellipse; a solution that leaves the numbers of metres. */
+START_TEST(outside_the_domain)
+{
+    field f = usual_field();
+    const pose_real p = {{0.5, 0.2, 5, 0.2, 0.1}};
+    drogue_joint_outline outline, turned;
+    drogue_joint_inner inner;
+    drogue_pose poses[2], start;
+    drogue_joint joint;
+    int side;
+    ck_assert(measurement_of(&outline, &inner, poses, &f, &p));
+    start = poses[0];
+    for (side = -1; side <= 1; side += 2) {
+        start = poses[0];
+        start.yaw_rad_q16 = side * (DROGUE_Q16_PI + 1);
+        ck_assert_int_eq(drogue_joint_solve(&joint, &start, &outline, &inner, &f.camera, &f.model, 5), DROGUE_E_DOMAIN);
+        start = poses[0];
+        start.pitch_rad_q16 = side * (DROGUE_Q16_HALF_PI + 1);
+        ck_assert_int_eq(drogue_joint_solve(&joint, &start, &outline, &inner, &f.camera, &f.model, 5), DROGUE_E_DOMAIN);
+    }
+    turned = outline;
+    turned.ellipse.angle_rad_q16 = 2 * 65536;
+    ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &turned, &inner, &f.camera, &f.model, 5), DROGUE_E_DOMAIN);
+    f.model.rim_radius_m_q16 =
+        2000 * 65536; /* of a drogue 32,850 m away, or as much to the left, from the nearest start */
+    f.model.inner_radius_m_q16 = 1000 * 65536;
+    f.model.inner_depth_m_q16 = 500 * 65536;
+    for (side = 0; side < 2; side++) {
+        const pose_real far = {{side ? -32850 : 0, 0, side ? 30000 : 32850, 0.2, 0.1}};
+        field wide = f;
+        wide.camera = side ? pinhole(500, 500, 1000, 1000) : f.camera;
+        ck_assert(measurement_of(&outline, &inner, poses, &wide, &far) == 0);
+        memset(&start, 0, sizeof start);
+        start.position_m_q16[0] = q16_of(side ? -32760 : 0);
+        start.position_m_q16[2] = q16_of(side ? 30000 : 32760);
+        start.yaw_rad_q16 = q16_of(0.2);
+        start.pitch_rad_q16 = q16_of(0.1);
+        ck_assert_int_eq(drogue_joint_solve(&joint, &start, &outline, &inner, &wide.camera, &wide.model, 5),
+                         DROGUE_E_DOMAIN);
+        MUST(joint.pose.position_m_q16[side ? 0 : 2] == (side ? DROGUE_Q16_MIN : DROGUE_Q16_MAX), "not saturated");
+    }
+}
+END_TEST
+
+/* A position finer than the finest scale comes to that scale, and stays where it is. */
+START_TEST(finest_scale)
+{
+    int scale;
+    for (scale = -12; scale <= 0; scale++) {
+        drogue_joint_state s;
+        memset(&s, 0, sizeof s);
+        s.scale = scale;
+        s.position_q30[0] = -(1 << 20);
+        s.position_q30[1] = 3 << 19;
+        s.position_q30[2] = 1 << 24;
+        drogue_joint_rescale(&s);
+        MUST(s.scale == (scale - 5 > -8 ? scale - 5 : -8), "scale %d from %d", s.scale, scale);
+        MUST(ldexp(s.position_q30[2], s.scale) == ldexp(1 << 24, scale) &&
+                 ldexp(s.position_q30[0], s.scale) == ldexp(-(1 << 20), scale) &&
+                 ldexp(s.position_q30[1], s.scale) == ldexp(3 << 19, scale),
+             "moved from scale %d", scale);
+    }
+}
+END_TEST
+
 /* Image of the inner disc as computed in double. */
 START_TEST(image_of_the_inner_disc)
 {
@@ -428,4 +495,4 @@ END_TEST
 
 SUITE_MAIN("joint", exact_data_gives_the_exact_pose_from_both_starts, outline_alone_stays_where_the_cone_puts_it,
            covariance_against_the_cone, covariance_with_the_inner_part, head_on, what_cannot_be_solved,
-           image_of_the_inner_disc, any_bits)
+           outside_the_domain, finest_scale, image_of_the_inner_disc, any_bits)

@@ -172,6 +172,15 @@ START_TEST(degenerate_support)
     s = support_of(32);
     s.bright_bins = UINT32_MAX; /* the points are of the other polarity */
     ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+    { /* six bins side by side, nearly all points in one: too little for five parameters */
+        static const uint32_t count[6] = {2120, 9334, 69, 6, 29922, 3};
+        memset(&s, 0, sizeof s);
+        s.gradient = 1000;
+        for (k = 0; k < 6; k++) {
+            s.bin[9 + k].count[0] = count[k];
+        }
+        ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+    }
     s = support_of(6); /* the most points that one bin's sum can hold, all at the end of their range */
     for (k = 0; k < 6; k++) {
         s.bin[5 * k].count[0] = 1u << 15;

@@ -163,6 +163,17 @@ START_TEST(outside_the_domain)
     e.a_px_q16 = e.b_px_q16 = 65536; /* one pixel: 1000 radii away */
     ck_assert_int_eq(drogue_pose_from_ellipse(p, &e, &camera, 32 * 65536), DROGUE_OK);
     ck_assert_int_eq(drogue_pose_from_ellipse(p, &e, &camera, 33 * 65536), DROGUE_E_DOMAIN);
+    e.xc_px_q16 = camera.cx_px_q16; /* next to a line: the lesser square is nothing beside the larger one */
+    e.yc_px_q16 = camera.cy_px_q16;
+    e.a_px_q16 = 400 * 65536;
+    e.b_px_q16 = 1;
+    e.angle_rad_q16 = 0;
+    ck_assert_int_eq(drogue_pose_from_ellipse(p, &e, &camera, 65536), DROGUE_E_DOMAIN);
+    { /* so far off the axis in one direction that beside it the one before the camera is nothing */
+        const drogue_camera narrow = {3, 888, -1, 0, 0, 0, 0, 0, 0};
+        const drogue_ellipse wide = {119, -1, 37139756, 530871, 85989};
+        ck_assert_int_eq(drogue_pose_from_ellipse(p, &wide, &narrow, 65536), DROGUE_E_DOMAIN);
+    }
 }
 END_TEST
 
@@ -280,8 +291,27 @@ START_TEST(choice_by_the_inner_centre)
     ck_assert_int_eq(choice.ambiguity_q16, 65536);
     p[1] = pose_at(5, TEST_PI, 0); /* its inner centre at z = -1 */
     ck_assert_int_eq(drogue_choose_pose(&choice, p, x[0], y[0], 6 * 65536, &camera), DROGUE_E_BEHIND_CAMERA);
+    p[1].axis_q16[2] = -65536; /* exactly in the camera's plane, then next to it */
+    ck_assert_int_eq(drogue_project_axis_point(&x[0], &y[0], &p[1], 5 * 65536, &camera), DROGUE_E_BEHIND_CAMERA);
+    ck_assert_int_eq(drogue_project_axis_point(&x[0], &y[0], &p[1], 5 * 65536 - 1, &camera), DROGUE_OK);
+}
+END_TEST
+
+START_TEST(ranges_of_the_angles)
+{
+    const drogue_q16 half = DROGUE_Q16_HALF_PI, pi = DROGUE_Q16_PI;
+    const drogue_q16 cases[][2] = {{0, 0},       {pi, half},    {-pi, -half},  {pi + 1, 0},
+                                   {-pi - 1, 0}, {0, half + 1}, {0, -half - 1}};
+    size_t i;
+    for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        drogue_pose p;
+        memset(&p, 0, sizeof p);
+        p.yaw_rad_q16 = cases[i][0];
+        p.pitch_rad_q16 = cases[i][1];
+        MUST(drogue_pose_angles_valid(&p) == (i < 3), "case %d", (int)i);
+    }
 }
 END_TEST
 
 SUITE_MAIN("pose", circles_over_distance_and_tilt, random_circles, head_on_has_one_pose, outside_the_domain, any_bits,
-           projection_within_2_lsb, choice_by_the_inner_centre)
+           projection_within_2_lsb, choice_by_the_inner_centre, ranges_of_the_angles)

@@ -379,5 +379,33 @@ START_TEST(standard_deviations_in_q32)
 }
 END_TEST
 
+/* Where the covariance is none, as rounding or a caller may make it, the diagonal alone counts. */
+START_TEST(distance_by_a_false_covariance)
+{
+    const drogue_q16 value[PARAMETERS] = {0, 0, 0, 0, 0}, at[PARAMETERS] = {131072, 65536, 0, 0, 0};
+    drogue_q16 std[PARAMETERS][3];
+    drogue_real noise[DROGUE_PACKED_MAX], d;
+    drogue_kalman filter;
+    int i;
+    for (i = 0; i < PARAMETERS; i++) {
+        std[i][0] = std[i][1] = std[i][2] = 65536;
+    }
+    drogue_kalman_init(&filter, value, (const drogue_q16(*)[3])std);
+    for (i = 0; i < DROGUE_PACKED_MAX; i++) {
+        drogue_real_set(&noise[i], 0, 0);
+    }
+    for (i = 0; i < PARAMETERS; i++) {
+        drogue_real_set(&noise[DROGUE_PACKED(i, i)], 1, 0);
+    }
+    drogue_real_set(&noise[DROGUE_PACKED(1, 0)], 1, 0); /* of 2: 0.5 */
+    drogue_kalman_distance2(&d, &filter, at, noise, PARAMETERS);
+    MUST(fabs(ldexp(d.mantissa, d.exponent) - 2) < 1e-6, "%g",
+         ldexp(d.mantissa, d.exponent));                /* (2 4 - 2 2 + 2 1) / 3 */
+    drogue_real_set(&noise[DROGUE_PACKED(1, 0)], 3, 0); /* of 2: none */
+    drogue_kalman_distance2(&d, &filter, at, noise, PARAMETERS);
+    MUST(fabs(ldexp(d.mantissa, d.exponent) - 2.5) < 1e-6, "%g", ldexp(d.mantissa, d.exponent)); /* 4 / 2 + 1 / 2 */
+}
+END_TEST
+
 SUITE_MAIN("kalman", same_states_as_fifteen_in_one, angles_pass_half_a_turn, ends_of_the_ranges, no_negative_variance,
-           any_valid_start, states_saturate, standard_deviations_in_q32)
+           any_valid_start, states_saturate, standard_deviations_in_q32, distance_by_a_false_covariance)

@@ -134,5 +134,83 @@ START_TEST(the_first_resolved_frame_turns_open_twins)
 }
 END_TEST
 
+/* A resolved pose that turns open twins must be where the track is: chi squared of x, y and z, 16.27 at 0.1 %, not the
+ * 20.52 of all five, and of the depth as of the rest. */
+START_TEST(what_turns_open_twins_is_where_the_track_is)
+{
+    static const struct {
+        int parameter;
+        double chi2;
+        int believed;
+    } cases[] = {{DROGUE_X, 15.5, 1}, {DROGUE_X, 17, 0}, {DROGUE_X, 20, 0}, {DROGUE_Y, 15.5, 1}, {DROGUE_Y, 17, 0},
+                 {DROGUE_Z, 15.5, 1}, {DROGUE_Z, 17, 0}, {DROGUE_Z, 20, 0}, {DROGUE_Z, 100, 0}};
+    const double std[5] = {0.01, 0.01, 0.02, 0.01, 0.01};
+    drogue_result open = seen(0, 0, 8, 0.3, 0.1);
+    drogue_track start;
+    size_t i;
+    set_covariance(&open, std);
+    open.orientation_resolved = 0;
+    open.has_inner = 1;
+    open.alternative = seen(0, 0, 8, -0.3, -0.1).pose;
+    start = steady_track(&open);
+    for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        drogue_track t = start;
+        drogue_result resolved = open;
+        drogue_kalman gate;
+        drogue_region region;
+        double variance, off;
+        int p = cases[i].parameter;
+        drogue_track_begin(&region, &t, DT_US);
+        drogue_bank_mix(&gate, &t.bank, 1);
+        variance = ldexp(gate.parameter[p].variance[0].mantissa, gate.parameter[p].variance[0].exponent) +
+                   std[p] * std[p] + pow(real_of_q16(t.config.position_floor_m_q16), 2) +
+                   (p == DROGUE_Z ? pow(real_of_q16(t.config.depth_std_q16) * 8, 2) : 0);
+        off = sqrt(cases[i].chi2 * variance);
+        resolved.orientation_resolved = 1;
+        resolved.pose = open.alternative;
+        resolved.alternative = open.pose;
+        resolved.pose.position_m_q16[p] += q16_of(off);
+        resolved.alternative.position_m_q16[p] += q16_of(off);
+        MUST(drogue_track_end(&t, &resolved) == (cases[i].believed ? DROGUE_TRACKING : DROGUE_COASTING),
+             "case %d, %g m off: %s", (int)i, off, drogue_track_state_name(t.state));
+        MUST((yaw_of_track(&t) < 0) == cases[i].believed, "case %d: yaw %g", (int)i, yaw_of_track(&t));
+    }
+}
+END_TEST
+
+/* What correlates a pose's angles with its place is its own: of the twin's nothing is known, and a twin four standard
+ * deviations off, which those of the pose would make more than its gate takes, is followed. */
+START_TEST(correlations_are_not_the_twins)
+{
+    const double std[5] = {0.02, 0.02, 0.05, 0.02, 0.02}, q48 = 281474976710656.0;
+    drogue_result steady = seen(0, 0, 8, -0.3, 0), r;
+    drogue_track start, t;
+    int k;
+    set_covariance(&steady, std);
+    start = steady_track(&steady);
+    for (k = 0; k < 200; k++) { /* a confident prediction */
+        start.config.process_std_q16[DROGUE_X] = start.config.process_std_q16[DROGUE_YAW] = q16_of(0.001);
+        (void)step(&start, &steady);
+    }
+    r = seen(0.08, 0, 8, 0.3, 0); /* four deviations in x, none in yaw of one of them */
+    r.orientation_resolved = 0;
+    r.has_inner = 1;
+    r.alternative = seen(0.08, 0, 8, -0.3, 0).pose;
+    set_covariance(&r, std);
+    r.covariance_q48[0][3] = r.covariance_q48[3][0] = (int64_t)(0.99 * std[0] * std[3] * q48);
+    t = start;
+    ck_assert_int_eq(step(&t, &r), DROGUE_TRACKING);
+    ck_assert_int_eq(t.gated, 0);
+    MUST(yaw_of_track(&t) < -0.25, "yaw %g", yaw_of_track(&t));
+    t = start; /* and of the pose they are known */
+    steady = r;
+    steady.pose = r.alternative;
+    steady.alternative = r.pose;
+    ck_assert_int_eq(step(&t, &steady), DROGUE_COASTING);
+    ck_assert_int_eq(t.gated, 1);
+}
+END_TEST
+
 SUITE_MAIN("orientation", twins_go_by_continuity, orientation_is_forgotten, distance_of_twins,
-           the_first_resolved_frame_turns_open_twins)
+           the_first_resolved_frame_turns_open_twins, what_turns_open_twins_is_where_the_track_is,
+           correlations_are_not_the_twins)

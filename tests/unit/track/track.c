@@ -340,6 +340,25 @@ START_TEST(lost_when_it_flies_behind_the_camera)
 }
 END_TEST
 
+/* Where the lens model ends a prediction cannot be seen either. */
+START_TEST(lost_beyond_the_lens)
+{
+    drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    const drogue_result hit = seen(9, 0, 2, 0, 0); /* 4.5 focal lengths off the axis */
+    drogue_region region;
+    int lens;
+    for (lens = 0; lens < 2; lens++) {
+        drogue_track t;
+        camera.k1_q16 = lens;
+        t = new_track(&camera);
+        ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING);
+        drogue_track_begin(&region, &t, 20000);
+        ck_assert_int_eq(t.state, lens ? DROGUE_LOST : DROGUE_TRACKING);
+        ck_assert_int_eq(memcmp(&region, &first_region, sizeof region) == 0, lens);
+    }
+}
+END_TEST
+
 START_TEST(unresolved_poses_go_by_the_predicted_axis)
 {
     const drogue_camera camera = pinhole(1000, 1000, 640, 512);
@@ -366,5 +385,5 @@ END_TEST
 SUITE_MAIN("track", defaults_are_the_documented_ones, each_limit, names_of_states, states_in_turn,
            every_failure_is_a_miss, no_miss_allowed, region_follows_a_steady_drogue, region_is_clamped,
            region_leads_a_moving_drogue, region_allows_for_distortion, region_grows_with_uncertainty,
-           without_a_first_region_the_whole_frame, lost_when_it_flies_behind_the_camera,
+           without_a_first_region_the_whole_frame, lost_when_it_flies_behind_the_camera, lost_beyond_the_lens,
            unresolved_poses_go_by_the_predicted_axis)

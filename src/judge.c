@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* From an outline to the pose: without the lens distortion, with the inner part where a pose expects it, decided. */
+#include "look.h"
+
+#include <string.h>
+
+#include "drogue/decide.h"
+#include "drogue/inner.h"
+#include "drogue/undistort.h"
+
+static drogue_q16 shifted(drogue_q16 v_px_q16, int32_t by_px)
+{
+    return drogue_q16_add(v_px_q16, drogue_q16_from_int(by_px));
+}
+
+static void describe(drogue_result *out, const drogue_outline *outline)
+{
+    memcpy(out->arcs, outline->arcs, sizeof out->arcs);
+    out->quality = outline->quality;
+    out->polarity = outline->polarity;
+    out->cluster_members = outline->cluster_members;
+    out->refit_points = outline->refit_points;
+    out->cover_q16 = outline->cover_q16;
+    out->ellipse = outline->ellipse;
+    out->ellipse.xc_px_q16 = shifted(out->ellipse.xc_px_q16, out->region.x_px);
+    out->ellipse.yc_px_q16 = shifted(out->ellipse.yc_px_q16, out->region.y_px);
+    out->ideal = out->ellipse;
+}
+
+#define SEEN_TO_PX_Q16 DROGUE_Q16(1, 2) /* blur and what touches the inner disc move its edge by so much */
+
+/* Find the inner part where a pose expects it, weigh it, and see which pose it is nearer to. */
+static void find_inner(drogue_evidence *evidence, drogue_frame *f)
+{
+    drogue_result *out = f->out;
+    const drogue_ellipse *outline = &f->outline.ellipse;
+    drogue_inner_evidence inner;
+    drogue_inner_expected expected;
+    drogue_inner_edge edge;
+    memset(&inner, 0, sizeof inner);
+    drogue_inner_expect(&expected, evidence->poses, f->setup, out->region.x_px, out->region.y_px);
+    if (drogue_inner_edge_find(&edge, f->workspace->rays, &f->view, &expected, outline, f->setup->config) ==
+        DROGUE_OK) {
+        drogue_inner_weigh(&inner, &edge, &out->region, &expected, outline, evidence->poses, f->setup);
+        evidence->inner = inner.weighed;
+        evidence->nearer = inner.nearer;
+        out->inner = inner.part;
+        out->has_inner = inner.weighed.std_px_q16 > 0;
+        out->ambiguity_q16 = inner.ambiguity_q16;
+        f->too_large = inner.too_large;
+    }
+    f->doubt_q16 = DROGUE_Q16_ONE;
+    if (out->has_inner) {
+        const drogue_q16 off_px_q16 = edge.grown_px_q16 < 0 ? -edge.grown_px_q16 : edge.grown_px_q16;
+        f->doubt_q16 =
+            off_px_q16 <= SEEN_TO_PX_Q16 ? 0 : drogue_q16_div(off_px_q16, expected.disc[edge.which].a_px_q16);
+    }
+}
+
+/* Decide between the poses; the result has what was decided. */
+static drogue_status decide(drogue_result *out, const drogue_evidence *evidence, const drogue_setup *setup)
+{
+    drogue_decision decision;
+    drogue_status status = drogue_decide(&decision, evidence, setup);
+    if (status == DROGUE_OK) {
+        out->pose = decision.pose;
+        out->alternative = decision.alternative;
+        out->orientation_resolved = decision.orientation_resolved;
+        memcpy(out->covariance_q48, decision.covariance_q48, sizeof out->covariance_q48);
+        memcpy(out->position_std_m_q32, decision.position_std_m_q32, sizeof out->position_std_m_q32);
+        out->axis_std_rad_q32 = decision.axis_std_rad_q32;
+    }
+    return status;
+}
+
+drogue_status drogue_frame_judge(drogue_frame *f)
+{
+    const drogue_setup *setup = f->setup;
+    drogue_result *out = f->out;
+    drogue_evidence evidence;
+    drogue_status status;
+    drogue_outline_pull(&f->outline, f->workspace->rays, &f->view, setup->config);
+    describe(out, &f->outline);
+    out->tried = f->tried;
+    if (drogue_camera_distorts(setup->camera)) {
+        status = drogue_outline_undistorted(&out->ideal, &f->outline, f->workspace, &out->list, setup, out->region.x_px,
+                                            out->region.y_px);
+        if (status != DROGUE_OK) {
+            memset(&out->ideal, 0, sizeof out->ideal);
+            return DROGUE_E_NO_ELLIPSE;
+        }
+    }
+    memset(&evidence, 0, sizeof evidence);
+    evidence.ideal = out->ideal;
+    evidence.support = &f->outline.support;
+    status = drogue_pose_from_ellipse(evidence.poses, &out->ideal, setup->camera, setup->model->rim_radius_m_q16);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    f->doubt_q16 = 0;
+    if (setup->model->inner_radius_m_q16 > 0) {
+        find_inner(&evidence, f);
+    }
+    return decide(out, &evidence, setup);
+}

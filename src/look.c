@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Region, front end, outline; and the second look at an outline that the ring cuts. */
+#include "look.h"
+
+#include "drogue/frontend.h"
+
+/* Clip the region to the image; the mask stays that of the region asked for, in the clipped one's coordinates. */
+static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, const drogue_image *image,
+                                  const drogue_region *region)
+{
+    const int32_t far_px = 1 << 20;
+    drogue_region r = *region;
+    if (r.width_px < 1 || r.height_px < 1 || r.width_px > DROGUE_MAX_REGION || r.height_px > DROGUE_MAX_REGION ||
+        r.x_px > far_px || r.x_px < -far_px || r.y_px > far_px || r.y_px < -far_px) {
+        return DROGUE_E_REGION;
+    }
+    drogue_clip(&r.x_px, &r.width_px, image->width_px);
+    drogue_clip(&r.y_px, &r.height_px, image->height_px);
+    if (r.width_px < 1 || r.height_px < 1 || r.width_px > DROGUE_MAX_SIDE || r.height_px > DROGUE_MAX_SIDE ||
+        r.x_px + r.width_px > INT16_MAX || r.y_px + r.height_px > INT16_MAX) { /* coordinates are Q16 */
+        return DROGUE_E_REGION;
+    }
+    *mask = drogue_mask_of_size(region->width_px, region->height_px);
+    mask->centre2_x += 2 * (region->x_px - r.x_px);
+    mask->centre2_y += 2 * (region->y_px - r.y_px);
+    *clipped = r;
+    return DROGUE_OK;
+}
+
+static drogue_status run_frontend(drogue_edge_list *list, drogue_workspace *workspace, const drogue_config *config,
+                                  int32_t canny_low, int32_t canny_high, const drogue_image *view,
+                                  const drogue_mask *mask)
+{
+    drogue_frontend_config front;
+    drogue_frontend frontend;
+    drogue_status status;
+    int32_t y;
+    front.canny_low = canny_low;
+    front.canny_high = canny_high;
+    front.smooth = config->smooth;
+    front.use_ring = 1;
+    front.ring = *mask;
+    front.min_arc_px = (uint32_t)drogue_shr_round_s64((int64_t)config->min_arc_share_q16 * mask->longest_px, 16);
+    if (front.min_arc_px < config->min_arc_px) {
+        front.min_arc_px = config->min_arc_px;
+    }
+    status = drogue_frontend_begin(&frontend, workspace, &front, view->width_px, view->height_px);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    for (y = 0; y < view->height_px; y++) {
+        drogue_frontend_row(&frontend, drogue_image_row(view, y));
+    }
+    return drogue_frontend_end(list, &frontend);
+}
+
+/* Does the ring mask hold the whole outline? */
+static int ring_holds(const drogue_ellipse *e, const drogue_mask *mask)
+{
+    const drogue_q16 dx = drogue_sat_s32((int64_t)e->xc_px_q16 - (int64_t)mask->centre2_x * (DROGUE_Q16_ONE / 2));
+    const drogue_q16 dy = drogue_sat_s32((int64_t)e->yc_px_q16 - (int64_t)mask->centre2_y * (DROGUE_Q16_ONE / 2));
+    const int64_t off = (int64_t)drogue_isqrt_u64(drogue_square_sum(dx, dy));
+    const int64_t longest = (int64_t)mask->longest_px * DROGUE_Q16_ONE;
+    return 2 * (e->a_px_q16 + off + DROGUE_Q16_ONE) <= longest && 3 * (e->b_px_q16 - off - DROGUE_Q16_ONE) >= longest;
+}
+
+/* Square region whose ring mask suits an outline found in another region. */
+static drogue_region region_about(const drogue_ellipse *e, const drogue_region *found_in)
+{
+    const int64_t least = 2 * (int64_t)e->a_px_q16 + 4 * DROGUE_Q16_ONE;
+    const int64_t middle = (2 * (int64_t)e->a_px_q16 + 3 * (int64_t)e->b_px_q16) / 2;
+    const int32_t side = (int32_t)drogue_shr_round_s64(middle > least ? middle : least, 16);
+    drogue_region r;
+    r.x_px = found_in->x_px + (int32_t)drogue_shr_round_s64((int64_t)e->xc_px_q16 - (int64_t)(side - 1) * 32768, 16);
+    r.y_px = found_in->y_px + (int32_t)drogue_shr_round_s64((int64_t)e->yc_px_q16 - (int64_t)(side - 1) * 32768, 16);
+    r.width_px = side;
+    r.height_px = side;
+    return r;
+}
+
+static drogue_status place_view(drogue_frame *f, const drogue_region *region)
+{
+    drogue_result *out = f->out;
+    drogue_status status = place_region(&out->region, &f->mask, f->image, region);
+    if (status == DROGUE_OK) {
+        f->view.data = drogue_image_row(f->image, out->region.y_px) + out->region.x_px;
+        f->view.width_px = out->region.width_px;
+        f->view.height_px = out->region.height_px;
+        f->view.stride = f->image->stride;
+    }
+    return status;
+}
+
+drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region)
+{
+    const drogue_status status = place_view(f, region);
+    f->asked = *region;
+    f->others = 0;
+    return status == DROGUE_OK ? run_frontend(&f->out->list, f->workspace, f->setup->config, f->canny_low,
+                                              f->canny_high, &f->view, &f->mask)
+                               : status;
+}
+
+static drogue_status find_outline(drogue_frame *f, const drogue_region *region)
+{
+    const drogue_status status = drogue_frame_edges(f, region);
+    return status == DROGUE_OK
+               ? drogue_outline_find(&f->outline, f->workspace, &f->out->list, &f->mask, f->setup->config)
+               : status;
+}
+
+/* Is one ellipse about where the other is, and about as large: within a third of its semi-axis? Each in the coordinates
+ * of its own region. */
+static int about_the_same(const drogue_ellipse *e, const drogue_region *at, const drogue_ellipse *was,
+                          const drogue_region *was_at)
+{
+    const drogue_q16 most = was->a_px_q16 / 3;
+    const drogue_q16 dx =
+        drogue_sat_s32((int64_t)e->xc_px_q16 - was->xc_px_q16 + (int64_t)(at->x_px - was_at->x_px) * DROGUE_Q16_ONE);
+    const drogue_q16 dy =
+        drogue_sat_s32((int64_t)e->yc_px_q16 - was->yc_px_q16 + (int64_t)(at->y_px - was_at->y_px) * DROGUE_Q16_ONE);
+    const int64_t da = (int64_t)e->a_px_q16 - was->a_px_q16;
+    return da <= most && da >= -most && drogue_square_sum(dx, dy) <= drogue_square_sum(most, 0);
+}
+
+/* Look for an outline once more, in a region that suits it. */
+static drogue_second_look look_again(drogue_frame *f)
+{
+    const drogue_ellipse was = f->outline.ellipse;
+    const drogue_region was_at = f->out->region;
+    const drogue_q16 cover_q16 = f->outline.cover_q16;
+    const drogue_region better = region_about(&was, &was_at);
+    if ((uint32_t)better.width_px > f->workspace->capacity.width_px) {
+        return DROGUE_SECOND_TOO_WIDE;
+    }
+    switch (find_outline(f, &better)) {
+    case DROGUE_OK: break;
+    case DROGUE_E_LABELS_FULL:
+    case DROGUE_E_EDGES_FULL:
+    case DROGUE_E_ARCS_FULL: return DROGUE_SECOND_FULL;
+    case DROGUE_E_REGION: return DROGUE_SECOND_REGION;
+    default: return DROGUE_SECOND_NO_MORE;
+    }
+    return f->outline.cover_q16 >= cover_q16 && about_the_same(&f->outline.ellipse, &f->out->region, &was, &was_at)
+               ? DROGUE_SECOND_BETTER
+               : DROGUE_SECOND_NO_MORE;
+}
+
+drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region)
+{
+    const drogue_config *config = f->setup->config;
+    const drogue_status first = find_outline(f, region);
+    const drogue_outline found = f->outline;
+    const drogue_q16 cover_q16 = found.cover_q16;
+    f->second_look = DROGUE_SECOND_NONE;
+    if ((first != DROGUE_OK && first != DROGUE_E_NO_ELLIPSE) ||
+        cover_q16 < drogue_shr_round_s64(config->min_cover_q16, 1) || cover_q16 >= config->recentre_cover_q16 ||
+        ring_holds(&f->outline.ellipse, &f->mask)) {
+        return first;
+    }
+    f->second_look = look_again(f);
+    switch (f->second_look) {
+    case DROGUE_SECOND_BETTER: return DROGUE_OK;
+    case DROGUE_SECOND_TOO_WIDE: return first; /* it was not begun */
+    default: break;
+    }
+    f->outline = found;
+    if (first == DROGUE_OK) {
+        return drogue_frame_edges(f, region);
+    }
+    f->others = 1;
+    (void)place_view(f, region);
+    return first;
+}

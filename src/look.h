@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Inside the measurement: a frame on its way, the looks at it, and what is made of an outline. */
+#ifndef DROGUE_LOOK_H
+#define DROGUE_LOOK_H
+
+#include "drogue/drogue.h"
+#include "drogue/outline.h"
+
+typedef struct drogue_frame {
+    drogue_result *out;
+    drogue_workspace *workspace;
+    const drogue_setup *setup;
+    const drogue_image *image;
+    drogue_image view; /* the region's pixels */
+    drogue_mask mask;
+    drogue_outline outline;
+    drogue_second_look second_look;
+    int32_t canny_low;
+    int32_t canny_high;
+    int32_t tried;
+    drogue_region asked;  /* where edges were looked for last */
+    int32_t others;       /* the workspace holds edges of another region than the view */
+    int32_t too_large;    /* the inner disc is seen, but too large for the outline */
+    drogue_q16 doubt_q16; /* by what share the inner disc's size is off; 1 and more: not seen, or no outline */
+} drogue_frame;
+
+/* Find the edges of a region with the frame's thresholds; the view becomes the region's pixels. */
+drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region);
+
+/* An outline that the ring mask cuts is looked for once more; unless that is better, what was found first stands, and where
+ * that is an outline its edges are found again. */
+drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region);
+
+/* From the outline to the pose. Apart from the rest for its stack: that of the looks is not below it. */
+drogue_status drogue_frame_judge(drogue_frame *f);
+
+#endif

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The second look at an outline that its region cuts: where it cannot be had, and when it is no better. */
+#include "suite.h"
+
+#include "drogue/drogue.h"
+#include "geometry.h"
+#include "workspace.h"
+
+enum { SIDE = 128 };
+
+static const drogue_model bare = {22938, 0, 0};
+
+/* A second look that would reach beyond the coordinates' 32767 px is not had, and the first one stands. */
+START_TEST(second_look_beyond_the_coordinates)
+{
+    enum { LONG = 32900, AT = INT16_MAX - SIDE };
+    static uint8_t wide[LONG * SIDE];
+    static const drogue_region all = {AT, 0, SIDE, SIDE};
+    const drogue_image view = {wide, LONG, SIDE, LONG};
+    const drogue_camera camera = pinhole(400, 400, 64, 64);
+    test_workspace t = test_workspace_of(512, 4096, 4096, 512);
+    drogue_config config;
+    drogue_result r, first;
+    int32_t xc, x, y, regions = 0, better = 0;
+    drogue_config_default(&config);
+    for (xc = 40; xc <= 90; xc += 2) {
+        memset(wide, 200, sizeof wide);
+        for (y = 0; y < SIDE; y++) {
+            for (x = 0; x < SIDE; x++) {
+                const double inside = 40.5 - hypot(x - xc, y - 60);
+                wide[y * LONG + AT + x] = (uint8_t)(200 - 140 * fmin(fmax(inside, 0), 1));
+            }
+        }
+        (void)drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &bare, &config}, &view, &all);
+        regions += r.second_look == DROGUE_SECOND_REGION;
+        better += r.second_look == DROGUE_SECOND_BETTER;
+        if (r.second_look == DROGUE_SECOND_REGION) {
+            config.recentre_cover_q16 = 0;
+            (void)drogue_measure(&first, &t.workspace, &(drogue_setup){&camera, &bare, &config}, &view, &all);
+            drogue_config_default(&config);
+            MUST(first.status == r.status && memcmp(&first.ellipse, &r.ellipse, sizeof r.ellipse) == 0,
+                 "at %d: %s, not %s", (int)xc, drogue_status_name(r.status), drogue_status_name(first.status));
+        }
+        MUST(r.second_look != DROGUE_SECOND_BETTER || r.region.x_px + r.region.width_px <= INT16_MAX, "at %d", (int)xc);
+    }
+    ck_assert_int_gt(regions, 2);
+    ck_assert_int_gt(better, 2);
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* A dark ellipse anywhere about the middle, behind up to four boards, with noise. */
+static void draw_partly_hidden(uint8_t pixels[SIDE * SIDE], uint64_t rng)
+{
+    const double xc = rng_real(&rng, 40, 88), yc = rng_real(&rng, 40, 88), a = rng_real(&rng, 28, 50),
+                 b = a * rng_real(&rng, 0.6, 1), turn = rng_real(&rng, -1.5, 1.5);
+    const int boards = rng_range(&rng, 0, 4);
+    int board[4][5] = {{0}}, x, y, k;
+    double noise;
+    for (k = 0; k < boards; k++) {
+        board[k][0] = rng_range(&rng, 0, 110);
+        board[k][1] = rng_range(&rng, 0, 110);
+        board[k][2] = board[k][0] + rng_range(&rng, 4, 50);
+        board[k][3] = board[k][1] + rng_range(&rng, 4, 50);
+        board[k][4] = rng_range(&rng, 40, 220);
+    }
+    noise = rng_real(&rng, 0, 6);
+    for (y = 0; y < SIDE; y++) {
+        for (x = 0; x < SIDE; x++) {
+            const double u = cos(turn) * (x - xc) + sin(turn) * (y - yc),
+                         v = cos(turn) * (y - yc) - sin(turn) * (x - xc);
+            double grey = 200 - 140 * fmin(fmax((1 - hypot(u / a, v / b)) * b + 0.5, 0), 1);
+            for (k = 0; k < boards; k++) {
+                if (x >= board[k][0] && x < board[k][2] && y >= board[k][1] && y < board[k][3]) {
+                    grey = board[k][4];
+                }
+            }
+            pixels[y * SIDE + x] = (uint8_t)fmin(fmax(grey + noise * rng_normal(&rng), 0), 255);
+        }
+    }
+}
+
+/* The second look may see less of an outline than the first did: then the first one stands. */
+START_TEST(second_look_of_less_cover)
+{
+    static const uint64_t seeds[] = {47, 1172, 1820, 4236, 6339, 6976, 7113, 8497}; /* those of 8500 where it does */
+    static const drogue_region all = {0, 0, SIDE, SIDE};
+    static uint8_t pixels[SIDE * SIDE];
+    const drogue_image image = {pixels, SIDE, SIDE, SIDE};
+    const drogue_camera camera = pinhole(400, 400, 64, 64);
+    test_workspace t = test_workspace_of(512, 8192, 8192, 512);
+    drogue_config config, once;
+    size_t i;
+    int less = 0;
+    drogue_config_default(&config);
+    once = config;
+    once.recentre_cover_q16 = 0;
+    for (i = 0; i < sizeof seeds / sizeof seeds[0]; i++) {
+        drogue_result first, r;
+        draw_partly_hidden(pixels, seeds[i] * 7919 + 1);
+        (void)drogue_measure(&first, &t.workspace, &(drogue_setup){&camera, &bare, &once}, &image, &all);
+        (void)drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &bare, &config}, &image, &all);
+        MUST(first.status == DROGUE_OK && r.status == DROGUE_OK, "scene %d: %s", (int)i, drogue_status_name(r.status));
+        MUST(r.cover_q16 >= first.cover_q16, "scene %d: cover %g after %g", (int)i, real_of_q16(r.cover_q16),
+             real_of_q16(first.cover_q16));
+        less += r.second_look == DROGUE_SECOND_NO_MORE;
+    }
+    ck_assert_int_gt(less, 4);
+    test_workspace_free(&t);
+}
+END_TEST
+
+SUITE_MAIN("second_look", second_look_beyond_the_coordinates, second_look_of_less_cover)

@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* What acquisition makes of measurements: which of the sightings' results stands, when none is looked at any more, when
+ * the part itself is measured. The search sights drawn discs; what is measured there is told by the test, whose
+ * drogue_measure() takes the place of the library's. */
+#include "suite.h"
+
+#include "drogue/search.h"
+
+static const drogue_model model = {22938, 7864, 16384}; /* 0.35, 0.12, 0.25 m */
+static const drogue_model no_inner = {22938, 0, 0};
+
+enum { MOST = 514, CALLS = 8 };
+
+static uint8_t pixels[MOST * MOST];
+static uint8_t memory[DROGUE_SEARCH_BYTES(MOST)];
+static drogue_search search;
+
+/* What is to be measured in the first sighting, the second, and elsewhere: in the part itself. */
+static drogue_result first, second, elsewhere;
+static drogue_region measured[CALLS];
+static int calls;
+
+static int same_region(const drogue_region *p, const drogue_region *q)
+{
+    return p->x_px == q->x_px && p->y_px == q->y_px && p->width_px == q->width_px && p->height_px == q->height_px;
+}
+
+drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
+                             const drogue_image *image, const drogue_region *region)
+{
+    (void)workspace;
+    (void)setup;
+    (void)image;
+    ck_assert_int_lt(calls, CALLS);
+    measured[calls++] = *region;
+    *out = search.count > 0 && same_region(region, &search.best[0].region)   ? first
+           : search.count > 1 && same_region(region, &search.best[1].region) ? second
+                                                                             : elsewhere;
+    return out->status;
+}
+
+static drogue_result nothing(void)
+{
+    drogue_result r;
+    memset(&r, 0, sizeof r);
+    r.status = DROGUE_E_NO_ELLIPSE;
+    return r;
+}
+
+/* A circle of 100 px at 4 m, whose inner part has the 32.3 px expected of it, 3269 px of area. */
+static drogue_result with_inner(int32_t cover_percent, int resolved)
+{
+    drogue_result r;
+    memset(&r, 0, sizeof r);
+    r.status = DROGUE_OK;
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = 100 * DROGUE_Q16_ONE;
+    r.pose.position_m_q16[2] = 4 * DROGUE_Q16_ONE;
+    r.cover_q16 = DROGUE_Q16(cover_percent, 100);
+    r.has_inner = 1;
+    r.inner.area_px = 3269;
+    r.orientation_resolved = resolved;
+    return r;
+}
+
+static drogue_result without_inner(int32_t cover_percent, int32_t reliability_percent)
+{
+    drogue_result r = with_inner(cover_percent, 0);
+    r.has_inner = 0;
+    r.quality.reliability_q16 = DROGUE_Q16(reliability_percent, 100);
+    return r;
+}
+
+/* A dark disc on a bright ground with a darker one in it. */
+static void draw(int width, int xc, int yc, int grey)
+{
+    int x, y;
+    for (y = yc - 40; y <= yc + 40; y++) {
+        for (x = xc - 40; x <= xc + 40; x++) {
+            const int d = (x - xc) * (x - xc) + (y - yc) * (y - yc);
+            if (d <= 40 * 40) {
+                pixels[y * width + x] = (uint8_t)(9 * d <= 40 * 40 ? 20 : grey);
+            }
+        }
+    }
+}
+
+/* Acquire in an image with so many discs; the first of them shows more contrast. */
+static drogue_status acquire(drogue_result *out, const drogue_model *m, int32_t width, int32_t height, int discs)
+{
+    const drogue_image image = {pixels, width, height, width};
+    const drogue_setup setup = {NULL, m, NULL};
+    memset(pixels, 220, sizeof pixels);
+    if (discs > 0) {
+        draw(width, 100, 120, 90);
+    }
+    if (discs > 1) {
+        draw(width, 300, 260, 60);
+    }
+    calls = 0;
+    ck_assert_int_eq(drogue_search_init(&search, memory, sizeof memory, width), DROGUE_OK);
+    (void)drogue_acquire(out, &search, NULL, &setup, &image, NULL);
+    ck_assert_int_eq(search.count, discs);
+    MUST(discs < 1 || abs(search.best[0].x_px - 100) < 10, "first of the sightings at %d", (int)search.best[0].x_px);
+    MUST(discs < 2 || abs(search.best[1].x_px - 300) < 10, "second of the sightings at %d", (int)search.best[1].x_px);
+    return out->status;
+}
+
+static drogue_result stood; /* the last acquisition's */
+
+/* Of these measurements in the first and in the second sighting, which stands? The last is measured again when it is not what
+ * was measured last. */
+static int stands(const drogue_result *of_first, const drogue_result *of_second, const drogue_model *m)
+{
+    first = *of_first;
+    second = *of_second;
+    elsewhere = nothing();
+    (void)acquire(&stood, m, 480, 360, 2);
+    ck_assert_int_gt(calls, 0);
+    MUST(!same_region(&search.best[0].region, &search.best[1].region), "one region");
+    return same_region(&measured[calls - 1], &search.best[1].region) ? 2 : 1;
+}
+
+/* The better one stands, whichever was sighted first. */
+static void better(const drogue_result *r, const drogue_result *than, const drogue_model *m, drogue_status status)
+{
+    ck_assert_int_eq(stands(r, than, m), 1);
+    ck_assert_int_eq(stood.cover_q16, r->cover_q16);
+    ck_assert_int_eq(stood.status, status);
+    ck_assert_int_eq(stands(than, r, m), 2);
+    ck_assert_int_eq(stood.cover_q16, r->cover_q16);
+    ck_assert_int_eq(stood.status, status);
+}
+
+START_TEST(what_is_worth_more_stands)
+{
+    const drogue_result none = nothing(), unsure = with_inner(40, 0), less = with_inner(39, 0),
+                        sure = with_inner(79, 0), decided = with_inner(61, 1), covered = without_inner(90, 50),
+                        alone = without_inner(76, 95);
+    drogue_result wrong = with_inner(61, 1);
+    drogue_result tiny = with_inner(79, 0);
+    const drogue_model pinprick = {22938, 1, 0};
+    tiny.ellipse.a_px_q16 = tiny.ellipse.b_px_q16 = DROGUE_Q16(1, 10); /* of which an inner part rounds to nothing */
+    tiny.inner.area_px = 1;
+    wrong.inner.area_px = 3500; /* 33.4 px */
+    better(&tiny, &unsure, &pinprick, DROGUE_OK);
+    better(&unsure, &none, &model, DROGUE_E_UNSURE);
+    better(&unsure, &less, &model, DROGUE_E_UNSURE);
+    better(&sure, &unsure, &model, DROGUE_OK);
+    better(&decided, &sure, &model, DROGUE_OK);     /* with less cover */
+    better(&decided, &wrong, &model, DROGUE_OK);    /* an inner part that is more of its size */
+    better(&alone, &covered, &no_inner, DROGUE_OK); /* sure, where the model has no inner part, with less cover */
+}
+END_TEST
+
+/* After what settles nothing is looked at; what has no pose does not settle, whatever else was measured. */
+START_TEST(what_settles)
+{
+    drogue_result out;
+    first = with_inner(80, 1);
+    second = with_inner(90, 1);
+    elsewhere = nothing();
+    ck_assert_int_eq(acquire(&out, &model, 480, 360, 2), DROGUE_OK);
+    ck_assert_int_eq(calls, 1);
+    ck_assert_int_eq(out.cover_q16, first.cover_q16);
+    first = without_inner(95, 95);
+    ck_assert_int_eq(acquire(&out, &no_inner, 480, 360, 2), DROGUE_OK);
+    ck_assert_int_eq(calls, 1);
+    first.status = DROGUE_E_DOMAIN; /* farther away than numbers go */
+    second = without_inner(85, 95);
+    ck_assert_int_eq(acquire(&out, &no_inner, 480, 360, 2), DROGUE_OK);
+    ck_assert_int_eq(calls, 2);
+    ck_assert_int_eq(out.cover_q16, second.cover_q16);
+    second = nothing();
+    elsewhere.status = DROGUE_E_NO_ARCS;
+    ck_assert_int_eq(acquire(&out, &no_inner, 480, 360, 2), DROGUE_E_NO_ARCS);
+}
+END_TEST
+
+/* The part itself is measured up to 512 px a side, and of any size without an inner part. */
+START_TEST(when_the_part_is_measured)
+{
+    static const struct {
+        int32_t width, height;
+        int measured;
+    } cases[] = {{512, 512, 1}, {513, 512, 0}, {512, 513, 0}, {511, 511, 1}};
+    size_t i;
+    first = second = nothing();
+    elsewhere = with_inner(90, 1);
+    for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        drogue_result out;
+        MUST(acquire(&out, &model, cases[i].width, cases[i].height, 0) ==
+                     (cases[i].measured ? DROGUE_OK : DROGUE_E_NO_INNER_PART) &&
+                 calls == cases[i].measured,
+             "%d x %d: %s after %d", (int)cases[i].width, (int)cases[i].height, drogue_status_name(out.status), calls);
+        elsewhere = without_inner(90, 95);
+        ck_assert_int_eq(acquire(&out, &no_inner, cases[i].width, cases[i].height, 0), DROGUE_OK);
+        ck_assert_int_eq(calls, 1);
+        MUST(measured[0].x_px == 0 && measured[0].y_px == 0 && measured[0].width_px == cases[i].width &&
+                 measured[0].height_px == cases[i].height,
+             "case %d: another part", (int)i);
+        elsewhere = with_inner(90, 1);
+    }
+}
+END_TEST
+
+/* What is unsure does not keep the part from being measured; an inner part that decides, and one that is sure, does. */
+START_TEST(the_part_after_its_sightings)
+{
+    drogue_result out;
+    first = with_inner(40, 0);
+    elsewhere = with_inner(70, 1);
+    ck_assert_int_eq(acquire(&out, &model, 480, 360, 1), DROGUE_OK);
+    ck_assert_int_eq(calls, 2);
+    ck_assert_int_eq(out.cover_q16, elsewhere.cover_q16);
+    elsewhere = with_inner(30, 0); /* less than what was sighted, which is measured again */
+    ck_assert_int_eq(acquire(&out, &model, 480, 360, 1), DROGUE_E_UNSURE);
+    ck_assert_int_eq(calls, 3);
+    ck_assert_int_eq(out.cover_q16, first.cover_q16);
+    first = with_inner(79, 0);
+    elsewhere = with_inner(90, 1);
+    ck_assert_int_eq(acquire(&out, &model, 480, 360, 1), DROGUE_OK);
+    ck_assert_int_eq(calls, 1);
+    ck_assert_int_eq(out.cover_q16, first.cover_q16);
+}
+END_TEST
+
+SUITE_MAIN("acquire", what_is_worth_more_stands, what_settles, when_the_part_is_measured, the_part_after_its_sightings)
