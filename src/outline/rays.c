@@ -17,19 +17,28 @@ static int32_t placed(int64_t v_px_q16)
     return (int32_t)(v_px_q16 > most ? most : v_px_q16 < -most ? -most : v_px_q16);
 }
 
-/* Grey between pixels, Q8; beyond the image as at its border. */
+/* Grey between a pixel, the one to the right and those below, Q8. */
+static inline int32_t between_q8(const uint8_t *at, int32_t right, int32_t stride, int32_t x_px_q16, int32_t y_px_q16)
+{
+    const int32_t fx = (x_px_q16 >> 8) & 255;
+    const int32_t fy = (y_px_q16 >> 8) & 255;
+    const uint8_t *below = at + stride;
+    const int32_t upper = at[0] * 256 + (at[right] - at[0]) * fx;
+    const int32_t lower = below[0] * 256 + (below[right] - below[0]) * fx;
+    return (upper * 256 + (lower - upper) * fy + 128) >> 8;
+}
+
+static inline const uint8_t *pixel(const drogue_image *image, int32_t x_px_q16, int32_t y_px_q16)
+{
+    return drogue_image_row(image, y_px_q16 >> 16) + (x_px_q16 >> 16);
+}
+
+/* Grey at a place; beyond the image as at its border. */
 static int32_t grey_q8(const drogue_image *image, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
 {
     const int32_t x = drogue_clamp_s32(x_px_q16, 0, (image->width_px - 1) * DROGUE_Q16_ONE);
     const int32_t y = drogue_clamp_s32(y_px_q16, 0, (image->height_px - 1) * DROGUE_Q16_ONE);
-    const int32_t fx = (x >> 8) & 255;
-    const int32_t fy = (y >> 8) & 255;
-    const int32_t right = fx > 0;
-    const uint8_t *at = drogue_image_row(image, y >> 16) + (x >> 16);
-    const uint8_t *below = at + (fy > 0 ? image->stride : 0);
-    const int32_t upper = at[0] * (256 - fx) + at[right] * fx;
-    const int32_t lower = below[0] * (256 - fx) + below[right] * fx;
-    return (upper * (256 - fy) + lower * fy + 128) >> 8;
+    return between_q8(pixel(image, x, y), (x & 0xFFFF) > 255, (y & 0xFFFF) > 255 ? image->stride : 0, x, y);
 }
 
 /* Keep an edge among the steepest. */
@@ -50,6 +59,13 @@ static void keep(drogue_ray *r, const drogue_ray_edge *e)
     r->edges[at] = *e;
 }
 
+/* Are all four pixels about a place in the image? */
+static int within(const drogue_image *image, int32_t x_px_q16, int32_t y_px_q16)
+{
+    return x_px_q16 >= 0 && y_px_q16 >= 0 && x_px_q16 >> 16 < image->width_px - 1 &&
+           y_px_q16 >> 16 < image->height_px - 1;
+}
+
 void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_image *image, drogue_q16 from_px_q16,
                      int32_t count)
 {
@@ -57,9 +73,10 @@ void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_ima
     const int32_t dy = (int32_t)drogue_shr_round_s64((int64_t)r->ny_q14 * r->step_px_q16, 14);
     int32_t x = r->x_px_q16 + (int32_t)drogue_shr_round_s64((int64_t)r->nx_q14 * from_px_q16, 14);
     int32_t y = r->y_px_q16 + (int32_t)drogue_shr_round_s64((int64_t)r->ny_q14 * from_px_q16, 14);
+    const int inner = within(image, x, y) && within(image, x + (count - 1) * dx, y + (count - 1) * dy);
     int32_t i;
     for (i = 0; i < count; i++) {
-        grey_q8_out[i] = grey_q8(image, x, y);
+        grey_q8_out[i] = inner ? between_q8(pixel(image, x, y), 1, image->stride, x, y) : grey_q8(image, x, y);
         x += dx;
         y += dy;
     }
