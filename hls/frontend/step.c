@@ -57,7 +57,7 @@ static uint32_t size_of(int32_t v) { return (uint32_t)(v < 0 ? -v : v) & 0x3FFFF
 /* The squares from their highest bit on. */
 static void square(drogue_hls_registers *r, int32_t longest_px)
 {
-    r->bit--;
+    r->bit = (r->bit - 1u) & 31u;
     r->square[0] = next_bit(r->square[0], size_of(r->ring_dx), r->bit);
     r->square[1] = next_bit(r->square[1], size_of(r->ring_dy), r->bit);
     r->square[2] = next_bit(r->square[2], (uint32_t)longest_px & 0x1FFFFFu, r->bit);
@@ -85,6 +85,7 @@ static void begin_list(drogue_hls_lists *l, uint32_t first)
     l->at[0] = first;
     l->here[1] = 0;
     l->here[2] = 0;
+    l->here[3] = 0;
 }
 
 /* A row is complete, its merges settled. */
@@ -92,7 +93,7 @@ static void end_row(drogue_hls_registers *r)
 {
     const int last = r->row == (uint32_t)r->frame.height_px + LAG_ROWS - 1u;
     r->phase = last ? PHASE_COMPONENTS : PHASE_ROWS;
-    r->row = last ? 0 : r->row + 1u;
+    r->row = last ? 0 : drogue_hls_narrow(r->row + 1u, ROW_BITS);
     begin_list(&r->lists, 1);
     begin_row(r);
 }
@@ -101,14 +102,17 @@ static void tick(drogue_hls_registers *r, uint32_t pixel, const drogue_hls_words
 {
     drogue_hls_windows *w = &r->windows;
     const uint32_t code = w->code[AT_LABEL] & (w->in_ring ? 0x1Fu : 3u); /* no arc outside the ring */
+    /* Of the last tick of a row: no pixel of the region is labelled in it, so that no merge comes after these. */
+    const uint32_t component_merges = drogue_hls_row_merges(r->labels.component_merges, r->labels.component_met);
+    const uint32_t arc_merges = drogue_hls_row_merges(r->labels.arc_merges, r->labels.arc_met);
     drogue_hls_append(&r->lists, w->point[AT_LIST], &r->labels, read, write);
     drogue_hls_labels_tick(&r->labels, w, read, write, code);
     drogue_hls_pixels_tick(w, &r->frame, read, write);
     w->pixel = (uint8_t)pixel;
-    r->column++;
+    r->column = drogue_hls_narrow(r->column + 1u, COLUMN_BITS);
     if (r->column == (uint32_t)r->frame.period) {
-        drogue_hls_settle_begin(&r->components, r->labels.component_merges);
-        drogue_hls_settle_begin(&r->arcs, r->labels.arc_merges);
+        drogue_hls_settle_begin(&r->components, component_merges);
+        drogue_hls_settle_begin(&r->arcs, arc_merges);
         r->phase = PHASE_SETTLE;
         if (r->components.done & r->arcs.done) {
             end_row(r);
@@ -155,7 +159,7 @@ static void list(drogue_hls_registers *r, const drogue_hls_asked *asked, const d
 {
     if (drogue_hls_lists_step(&r->lists, &r->labels, r->phase, asked->min_arc_px, read, places, write)) {
         begin_list(&r->lists, r->phase == PHASE_COMPONENTS);
-        r->phase = r->phase == PHASE_SORT ? PHASE_IDLE : r->phase + 1u;
+        r->phase = r->phase == PHASE_SORT ? PHASE_IDLE : (r->phase + 1u) & 15u;
         r->status = status_of(&r->labels, &r->lists);
     }
 }
