@@ -294,13 +294,15 @@ enum {
     PHASE_COMPONENTS, /* the roots of components, which of them are strong */
     PHASE_ARCS,       /* the roots of arcs, 0 in a weak component, and their points */
     PHASE_PLACE,      /* the arc table */
-    PHASE_SORT        /* the edge list */
+    PHASE_SORT,       /* the edge list */
+    PHASE_BITS = 4
 };
 typedef struct drogue_hls_registers {
     uint32_t phase;
     uint32_t status;
     uint32_t row;    /* of ticks */
     uint32_t column; /* tick of the row */
+    uint32_t ends;   /* 1: its last */
     drogue_hls_frame frame;
     int32_t ring_dx;    /* 2x - centre2_x of the first column that a row of ticks tests */
     int32_t ring_dy;    /* 2y - centre2_y of the row of labels that begins next */

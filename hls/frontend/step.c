@@ -76,6 +76,7 @@ static void begin_row(drogue_hls_registers *r)
     r->square[1] = (uint64_t)(dy2 + 4 * (int64_t)r->ring_dy + 4); /* (v + 2)^2 = v^2 + 4 v + 4 */
     r->ring_dy += 2;
     r->column = 0;
+    r->ends = 0;
     r->labels.component_merges = 0;
     r->labels.arc_merges = 0;
 }
@@ -109,20 +110,20 @@ static void tick(drogue_hls_registers *r, uint32_t pixel, const drogue_hls_words
     drogue_hls_labels_tick(&r->labels, w, read, write, code);
     drogue_hls_pixels_tick(w, &r->frame, read, write);
     w->pixel = (uint8_t)pixel;
-    r->column = drogue_hls_narrow(r->column + 1u, COLUMN_BITS);
-    if (r->column == (uint32_t)r->frame.period) {
+    if (r->ends) {
         drogue_hls_settle_begin(&r->components, component_merges);
         drogue_hls_settle_begin(&r->arcs, arc_merges);
         r->phase = PHASE_SETTLE;
-        if (r->components.done & r->arcs.done) {
-            end_row(r);
-        }
     }
+    r->column = drogue_hls_narrow(r->column + 1u, COLUMN_BITS);
+    r->ends = r->column + 1u == (uint32_t)r->frame.period;
 }
 
+/* What comes next follows from registers alone, a clock after the last merge: places to read hang on it. */
 static void settle(drogue_hls_registers *r, const drogue_hls_words *read, drogue_hls_places *places,
                    drogue_hls_writes *write)
 {
+    const uint32_t done = r->components.done & r->arcs.done;
     const drogue_hls_settled component =
         drogue_hls_settle(&r->components, r->labels.component_merges, (uint32_t)read->component_merges,
                           (uint32_t)read->component_parent, (uint32_t)read->component_parent_2);
@@ -136,7 +137,7 @@ static void settle(drogue_hls_registers *r, const drogue_hls_words *read, drogue
     places->component_parent_2 = component.place_2;
     places->arc_parent = arc.place;
     places->arc_parent_2 = arc.place_2;
-    if (r->components.done & r->arcs.done) {
+    if (done) {
         end_row(r);
     }
 }
@@ -159,7 +160,7 @@ static void list(drogue_hls_registers *r, const drogue_hls_asked *asked, const d
 {
     if (drogue_hls_lists_step(&r->lists, &r->labels, r->phase, asked->min_arc_px, read, places, write)) {
         begin_list(&r->lists, r->phase == PHASE_COMPONENTS);
-        r->phase = r->phase == PHASE_SORT ? PHASE_IDLE : (r->phase + 1u) & 15u;
+        r->phase = r->phase == PHASE_SORT ? PHASE_IDLE : r->phase + 1u;
         r->status = status_of(&r->labels, &r->lists);
     }
 }
@@ -210,6 +211,7 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
     static const drogue_hls_writes nothing;
     *places = nowhere;
     *write = nothing;
+    r->phase = drogue_hls_narrow(r->phase, PHASE_BITS);
     switch (r->phase) {
     case PHASE_IDLE:
         if (asked->start) {
