@@ -82,11 +82,17 @@ enum {
     COLUMN_BITS = BITS(DROGUE_HLS_PERIOD),
     ROW_BITS = BITS(DROGUE_HLS_HEIGHT + LAG_ROWS),
     ARC_BITS = BITS(DROGUE_HLS_ARCS),
-    ENTRY_BITS = LABEL_BITS > POINT_BITS ? LABEL_BITS : POINT_BITS
+    ENTRY_BITS = LABEL_BITS > POINT_BITS ? LABEL_BITS : POINT_BITS,
+    RING_BITS = 44 /* squares of the ring, nine times, with their sign */
 };
 
 /* A count that never needs more bits: what is above them takes neither registers nor carries. */
 static inline uint32_t drogue_hls_narrow(uint32_t count, int32_t bits) { return count & UINT32_MAX >> (32 - bits); }
+
+static inline int64_t drogue_hls_narrow_s64(int64_t v, int32_t bits)
+{
+    return (int64_t)((uint64_t)v << (64 - bits)) >> (64 - bits);
+}
 
 /* A word written where enable is 1. */
 typedef struct drogue_hls_write {
@@ -193,7 +199,9 @@ typedef struct drogue_hls_windows {
     uint64_t vertex[AT_PLACE + 1];
     uint32_t offset;
     uint64_t point[AT_LIST + 1]; /* word of the edge list, by tick */
-    int64_t ring_square;         /* (2x - centre2_x)^2 of the column that comes to AT_LABEL next */
+    int64_t ring_square;         /* (2x - centre2_x)^2 of the column that comes to AT_LABEL after the next */
+    int64_t ring_tested;         /* that of the next, and nine times that */
+    int64_t ring_tested_x9;
     int32_t ring_dx;
     uint32_t in_ring; /* the column at AT_LABEL */
 } drogue_hls_windows;
@@ -288,6 +296,7 @@ typedef struct drogue_hls_lists {
 enum {
     PHASE_IDLE,
     PHASE_SQUARES, /* a bit a clock */
+    PHASE_NINE,    /* times one of them */
     PHASE_BEGIN,
     PHASE_ROWS,       /* a tick a clock */
     PHASE_SETTLE,     /* the merges of a row, where there are any */
@@ -304,10 +313,11 @@ typedef struct drogue_hls_registers {
     uint32_t column; /* tick of the row */
     uint32_t ends;   /* 1: its last */
     drogue_hls_frame frame;
-    int32_t ring_dx;    /* 2x - centre2_x of the first column that a row of ticks tests */
-    int32_t ring_dy;    /* 2y - centre2_y of the row of labels that begins next */
-    uint32_t bit;       /* of the three squares at work */
-    uint64_t square[3]; /* of ring_dx, ring_dy, the ring's longest side */
+    int32_t ring_dx;     /* 2x - centre2_x of the first column that a row of ticks tests */
+    int32_t ring_dy;     /* 2y - centre2_y of the row of labels that begins next */
+    uint32_t bit;        /* of the three squares at work */
+    uint64_t square[3];  /* of ring_dx, ring_dy, the ring's longest side */
+    int64_t ring_dy2_x9; /* nine times the second */
     drogue_hls_windows windows;
     drogue_hls_labels labels;
     drogue_hls_settling components;

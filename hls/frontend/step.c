@@ -36,7 +36,7 @@ static void start(drogue_hls_registers *r, const drogue_hls_asked *a)
     r->frame.low = threshold(a->canny_low) & 0x7FF;
     r->frame.high = threshold(a->canny_high) & 0x7FF;
     r->frame.use_ring = a->use_ring != 0;
-    r->ring_dx = 2 * -2 - narrow(a->centre2_x); /* from the column that comes to AT_LABEL in the second tick */
+    r->ring_dx = 2 * -1 - narrow(a->centre2_x); /* from the column that comes to AT_LABEL in the third tick */
     r->ring_dy = 2 * -LAG_ROWS - narrow(a->centre2_y);
     r->bit = SQUARE_BITS;
     r->square[0] = 0;
@@ -49,7 +49,8 @@ static void start(drogue_hls_registers *r, const drogue_hls_asked *a)
 
 static uint64_t next_bit(uint64_t square, uint32_t v, uint32_t bit)
 {
-    return (square << 1) + (v & drogue_hls_when((int)(v >> bit & 1u)));
+    return (uint64_t)drogue_hls_narrow_s64((int64_t)((square << 1) + (v & drogue_hls_when((int)(v >> bit & 1u)))),
+                                           RING_BITS);
 }
 
 static uint32_t size_of(int32_t v) { return (uint32_t)(v < 0 ? -v : v) & 0x3FFFFu; }
@@ -61,7 +62,7 @@ static void square(drogue_hls_registers *r, int32_t longest_px)
     r->square[0] = next_bit(r->square[0], size_of(r->ring_dx), r->bit);
     r->square[1] = next_bit(r->square[1], size_of(r->ring_dy), r->bit);
     r->square[2] = next_bit(r->square[2], (uint32_t)longest_px & 0x1FFFFFu, r->bit);
-    r->phase = r->bit == 0 ? PHASE_BEGIN : PHASE_SQUARES;
+    r->phase = r->bit == 0 ? PHASE_NINE : PHASE_SQUARES;
 }
 
 /* A row of labels begins: the ring in it. */
@@ -69,11 +70,11 @@ static void begin_row(drogue_hls_registers *r)
 {
     const int64_t side2 = (int64_t)r->square[2];
     const int64_t dy2 = (int64_t)r->square[1];
-    r->frame.ring_least_x9 = 4 * side2 - 9 * dy2;
-    r->frame.ring_most = side2 - dy2;
+    r->frame.ring_least_x9 = drogue_hls_narrow_s64(4 * side2 - r->ring_dy2_x9, RING_BITS);
+    r->frame.ring_most = drogue_hls_narrow_s64(side2 - dy2, RING_BITS);
     r->windows.ring_dx = r->ring_dx;
     r->windows.ring_square = (int64_t)r->square[0];
-    r->square[1] = (uint64_t)(dy2 + 4 * (int64_t)r->ring_dy + 4); /* (v + 2)^2 = v^2 + 4 v + 4 */
+    r->square[1] = (uint64_t)drogue_hls_narrow_s64(dy2 + 4 * (int64_t)r->ring_dy + 4, RING_BITS); /* (v + 2)^2 */
     r->ring_dy += 2;
     r->column = 0;
     r->ends = 0;
@@ -87,6 +88,11 @@ static void begin_list(drogue_hls_lists *l, uint32_t first)
     l->here[1] = 0;
     l->here[2] = 0;
     l->here[3] = 0;
+}
+
+static void take_nine(drogue_hls_registers *r)
+{
+    r->ring_dy2_x9 = drogue_hls_narrow_s64(9 * (int64_t)r->square[1], RING_BITS);
 }
 
 /* A row is complete, its merges settled. */
@@ -110,6 +116,7 @@ static void tick(drogue_hls_registers *r, uint32_t pixel, const drogue_hls_words
     drogue_hls_labels_tick(&r->labels, w, read, write, code);
     drogue_hls_pixels_tick(w, &r->frame, read, write);
     w->pixel = (uint8_t)pixel;
+    take_nine(r);
     if (r->ends) {
         drogue_hls_settle_begin(&r->components, component_merges);
         drogue_hls_settle_begin(&r->arcs, arc_merges);
@@ -219,6 +226,10 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
         }
         break;
     case PHASE_SQUARES: square(r, asked->longest_px); break;
+    case PHASE_NINE:
+        take_nine(r);
+        r->phase = PHASE_BEGIN;
+        break;
     case PHASE_BEGIN:
         r->row = 0;
         r->phase = PHASE_ROWS;
