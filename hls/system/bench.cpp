@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The small system under Verilator beside the library: the camera brings frames from a file, every word of region, result,
 // estimate and track must be that of drogue_track_frame() on this machine. Clocks of each frame by part.
-// usage: bench FRAMES.raw
+// usage: bench FRAMES.raw [PROFILE]     PROFILE: clocks of the frames after the first by the address of their instruction
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <vector>
 
 #include "machine.hpp"
@@ -33,9 +34,10 @@ int main(int argc, char **argv)
 {
     static follow f;
     static uint8_t pixels[SIDE * SIDE];
-    FILE *file = argc == 2 ? fopen(argv[1], "rb") : nullptr;
+    std::map<uint32_t, unsigned long> profile;
+    FILE *file = argc == 2 || argc == 3 ? fopen(argv[1], "rb") : nullptr;
     if (file == nullptr) {
-        fprintf(stderr, "usage: bench FRAMES.raw\n");
+        fprintf(stderr, "usage: bench FRAMES.raw [PROFILE]\n");
         return 2;
     }
     Machine m;
@@ -85,6 +87,9 @@ int main(int argc, char **argv)
                 c.lists += list_read - ended;
             }
             was_busy = m.v.block_busy;
+            if (argc == 3 && frames > 0) {
+                profile[m.instruction()]++;
+            }
             m.rise(taken);
             if (m.clock - begin > 400ul * 1000 * 1000) {
                 printf("frame %lu: no end, %zu of %zu words\n", frames, got, words.size());
@@ -106,6 +111,13 @@ int main(int argc, char **argv)
             most = c;
         }
         frames++;
+    }
+    if (argc == 3) {
+        FILE *out = fopen(argv[2], "w");
+        for (const auto &at : profile) {
+            fprintf(out, "%08x %lu\n", at.first, at.second);
+        }
+        fclose(out);
     }
     printf(
         "system: side=%d frames=%lu words off=%lu lost=%lu tracking=%lu coasting=%lu second looks=%lu; most clocks of a frame "

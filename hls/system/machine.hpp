@@ -7,6 +7,9 @@
 #include <cstdint>
 
 #include "Vdrogue_system.h"
+#include "Vdrogue_system_VexRiscv.h"
+#include "Vdrogue_system___024root.h"
+#include "Vdrogue_system_drogue_system.h"
 #include "verilated.h"
 
 class Machine {
@@ -32,6 +35,9 @@ public:
         sent_ = 0;
     }
     size_t sent() const { return sent_; }
+
+    // Address of the instruction that the soft core is about to complete; it publishes that itself.
+    uint32_t instruction() const { return v.rootp->drogue_system->core->lastStagePc; }
 
     // The clock's low half: inputs, and what follows from them in v. True when the camera's pixel is taken.
     bool settle()
