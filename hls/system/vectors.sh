@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 # The golden vectors of stage 'frame' through the small system under Verilator, every word; then frames that fill its tables.
 # A line a case, then one that sums up.
-# usage: vectors.sh [--few | STAGE/CASE...]     all of them; --few: 21 small ones and the tables, a minute; 77 where a tool is absent
+# usage: vectors.sh [--few | STAGE/CASE...]     all of them; --few: 22 small ones and the tables; 77 where a tool is absent
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . hls/system/build.sh
 need 'system vectors' verilator make gcc g++ riscv64-unknown-elf-gcc
-few=(scene-20m-{0,1,2} scene-25m-{0,1,2} far-region smallest-outline noise faint-noise all-black no-drogue square straight-edge
-    outline-outside-ring region-empty region-too-large region-beside-image no-radius one-row one-column)
+few=(scene-20m-{1,2} scene-25m-{1,2} far-region noise faint-noise all-black no-drogue square straight-edge outline-outside-ring
+    region-{empty,too-large,too-far,beside-image,left-of-image} no-radius radius-negative no-focal-length one-row one-column)
 if [ $# -eq 0 ]; then
     set -- frame
 elif [ "$1" = --few ]; then
