@@ -19,7 +19,7 @@ print(v.data_location + "/VexRiscv.v")' 2>/dev/null || true)}
 
 # firmware FOLDER SOURCE [FLAG...]: a program of the soft core, linked with the library and the driver
 firmware() {
-    local hot=(src/inner/fit.c src/outline/{near,rays}.c) # what the soft core's clocks go into
+    local hot=(src/inner/fit.c src/outline/rays.c) # what the soft core's clocks go into
     local flags=(-march=rv32im -mabi=ilp32 -std=c99 -O2 -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
     rm -rf "$1/objects"
     mkdir -p "$1/objects"
@@ -51,6 +51,7 @@ model() {
 bench() {
     local verilator_root
     verilator_root=$(verilator --getenv VERILATOR_ROOT)
-    g++ -O2 "-I$root/include" "-I$root/hls" "-I$made/verilated" "-I$verilator_root/include" "-I$verilator_root/include/vltstd" "$2" "${@:3}" \
+    g++ -O2 "-I$root/include" "-I$root/hls" "-I$made/verilated" "-I$verilator_root/include" \
+        "-I$verilator_root/include/vltstd" "$2" "${@:3}" \
         "$verilator_root"/include/verilated{,_threads}.cpp "$made/verilated/Vdrogue_system__ALL.a" "$made/libdrogue.a" -pthread -o "$1"
 }

@@ -25,6 +25,7 @@ fi
 firmware "$work" hls/system/measure.c
 model
 own=("-I$root/include" "-I$root/hls" "-I$root/hls/bench" "-I$root/tests/conformance")
-(cd "$work/words" && rm -f ./*.o && gcc -std=c99 -O2 "${own[@]}" -c "$root"/hls/bench/bench.c "$root"/tests/conformance/stages*.c "$work"/cases_*.c)
+(cd "$work/words" && rm -f ./*.o && gcc -std=c99 -O2 "${own[@]}" -c "$root"/hls/bench/bench.c \
+    "$root"/tests/conformance/stages*.c "$work"/cases_*.c)
 bench "$work/bench" hls/system/vectors.cpp "${own[@]}" "$work"/words/*.o
 (cd "$work" && ./bench)
