@@ -114,6 +114,10 @@ int main(int argc, char **argv)
     }
     if (argc == 3) {
         FILE *out = fopen(argv[2], "w");
+        if (out == nullptr) {
+            fprintf(stderr, "bench: %s cannot be written\n", argv[2]);
+            return 2;
+        }
         for (const auto &at : profile) {
             fprintf(out, "%08x %lu\n", at.first, at.second);
         }

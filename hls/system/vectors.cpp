@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The golden vectors of stage 'frame' through the small system under Verilator: every output word, and frames that fill each
-// table of the block, which must be what the library says on this machine.
+// The golden vectors of stage 'frame' through the small system under Verilator: every output word; and frames that fill
+// the block's labels and its points, which must be what the library says on this machine.
 #include <cstring>
 #include <vector>
 

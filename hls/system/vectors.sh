@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The golden vectors of stage 'frame' through the small system under Verilator, every word; then frames that fill its tables.
+# The golden vectors of stage 'frame' through the small system under Verilator, every word; then frames that fill its labels and its points.
 # A line a case, then one that sums up.
 # usage: vectors.sh [--few | STAGE/CASE...]     all of them; --few: 22 small ones and the tables; 77 where a tool is absent
 set -euo pipefail
