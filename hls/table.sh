@@ -50,6 +50,11 @@ done
 printf '%s\n' "${rows[@]}" | awk -F'|' '{ printf "%-9s %6s %7s %8s %10s %6s %10s %9s %4s  %s\n", $1, $2, $3, $4, $5, $6, $7, $8, $9, $10 }'
 # skipped, which says so itself, is no failure
 hls/rtl/simulate.sh 256 || [ $? -eq 77 ] || status=1
+hls/system/bank_test.sh || [ $? -eq 77 ] || status=1
+few=0
+hls/system/vectors.sh --few >"$work/system.log" 2>&1 || few=$?
+grep -v -e '^ok ' -e ' clocks$' "$work/system.log"
+[ $few -eq 0 ] || [ $few -eq 77 ] || status=1
 hls/system/simulate.sh "$simulations/hls_system_render" || [ $? -eq 77 ] || status=1
 command -v vitis-run >/dev/null || echo 'Vitis: SKIPPED: no vitis-run'
 command -v bambu >/dev/null || echo 'Bambu: SKIPPED: no bambu'

@@ -120,11 +120,7 @@ uint32_t drogue_hls_offset(uint64_t vertex, uint32_t sector)
     return dx | dy << 8;
 }
 
-uint32_t drogue_hls_in_ring(int64_t square, int64_t least_x9, int64_t most)
+uint32_t drogue_hls_in_ring(int64_t square, int64_t square_x9, int64_t least_x9, int64_t most)
 {
-    drogue_ring_row row;
-    row.least_x9 = least_x9;
-    row.most = most;
-    row.centre2_x = 0;
-    return (uint32_t)drogue_ring_row_holds_square(&row, square);
+    return (uint32_t)(square_x9 >= least_x9) & (uint32_t)(square <= most);
 }

@@ -178,8 +178,11 @@ static void locate(drogue_hls_windows *w, const drogue_hls_frame *frame)
 
 static void test_ring(drogue_hls_windows *w, const drogue_hls_frame *frame)
 {
-    w->in_ring = (frame->use_ring == 0) | drogue_hls_in_ring(w->ring_square, frame->ring_least_x9, frame->ring_most);
-    w->ring_square += 4 * (int64_t)w->ring_dx + 4; /* (v + 2)^2 = v^2 + 4 v + 4 */
+    w->in_ring = (frame->use_ring == 0) |
+                 drogue_hls_in_ring(w->ring_tested, w->ring_tested_x9, frame->ring_least_x9, frame->ring_most);
+    w->ring_tested = w->ring_square;
+    w->ring_tested_x9 = drogue_hls_narrow_s64(9 * w->ring_square, RING_BITS);
+    w->ring_square = drogue_hls_narrow_s64(w->ring_square + 4 * (int64_t)w->ring_dx + 4, RING_BITS); /* (v + 2)^2 */
     w->ring_dx += 2;
 }
 

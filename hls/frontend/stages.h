@@ -42,25 +42,30 @@ enum { IDLE_PX = 5, LEAST_PERIOD = PLACES - 1, LAG_ROWS = 5 };
 #define DROGUE_HLS_PERIOD (DROGUE_HLS_WIDTH + LEAST_PERIOD)
 
 /* The memories: X(name, words, bits). Each has a port to write; _PAIR are read at two places in a clock, the others at one. A
- * word read is the one that lies there when the clock begins, what the clock before wrote included. Entry 0 of the tables of
+ * word read is the one that lies there when the clock begins, what the clock before wrote included; of those of _LATER_ no word is
+ * asked for in the two clocks after it was written. Entry 0 of the tables of
  * labels takes what is not to be kept; a root it never is, so that of component_parent, arc_parent and arc_root 0 is all that
  * is ever written there, and what they power up with. */
-#define DROGUE_HLS_MEMORIES(X)                      \
+#define DROGUE_HLS_LATER_MEMORIES(X)                \
     X(raw_rows, DROGUE_HLS_PERIOD, 32)              \
     X(smooth_rows, DROGUE_HLS_PERIOD, 16)           \
     X(gradient_row, DROGUE_HLS_PERIOD, 32)          \
     X(magnitude_rows, DROGUE_HLS_PERIOD, 32)        \
     X(component_row, DROGUE_HLS_PERIOD, LABEL_BITS) \
     X(arc_row, DROGUE_HLS_PERIOD, LABEL_BITS + 3)   \
+    X(point_arc, DROGUE_HLS_EDGES + 1, LABEL_BITS)  \
+    X(points, DROGUE_HLS_EDGES + 1, 64)
+#define DROGUE_HLS_SINGLE_MEMORIES(X)               \
     X(component_merges, DROGUE_HLS_WIDTH, 32)       \
     X(arc_merges, DROGUE_HLS_WIDTH, 32)             \
     X(component_strong, DROGUE_HLS_LABELS, 1)       \
     X(arc_component, DROGUE_HLS_LABELS, LABEL_BITS) \
     X(arc_key, DROGUE_HLS_LABELS, 3)                \
     X(arc_root, DROGUE_HLS_LABELS, LABEL_BITS)      \
-    X(arc_place, DROGUE_HLS_LABELS, POINT_BITS)     \
-    X(point_arc, DROGUE_HLS_EDGES + 1, LABEL_BITS)  \
-    X(points, DROGUE_HLS_EDGES + 1, 64)
+    X(arc_place, DROGUE_HLS_LABELS, POINT_BITS)
+#define DROGUE_HLS_MEMORIES(X)   \
+    DROGUE_HLS_LATER_MEMORIES(X) \
+    DROGUE_HLS_SINGLE_MEMORIES(X)
 #define DROGUE_HLS_PAIR_MEMORIES(X)                    \
     X(component_parent, DROGUE_HLS_LABELS, LABEL_BITS) \
     X(arc_parent, DROGUE_HLS_LABELS, LABEL_BITS)       \
@@ -74,8 +79,20 @@ enum { IDLE_PX = 5, LEAST_PERIOD = PLACES - 1, LAG_ROWS = 5 };
 enum {
     LABEL_BITS = BITS(DROGUE_HLS_LABELS),
     POINT_BITS = BITS(DROGUE_HLS_EDGES) + 1,
-    COLUMN_BITS = BITS(DROGUE_HLS_PERIOD)
+    COLUMN_BITS = BITS(DROGUE_HLS_PERIOD),
+    ROW_BITS = BITS(DROGUE_HLS_HEIGHT + LAG_ROWS),
+    ARC_BITS = BITS(DROGUE_HLS_ARCS),
+    ENTRY_BITS = LABEL_BITS > POINT_BITS ? LABEL_BITS : POINT_BITS,
+    RING_BITS = 44 /* squares of the ring, nine times, with their sign */
 };
+
+/* A count that never needs more bits: what is above them takes neither registers nor carries. */
+static inline uint32_t drogue_hls_narrow(uint32_t count, int32_t bits) { return count & UINT32_MAX >> (32 - bits); }
+
+static inline int64_t drogue_hls_narrow_s64(int64_t v, int32_t bits)
+{
+    return (int64_t)((uint64_t)v << (64 - bits)) >> (64 - bits);
+}
 
 /* A word written where enable is 1. */
 typedef struct drogue_hls_write {
@@ -182,7 +199,9 @@ typedef struct drogue_hls_windows {
     uint64_t vertex[AT_PLACE + 1];
     uint32_t offset;
     uint64_t point[AT_LIST + 1]; /* word of the edge list, by tick */
-    int64_t ring_square;         /* (2x - centre2_x)^2 of the column that comes to AT_LABEL next */
+    int64_t ring_square;         /* (2x - centre2_x)^2 of the column that comes to AT_LABEL after the next */
+    int64_t ring_tested;         /* that of the next, and nine times that */
+    int64_t ring_tested_x9;
     int32_t ring_dx;
     uint32_t in_ring; /* the column at AT_LABEL */
 } drogue_hls_windows;
@@ -203,12 +222,14 @@ typedef struct drogue_hls_labels {
     uint32_t component_next;
     uint32_t component_above[3]; /* left, middle, right */
     uint32_t component_left;
-    uint32_t component; /* of the pixel whose arc comes next, and its code */
-    uint32_t code;
+    uint32_t component_met[4]; /* labels about the candidate of the tick before, above and left first */
+    uint32_t component;        /* of the pixel whose arc comes next, and its direction class + 1; 0: in no arc */
+    uint32_t key;
     uint32_t arc_next;
     uint32_t arc_above[3];
     uint32_t arc_left;
-    uint32_t key_next; /* direction class + 1; 0: in no arc */
+    uint32_t arc_met[4];
+    uint32_t key_next;
     uint32_t key_above[3];
     uint32_t key_left;
     uint32_t arc;       /* of the pixel that may be listed */
@@ -216,6 +237,9 @@ typedef struct drogue_hls_labels {
 } drogue_hls_labels;
 
 void drogue_hls_labels_begin(drogue_hls_labels *l);
+
+/* 1 unless the row has no merge, with what the tick at work adds. */
+uint32_t drogue_hls_row_merges(uint32_t merges, const uint32_t met[4]);
 
 /* Label the arc of the pixel at AT_LABEL + 1, then the component of the pixel at AT_LABEL. */
 void drogue_hls_labels_tick(drogue_hls_labels *l, const drogue_hls_windows *w, const drogue_hls_words *read,
@@ -240,23 +264,27 @@ typedef struct drogue_hls_settled {
     drogue_hls_write merge;
 } drogue_hls_settled;
 
-void drogue_hls_settle_begin(drogue_hls_settling *s, uint32_t merges);
+void drogue_hls_settle_begin(drogue_hls_settling *s, uint32_t any);
 drogue_hls_settled drogue_hls_settle(drogue_hls_settling *s, uint32_t merges, uint32_t merge, uint32_t parent,
                                      uint32_t parent_2);
 
 /* The merge that the next clock asks for. */
 uint32_t drogue_hls_settle_place(const drogue_hls_settling *s);
 
-/* The lists at the end of a frame: lists.c. Labels and points go through one a clock, in three stages. */
+/* The lists at the end of a frame: lists.c. Labels and points go through one a clock, in four stages. */
 typedef struct drogue_hls_lists {
     uint32_t points; /* listed so far */
     uint32_t points_full;
     uint32_t at[3];   /* the entry that comes in; those of the two clocks before */
-    uint32_t here[3]; /* 1: there is one; [0] not used */
+    uint32_t here[4]; /* 1: there is one; [0] not used */
     uint32_t strong;  /* what a stage hands to the next */
     uint32_t root;
     uint32_t count[2];
-    uint64_t point[2];
+    uint32_t is_root;
+    uint32_t key;
+    uint32_t next;
+    uint32_t kept;
+    uint64_t point[3];
     uint32_t arcs; /* entries of the arc table */
     uint32_t arcs_full;
     uint32_t first; /* points in arcs so far */
@@ -268,24 +296,28 @@ typedef struct drogue_hls_lists {
 enum {
     PHASE_IDLE,
     PHASE_SQUARES, /* a bit a clock */
+    PHASE_NINE,    /* times one of them */
     PHASE_BEGIN,
     PHASE_ROWS,       /* a tick a clock */
     PHASE_SETTLE,     /* the merges of a row, where there are any */
     PHASE_COMPONENTS, /* the roots of components, which of them are strong */
     PHASE_ARCS,       /* the roots of arcs, 0 in a weak component, and their points */
     PHASE_PLACE,      /* the arc table */
-    PHASE_SORT        /* the edge list */
+    PHASE_SORT,       /* the edge list */
+    PHASE_BITS = 4
 };
 typedef struct drogue_hls_registers {
     uint32_t phase;
     uint32_t status;
     uint32_t row;    /* of ticks */
     uint32_t column; /* tick of the row */
+    uint32_t ends;   /* 1: its last */
     drogue_hls_frame frame;
-    int32_t ring_dx;    /* 2x - centre2_x of the first column that a row of ticks tests */
-    int32_t ring_dy;    /* 2y - centre2_y of the row of labels that begins next */
-    uint32_t bit;       /* of the three squares at work */
-    uint64_t square[3]; /* of ring_dx, ring_dy, the ring's longest side */
+    int32_t ring_dx;     /* 2x - centre2_x of the first column that a row of ticks tests */
+    int32_t ring_dy;     /* 2y - centre2_y of the row of labels that begins next */
+    uint32_t bit;        /* of the three squares at work */
+    uint64_t square[3];  /* of ring_dx, ring_dy, the ring's longest side */
+    int64_t ring_dy2_x9; /* nine times the second */
     drogue_hls_windows windows;
     drogue_hls_labels labels;
     drogue_hls_settling components;

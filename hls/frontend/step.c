@@ -36,7 +36,7 @@ static void start(drogue_hls_registers *r, const drogue_hls_asked *a)
     r->frame.low = threshold(a->canny_low) & 0x7FF;
     r->frame.high = threshold(a->canny_high) & 0x7FF;
     r->frame.use_ring = a->use_ring != 0;
-    r->ring_dx = 2 * -2 - narrow(a->centre2_x); /* from the column that comes to AT_LABEL in the second tick */
+    r->ring_dx = 2 * -1 - narrow(a->centre2_x); /* from the column that comes to AT_LABEL in the third tick */
     r->ring_dy = 2 * -LAG_ROWS - narrow(a->centre2_y);
     r->bit = SQUARE_BITS;
     r->square[0] = 0;
@@ -49,7 +49,8 @@ static void start(drogue_hls_registers *r, const drogue_hls_asked *a)
 
 static uint64_t next_bit(uint64_t square, uint32_t v, uint32_t bit)
 {
-    return (square << 1) + (v & drogue_hls_when((int)(v >> bit & 1u)));
+    return (uint64_t)drogue_hls_narrow_s64((int64_t)((square << 1) + (v & drogue_hls_when((int)(v >> bit & 1u)))),
+                                           RING_BITS);
 }
 
 static uint32_t size_of(int32_t v) { return (uint32_t)(v < 0 ? -v : v) & 0x3FFFFu; }
@@ -57,11 +58,11 @@ static uint32_t size_of(int32_t v) { return (uint32_t)(v < 0 ? -v : v) & 0x3FFFF
 /* The squares from their highest bit on. */
 static void square(drogue_hls_registers *r, int32_t longest_px)
 {
-    r->bit--;
+    r->bit = (r->bit - 1u) & 31u;
     r->square[0] = next_bit(r->square[0], size_of(r->ring_dx), r->bit);
     r->square[1] = next_bit(r->square[1], size_of(r->ring_dy), r->bit);
     r->square[2] = next_bit(r->square[2], (uint32_t)longest_px & 0x1FFFFFu, r->bit);
-    r->phase = r->bit == 0 ? PHASE_BEGIN : PHASE_SQUARES;
+    r->phase = r->bit == 0 ? PHASE_NINE : PHASE_SQUARES;
 }
 
 /* A row of labels begins: the ring in it. */
@@ -69,13 +70,14 @@ static void begin_row(drogue_hls_registers *r)
 {
     const int64_t side2 = (int64_t)r->square[2];
     const int64_t dy2 = (int64_t)r->square[1];
-    r->frame.ring_least_x9 = 4 * side2 - 9 * dy2;
-    r->frame.ring_most = side2 - dy2;
+    r->frame.ring_least_x9 = drogue_hls_narrow_s64(4 * side2 - r->ring_dy2_x9, RING_BITS);
+    r->frame.ring_most = drogue_hls_narrow_s64(side2 - dy2, RING_BITS);
     r->windows.ring_dx = r->ring_dx;
     r->windows.ring_square = (int64_t)r->square[0];
-    r->square[1] = (uint64_t)(dy2 + 4 * (int64_t)r->ring_dy + 4); /* (v + 2)^2 = v^2 + 4 v + 4 */
+    r->square[1] = (uint64_t)drogue_hls_narrow_s64(dy2 + 4 * (int64_t)r->ring_dy + 4, RING_BITS); /* (v + 2)^2 */
     r->ring_dy += 2;
     r->column = 0;
+    r->ends = 0;
     r->labels.component_merges = 0;
     r->labels.arc_merges = 0;
 }
@@ -85,6 +87,12 @@ static void begin_list(drogue_hls_lists *l, uint32_t first)
     l->at[0] = first;
     l->here[1] = 0;
     l->here[2] = 0;
+    l->here[3] = 0;
+}
+
+static void take_nine(drogue_hls_registers *r)
+{
+    r->ring_dy2_x9 = drogue_hls_narrow_s64(9 * (int64_t)r->square[1], RING_BITS);
 }
 
 /* A row is complete, its merges settled. */
@@ -92,7 +100,7 @@ static void end_row(drogue_hls_registers *r)
 {
     const int last = r->row == (uint32_t)r->frame.height_px + LAG_ROWS - 1u;
     r->phase = last ? PHASE_COMPONENTS : PHASE_ROWS;
-    r->row = last ? 0 : r->row + 1u;
+    r->row = last ? 0 : drogue_hls_narrow(r->row + 1u, ROW_BITS);
     begin_list(&r->lists, 1);
     begin_row(r);
 }
@@ -101,24 +109,28 @@ static void tick(drogue_hls_registers *r, uint32_t pixel, const drogue_hls_words
 {
     drogue_hls_windows *w = &r->windows;
     const uint32_t code = w->code[AT_LABEL] & (w->in_ring ? 0x1Fu : 3u); /* no arc outside the ring */
+    /* Of the last tick of a row: no pixel of the region is labelled in it, so that no merge comes after these. */
+    const uint32_t component_merges = drogue_hls_row_merges(r->labels.component_merges, r->labels.component_met);
+    const uint32_t arc_merges = drogue_hls_row_merges(r->labels.arc_merges, r->labels.arc_met);
     drogue_hls_append(&r->lists, w->point[AT_LIST], &r->labels, read, write);
     drogue_hls_labels_tick(&r->labels, w, read, write, code);
     drogue_hls_pixels_tick(w, &r->frame, read, write);
     w->pixel = (uint8_t)pixel;
-    r->column++;
-    if (r->column == (uint32_t)r->frame.period) {
-        drogue_hls_settle_begin(&r->components, r->labels.component_merges);
-        drogue_hls_settle_begin(&r->arcs, r->labels.arc_merges);
+    take_nine(r);
+    if (r->ends) {
+        drogue_hls_settle_begin(&r->components, component_merges);
+        drogue_hls_settle_begin(&r->arcs, arc_merges);
         r->phase = PHASE_SETTLE;
-        if (r->components.done & r->arcs.done) {
-            end_row(r);
-        }
     }
+    r->column = drogue_hls_narrow(r->column + 1u, COLUMN_BITS);
+    r->ends = r->column + 1u == (uint32_t)r->frame.period;
 }
 
+/* What comes next follows from registers alone, a clock after the last merge: places to read hang on it. */
 static void settle(drogue_hls_registers *r, const drogue_hls_words *read, drogue_hls_places *places,
                    drogue_hls_writes *write)
 {
+    const uint32_t done = r->components.done & r->arcs.done;
     const drogue_hls_settled component =
         drogue_hls_settle(&r->components, r->labels.component_merges, (uint32_t)read->component_merges,
                           (uint32_t)read->component_parent, (uint32_t)read->component_parent_2);
@@ -132,7 +144,7 @@ static void settle(drogue_hls_registers *r, const drogue_hls_words *read, drogue
     places->component_parent_2 = component.place_2;
     places->arc_parent = arc.place;
     places->arc_parent_2 = arc.place_2;
-    if (r->components.done & r->arcs.done) {
+    if (done) {
         end_row(r);
     }
 }
@@ -206,6 +218,7 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
     static const drogue_hls_writes nothing;
     *places = nowhere;
     *write = nothing;
+    r->phase = drogue_hls_narrow(r->phase, PHASE_BITS);
     switch (r->phase) {
     case PHASE_IDLE:
         if (asked->start) {
@@ -213,6 +226,10 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
         }
         break;
     case PHASE_SQUARES: square(r, asked->longest_px); break;
+    case PHASE_NINE:
+        take_nine(r);
+        r->phase = PHASE_BEGIN;
+        break;
     case PHASE_BEGIN:
         r->row = 0;
         r->phase = PHASE_ROWS;

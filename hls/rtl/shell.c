@@ -18,8 +18,8 @@ static unsigned address_bits(unsigned words)
 #define WIRE(member) (8u * (unsigned)offsetof(drogue_hls_registers, member))
 #define OUT(member) (8u * (unsigned)offsetof(drogue_hls_writes, member))
 
-/* A memory: its port to write, and the places that it is read at. */
-static void memory(const char *name, unsigned words, unsigned size, size_t write, const size_t places[2],
+/* A memory: its port to write, and the places that it is read at. 'later': no word is asked for just after it was written. */
+static void memory(const char *name, unsigned words, unsigned size, int later, size_t write, const size_t places[2],
                    const size_t reads[2])
 {
     const unsigned address = address_bits(words);
@@ -32,8 +32,8 @@ static void memory(const char *name, unsigned words, unsigned size, size_t write
             printf("    assign read_%u = %s_%d;\n", 8 * (unsigned)reads[k], name, k);
         }
     }
-    printf("    drogue_memory%s #(.WORDS(%u), .BITS(%u), .ADDRESS(%u)) %s (\n", k == 2 ? "_2" : "", words, size,
-           address, name);
+    printf("    drogue_memory%s #(.WORDS(%u), .BITS(%u), .ADDRESS(%u)%s) %s (\n", k == 2 ? "_2" : "", words, size,
+           address, later ? ", .NEAR(0)" : "", name);
     printf(
         "        .clock(clock), .enable(enable), .write(write_%u[0]), .write_at(write_%u[%u:0]), .word(write_%u[%u:0]),\n",
         8 * (unsigned)(write + offsetof(drogue_hls_write, enable)),
@@ -56,8 +56,8 @@ static void head(void)
            "    input wire [31:0] use_ring, input wire [31:0] centre2_x, input wire [31:0] centre2_y,\n"
            "    input wire [31:0] longest_px,\n"
            "    input wire pixel_valid, input wire [7:0] pixel, output wire pixel_ready,\n"
-           "    output wire edge_write, output wire [%u:0] edge_at, output wire [63:0] edge_word,\n"
-           "    output wire arc_write, output wire [%u:0] arc_at, output wire [63:0] arc_word,\n"
+           "    output reg edge_write, output reg [%u:0] edge_at, output reg [63:0] edge_word,\n"
+           "    output reg arc_write, output reg [%u:0] arc_at, output reg [63:0] arc_word,\n"
            "    output wire [31:0] status, output wire [31:0] edge_count, output wire [31:0] arc_count,\n"
            "    output wire listing);\n",
            address_bits(DROGUE_HLS_EDGES) - 1, address_bits(DROGUE_HLS_ARCS) - 1);
@@ -89,17 +89,17 @@ static void inputs(void)
 
 static void outputs(void)
 {
-    printf("    assign busy = now_%u != 32'd%d;\n", WIRE(phase), PHASE_IDLE);
+    printf("    assign busy = now_%u != 32'd%d || edge_write;\n", WIRE(phase), PHASE_IDLE);
     printf("    assign listing = now_%u > 32'd%d;\n", WIRE(phase), PHASE_SETTLE);
     printf("    assign pixel_ready = now_%u == 32'd%d && now_%u[0];\n", WIRE(phase), PHASE_ROWS, WIRE(windows.take));
     printf("    assign enable = !pixel_ready || pixel_valid;\n");
     printf("    assign status = now_%u;\n    assign edge_count = now_%u;\n    assign arc_count = now_%u;\n",
            WIRE(status), WIRE(lists.left), WIRE(lists.arcs));
-    printf("    assign edge_write = enable && write_%u[0];\n    assign edge_at = write_%u[%u:0];\n"
-           "    assign edge_word = write_%u;\n",
+    printf("    always @(posedge clock) begin\n        edge_write <= !reset && enable && write_%u[0];\n"
+           "        edge_at <= write_%u[%u:0];\n        edge_word <= write_%u;\n",
            OUT(edges.enable), OUT(edges.address), address_bits(DROGUE_HLS_EDGES) - 1, OUT(edges.word));
-    printf("    assign arc_write = enable && write_%u[0];\n    assign arc_at = write_%u[%u:0];\n"
-           "    assign arc_word = write_%u;\n",
+    printf("        arc_write <= !reset && enable && write_%u[0];\n        arc_at <= write_%u[%u:0];\n"
+           "        arc_word <= write_%u;\n    end\n",
            OUT(arcs.enable), OUT(arcs.address), address_bits(DROGUE_HLS_ARCS) - 1, OUT(arcs.word));
 }
 
@@ -113,22 +113,23 @@ int main(int argc, char **argv)
         return 0;
     }
     outputs();
-#define X(name, words, size)                                                                                  \
-    {                                                                                                         \
-        const size_t places[2] = {offsetof(drogue_hls_places, name), SIZE_MAX};                               \
-        const size_t reads[2] = {offsetof(drogue_hls_words, name), SIZE_MAX};                                 \
-        memory(#name, (unsigned)(words), (unsigned)(size), offsetof(drogue_hls_writes, name), places, reads); \
+#define SINGLE(name, words, size, later)                                                                             \
+    {                                                                                                                \
+        const size_t places[2] = {offsetof(drogue_hls_places, name), SIZE_MAX};                                      \
+        const size_t reads[2] = {offsetof(drogue_hls_words, name), SIZE_MAX};                                        \
+        memory(#name, (unsigned)(words), (unsigned)(size), later, offsetof(drogue_hls_writes, name), places, reads); \
     }
-    DROGUE_HLS_MEMORIES(X)
-#undef X
-#define X(name, words, size)                                                                                  \
-    {                                                                                                         \
-        const size_t places[2] = {offsetof(drogue_hls_places, name), offsetof(drogue_hls_places, name##_2)};  \
-        const size_t reads[2] = {offsetof(drogue_hls_words, name), offsetof(drogue_hls_words, name##_2)};     \
-        memory(#name, (unsigned)(words), (unsigned)(size), offsetof(drogue_hls_writes, name), places, reads); \
+#define LATER(name, words, size) SINGLE(name, words, size, 1)
+#define NEAR(name, words, size) SINGLE(name, words, size, 0)
+    DROGUE_HLS_LATER_MEMORIES(LATER)
+    DROGUE_HLS_SINGLE_MEMORIES(NEAR)
+#define PAIR(name, words, size)                                                                                  \
+    {                                                                                                            \
+        const size_t places[2] = {offsetof(drogue_hls_places, name), offsetof(drogue_hls_places, name##_2)};     \
+        const size_t reads[2] = {offsetof(drogue_hls_words, name), offsetof(drogue_hls_words, name##_2)};        \
+        memory(#name, (unsigned)(words), (unsigned)(size), 0, offsetof(drogue_hls_writes, name), places, reads); \
     }
-    DROGUE_HLS_PAIR_MEMORIES(X)
-#undef X
+    DROGUE_HLS_PAIR_MEMORIES(PAIR)
     printf("endmodule\n");
     return 0;
 }

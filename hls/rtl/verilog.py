@@ -295,7 +295,10 @@ class Function:
             self.wire(v, bits, f"{of}[{bits - 1}:0]" if operation == "trunc" else f"{{{{{more}{{{top}}}}}, {of}}}")
         elif operation in OPERATORS or operation == "ashr":
             t, a, b = re.match(r"\w+ (\S+) ([^,]+), (.+)", code).groups()
+            places = [i for i in range(64) if operation == "mul" and re.fullmatch(r"\d+", b) and int(b) >> i & 1]
             a, b = self.value(t, a), self.value(t, b)
+            if 1 <= len(places) <= 3:  # no multiplier for that
+                return self.wire(v, int(t[1:]), " + ".join(f"({a} << {i})" for i in places))
             self.wire(v, int(t[1:]), f"$signed({a}) >>> {b}" if operation == "ashr" else f"{a} {OPERATORS[operation]} {b}")
         else:
             fail(line)

@@ -9,7 +9,7 @@ module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter AR
     output wire running, output wire [31:0] source_next, input wire [7:0] pixel);
     localparam EDGE_BITS = $clog2(EDGES), ARC_BITS = $clog2(ARCS);
     reg [31:0] asked [0:11]; // WIDTH_PX .. STRIDE
-    reg started, done, interrupting;
+    reg started, done, interrupting, was_running;
     wire busy, listing, pixel_ready, edge_write, arc_write;
     wire [EDGE_BITS-1:0] edge_at;
     wire [ARC_BITS-1:0] arc_at;
@@ -59,7 +59,6 @@ module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter AR
             interrupting <= 1'b0;
         end
     end
-    reg was_running;
     always @(posedge clock) was_running <= running && !stop;
     assign interrupt = interrupting && done;
 
@@ -89,7 +88,7 @@ module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter AR
             18'h04: plain <= WIDTH;
             18'h08: plain <= EDGES;
             18'h0C: plain <= ARCS;
-            18'h14: plain <= {30'd0, done, running};
+            18'h14: plain <= {30'd0, done, running || was_running}; // never neither from START on
             18'h50: plain <= status;
             18'h54: plain <= edge_count;
             18'h58: plain <= arc_count;

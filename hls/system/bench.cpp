@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The small system under Verilator beside the library: the camera brings frames from a file, every word of region, result,
 // estimate and track must be that of drogue_track_frame() on this machine. Clocks of each frame by part.
-// usage: bench FRAMES.raw
+// usage: bench FRAMES.raw [PROFILE]     PROFILE: clocks of the frames after the first by the address of their instruction
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <vector>
 
-#include "Vdrogue_system.h"
-#include "verilated.h"
+#include "machine.hpp"
 
 extern "C" {
 #include "follow.h"
@@ -34,26 +34,15 @@ int main(int argc, char **argv)
 {
     static follow f;
     static uint8_t pixels[SIDE * SIDE];
-    FILE *file = argc == 2 ? fopen(argv[1], "rb") : nullptr;
+    std::map<uint32_t, unsigned long> profile;
+    FILE *file = argc == 2 || argc == 3 ? fopen(argv[1], "rb") : nullptr;
     if (file == nullptr) {
-        fprintf(stderr, "usage: bench FRAMES.raw\n");
+        fprintf(stderr, "usage: bench FRAMES.raw [PROFILE]\n");
         return 2;
     }
-    Vdrogue_system v;
-    unsigned long clock = 0, failed = 0, frames = 0, seen[3] = {0, 0, 0}, second_looks = 0;
+    Machine m;
+    unsigned long failed = 0, frames = 0, seen[3] = {0, 0, 0}, second_looks = 0;
     Clocks most;
-    auto rise = [&] {
-        v.clock = 1;
-        v.eval();
-        v.clock = 0; // takes effect with the inputs of the next clock
-        clock++;
-    };
-    v.reset = 1;
-    for (int i = 0; i < 8; i++) {
-        v.eval();
-        rise();
-    }
-    v.reset = 0;
     add("\0\0\0", 4);
     if (follow_begin(&f) != DROGUE_OK) {
         return 2;
@@ -61,7 +50,7 @@ int main(int argc, char **argv)
     setvbuf(stdout, nullptr, _IOLBF, 0);
     printf("frame  state     status          runs  camera    front end    lists  processor       all  second look\n");
     while (fread(pixels, 1, sizeof pixels, file) == sizeof pixels) {
-        size_t sent = 0, got = 0;
+        size_t got = 0;
         Clocks c;
         bool was_busy = false;
         unsigned long ended = 0, list_read = 0;
@@ -71,38 +60,38 @@ int main(int argc, char **argv)
         add(&f.result, sizeof f.result);
         add(&f.estimate, sizeof f.estimate);
         add(&f.track, sizeof f.track);
-        const unsigned long begin = clock;
+        const unsigned long begin = m.clock;
         unsigned long first = 0;
+        m.show(pixels, sizeof pixels);
         while (got < words.size()) {
-            v.camera_valid = sent < sizeof pixels;
-            v.camera_first = sent == 0;
-            v.camera_pixel = sent < sizeof pixels ? pixels[sent] : 0;
-            v.eval(); // of the clock's low half
-            if (v.camera_valid && v.camera_ready) {
-                first = first == 0 ? clock : first;
-                sent++;
-                c.capture = clock + 1 - first;
+            const bool taken = m.settle();
+            if (taken) {
+                first = first == 0 ? m.clock : first;
+                c.capture = m.clock + 1 - first;
             }
-            if (v.result_valid) {
-                if (v.result != words[got] && failed++ < 5) {
-                    printf("frame %lu: word %zu is %08x, expected %08x\n", frames, got, v.result, words[got]);
+            if (m.v.result_valid) {
+                if (m.v.result != words[got] && failed++ < 5) {
+                    printf("frame %lu: word %zu is %08x, expected %08x\n", frames, got, m.v.result, words[got]);
                 }
                 got++;
             }
-            c.block += v.block_busy;
-            c.runs += v.block_busy && !was_busy;
-            if (was_busy && !v.block_busy) {
-                ended = clock;
+            c.block += m.v.block_busy;
+            c.runs += m.v.block_busy && !was_busy;
+            if (was_busy && !m.v.block_busy) {
+                ended = m.clock;
             }
-            if (v.list_read) {
-                list_read = clock;
+            if (m.v.list_read) {
+                list_read = m.clock;
             }
-            if (v.block_busy && !was_busy && list_read > ended) {
+            if (m.v.block_busy && !was_busy && list_read > ended) {
                 c.lists += list_read - ended;
             }
-            was_busy = v.block_busy;
-            rise();
-            if (clock - begin > 400ul * 1000 * 1000) {
+            was_busy = m.v.block_busy;
+            if (argc == 3 && frames > 0) {
+                profile[m.instruction()]++;
+            }
+            m.rise(taken);
+            if (m.clock - begin > 400ul * 1000 * 1000) {
                 printf("frame %lu: no end, %zu of %zu words\n", frames, got, words.size());
                 return 1;
             }
@@ -111,7 +100,7 @@ int main(int argc, char **argv)
             c.lists += list_read - ended;
         }
         words.clear();
-        c.all = clock - first;
+        c.all = m.clock - first;
         seen[f.track.state]++;
         second_looks += f.result.second_look != DROGUE_SECOND_NONE;
         printf("%5lu  %-9s %-14s %5lu %7lu %12lu %8lu %10lu %9lu  %s\n", frames, drogue_track_state_name(f.track.state),
@@ -122,6 +111,17 @@ int main(int argc, char **argv)
             most = c;
         }
         frames++;
+    }
+    if (argc == 3) {
+        FILE *out = fopen(argv[2], "w");
+        if (out == nullptr) {
+            fprintf(stderr, "bench: %s cannot be written\n", argv[2]);
+            return 2;
+        }
+        for (const auto &at : profile) {
+            fprintf(out, "%08x %lu\n", at.first, at.second);
+        }
+        fclose(out);
     }
     printf(
         "system: side=%d frames=%lu words off=%lu lost=%lu tracking=%lu coasting=%lu second looks=%lu; most clocks of a frame "

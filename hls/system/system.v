@@ -7,7 +7,7 @@
 //   0x90000000  CAPTURE: write, pixels of the next frame to take; read, 1 when they are there
 //   0x90000004  RESULT: words that go out
 module drogue_system #(
-    parameter RAM_WORDS = 49152, parameter FRAME_WORDS = 16384, parameter FIRMWARE = "firmware.hex",
+    parameter RAM_WORDS = 53248, parameter FRAME_WORDS = 16384, parameter FIRMWARE = "firmware.hex",
     parameter WIDTH = 256, parameter EDGES = 2688, parameter ARCS = 96) (
     input wire clock, input wire reset,
     input wire camera_valid, input wire camera_first, input wire [7:0] camera_pixel, output wire camera_ready,

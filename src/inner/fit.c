@@ -16,23 +16,25 @@ int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogu
     for (i = 0; i < r->count; i++) {
         const int64_t off = (int64_t)r->edges[i].at_px_q16 - expected_px_q16;
         const int64_t room = within_px_q16 - (off < 0 ? -off : off);
-        if (room > 0 && room * r->edges[i].slope_q8 > most) {
-            most = room * r->edges[i].slope_q8;
+        const int64_t merit = room > 0 ? (int64_t)(int32_t)room * r->edges[i].slope_q8 : 0;
+        if (merit > most) {
+            most = merit;
             best = (int32_t)i;
         }
     }
     return best;
 }
 
-void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int64_t weight, int64_t off_q16)
+void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int32_t weight, int64_t off_q16)
 {
-    const int64_t row[3] = {r->nx_q14, r->ny_q14, 1 << 14};
+    const int32_t row[3] = {r->nx_q14, r->ny_q14, 1 << 14};
     int i;
     int j;
     for (i = 0; i < 3; i++) {
-        s->right[i] += row[i] * weight * off_q16;
+        const int32_t weighted = row[i] * weight; /* < 2^30 + 2^16 */
+        s->right[i] += weighted * off_q16;
         for (j = 0; j <= i; j++) {
-            s->normal[DROGUE_PACKED(i, j)] += row[i] * row[j] * weight;
+            s->normal[DROGUE_PACKED(i, j)] += (int64_t)weighted * row[j];
         }
     }
     s->squares_q16 += drogue_shr_round_s64(off_q16 * off_q16, 16);
@@ -49,8 +51,8 @@ void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const 
         if (which >= 0) {
             const drogue_ray_edge *e = &rays[k].edges[which];
             const int64_t off = (int64_t)e->at_px_q16 - expected;
-            const int64_t grey = drogue_clamp_s32(e->slope_q8 / (DROGUE_RAY_WEIGHT * 256), 0, 254) + 1;
-            const int64_t weight = bins != NULL ? grey * grey : 1;
+            const int32_t grey = drogue_clamp_s32(e->slope_q8 / (DROGUE_RAY_WEIGHT * 256), 0, 254) + 1;
+            const int32_t weight = bins != NULL ? grey * grey : 1;
             drogue_ray_sums_add(s, &rays[k], weight, off);
             s->slopes_q8 += e->slope_q8;
             s->levels_q8 += e->level_q8;

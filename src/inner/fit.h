@@ -33,8 +33,8 @@ drogue_q16 drogue_ray_along(const drogue_ray *r, const drogue_q16 v_px_q16[3]);
  * tolerance. */
 int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogue_q16 within_px_q16);
 
-/* Add what a ray says, 'off' from what is known. */
-void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int64_t weight, int64_t off_q16);
+/* Add what a ray says, 'off' from what is known; its weight is at most 255^2. */
+void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int32_t weight, int64_t off_q16);
 
 /* Add the edges that agree with an offset: weighted by their slopes, and to bins, where there are bins; all alike where
  * 'bins' is NULL. */

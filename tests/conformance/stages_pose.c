@@ -175,6 +175,14 @@ static void put_covariance(int64_t *covariance, int64_t *std, const drogue_resul
     *std = result->axis_std_rad_q32;
 }
 
+void stage_put_result(int32_t frame[38], int32_t detail[17], int64_t covariance[15], int64_t std[4],
+                      const drogue_result *result)
+{
+    put_frame(frame, result);
+    put_detail(detail, result);
+    put_covariance(covariance, std, result);
+}
+
 int stage_frame(stage_run *r)
 {
     const drogue_image image = stage_input_image(r);
@@ -203,8 +211,6 @@ int stage_frame(stage_run *r)
     }
     drogue_config_default(&config);
     (void)drogue_measure(&result, &workspace, &(drogue_setup){&camera, &model, &config}, &image, &region);
-    put_frame(frame, &result);
-    put_detail(detail, &result);
-    put_covariance(covariance, std, &result);
+    stage_put_result(frame, detail, covariance, std, &result);
     return 0;
 }

@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The register bank with the front end behind it under Verilator, its state read every clock.
+# usage: bank_test.sh     77 where a tool is absent
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+for tool in verilator make g++; do
+    command -v "$tool" >/dev/null || { echo "bank: SKIPPED: no $tool" && exit 77; }
+done
+hls/rtl/rtl.sh 256 >/dev/null
+work=$PWD/build/hls/system/bank
+mkdir -p "$work"
+verilator --cc --exe --build -O3 --x-assign fast --x-initial fast -Wno-fatal -Wno-lint -Mdir "$work" --top-module drogue_bank \
+    hls/system/bank.v build/hls/rtl/256/drogue_frontend.v "$PWD/hls/system/bank_test.cpp" -CFLAGS "-O1 -I$PWD/hls" -o bank_test \
+    >"$work/verilator.log" 2>&1 || { tail -n 20 "$work/verilator.log" && exit 1; }
+"$work/bank_test"

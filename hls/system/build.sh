@@ -1,0 +1,57 @@
+# shellcheck shell=bash
+# SPDX-License-Identifier: Apache-2.0
+# Sourced, in the project's folder: what the simulations of the small system are built of, in build/hls/system.
+# The soft core is the Verilog of the Python package pythondata-cpu-vexriscv: DROGUE_VEXRISCV, or what python3 finds.
+. src/sources.sh
+root=$PWD
+made=$root/build/hls/system
+
+# need WHO TOOL...: exit 77 where the core or a tool is absent; sets core
+need() {
+    local tool who=$1
+    for tool in "${@:2}"; do
+        command -v "$tool" >/dev/null || { echo "$who: SKIPPED: no $tool" && exit 77; }
+    done
+    core=${DROGUE_VEXRISCV:-$(python3 -c 'import pythondata_cpu_vexriscv as v
+print(v.data_location + "/VexRiscv.v")' 2>/dev/null || true)}
+    [ -e "$core" ] || { echo "$who: SKIPPED: no pythondata-cpu-vexriscv" && exit 77; }
+}
+
+# firmware FOLDER SOURCE [FLAG...]: a program of the soft core, linked with the library and the driver
+firmware() {
+    local hot=(src/inner/fit.c src/outline/rays.c) # what the soft core's clocks go into
+    local flags=(-march=rv32im -mabi=ilp32 -std=c99 -O2 -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
+    rm -rf "$1/objects"
+    mkdir -p "$1/objects"
+    (cd "$1/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -c &&
+        riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O3 "${hot[@]/#/$root/}" -c)
+    rm -f "$1/libdrogue.a"
+    riscv64-unknown-elf-ar rcs "$1/libdrogue.a" "$1"/objects/*.o
+    riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -nostartfiles -Wl,--gc-sections,--no-warn-rwx-segments \
+        -T hls/system/system.ld hls/system/start.S "$2" hls/driver/{block,bank,block_frontend}.c "$1/libdrogue.a" -o "$1/firmware.elf"
+    riscv64-unknown-elf-objcopy -O verilog --verilog-data-width=4 "$1/firmware.elf" "$1/firmware.hex"
+    riscv64-unknown-elf-size "$1/firmware.elf" |
+        awk 'NR == 2 { print "system: firmware " $1 " bytes of code and constants, " $2 + $3 " of data" }'
+}
+
+# model: the system's Verilog as C++, and the library for this machine
+model() {
+    hls/rtl/rtl.sh 256
+    mkdir -p "$made/objects"
+    verilator --cc --build -O3 --x-assign fast --x-initial fast -Wno-fatal -Wno-lint -Mdir "$made/verilated" \
+        --top-module drogue_system "-GFIRMWARE=\"firmware.hex\"" hls/system/system.v hls/system/bank.v \
+        build/hls/rtl/256/drogue_frontend.v "$core" -CFLAGS -O2 >"$made/verilator.log" 2>&1 ||
+        { tail -n 20 "$made/verilator.log" && exit 1; }
+    (cd "$made/objects" && core_files "$root" '*.c' | xargs gcc -std=c99 -O2 "-I$root/include" -c)
+    rm -f "$made/libdrogue.a"
+    ar rcs "$made/libdrogue.a" "$made"/objects/*.o
+}
+
+# bench PROGRAM SOURCE [FLAG | OBJECT]...
+bench() {
+    local verilator_root
+    verilator_root=$(verilator --getenv VERILATOR_ROOT)
+    g++ -O2 "-I$root/include" "-I$root/hls" "-I$made/verilated" "-I$verilator_root/include" \
+        "-I$verilator_root/include/vltstd" "$2" "${@:3}" \
+        "$verilator_root"/include/verilated{,_threads}.cpp "$made/verilated/Vdrogue_system__ALL.a" "$made/libdrogue.a" -pthread -o "$1"
+}
