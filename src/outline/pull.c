@@ -12,6 +12,8 @@
 #define GROUP (DROGUE_RAYS / GROUPS)        /* rays taken together */
 #define BINS (DROGUE_SUPPORT_BINS / GROUPS) /* of a support beside them */
 
+#define HALF_TURN (DROGUE_SUPPORT_BINS / 2) /* bins */
+
 #define MIDDLE 11               /* the slope on the ellipse */
 #define SLOPES (2 * MIDDLE + 1) /* half a pixel apart */
 #define NEAR 3                  /* slopes: so near the ellipse lies its edge */
@@ -94,21 +96,26 @@ static void add_slopes(int32_t slope[SLOPES], const drogue_ray rays[DROGUE_RAYS]
     }
 }
 
-/* Offsets along the normal as radial ones, in semi-axes times b: times the length of the normal in semi-axes. */
+/* Offsets along the normal as radial ones, in semi-axes times b: times the length of the normal in semi-axes, which is the
+ * same in all quadrants. */
 static void spread(int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t moved[GROUPS], const drogue_ellipse *e)
 {
     const int64_t ratio_q24 = drogue_div_round_s64(e->b_px_q16 * (INT64_C(1) << 24), e->a_px_q16);
     uint32_t k;
-    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+    for (k = 0; k < DROGUE_SUPPORT_BINS / 4; k++) {
+        const uint32_t bins[4] = {k, HALF_TURN - 1 - k, HALF_TURN + k, 2 * HALF_TURN - 1 - k};
         int64_t basis_q30[5];
+        int64_t length_q24;
         int32_t u_q24;
         int32_t v_q24;
-        int64_t length_q24;
+        int i;
         drogue_support_basis(basis_q30, k);
         u_q24 = (int32_t)drogue_shr_round_s64(basis_q30[1] * ratio_q24, 30);
         v_q24 = (int32_t)drogue_shr_round_s64(basis_q30[2], 6);
         length_q24 = drogue_isqrt_u64(drogue_square_sum(u_q24, v_q24));
-        off_px_q24[k] = (int32_t)drogue_shr_round_s64(moved[k / BINS] * length_q24, 17); /* half a pixel each */
+        for (i = 0; i < 4; i++) { /* half a pixel each */
+            off_px_q24[bins[i]] = (int32_t)drogue_shr_round_s64(moved[bins[i] / BINS] * length_q24, 17);
+        }
     }
 }
 

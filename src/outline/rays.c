@@ -118,6 +118,18 @@ static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, in
     }
 }
 
+/* A ray at an offset from the centre of an ellipse, px Q16, and along a normal. */
+static void place(drogue_ray *r, const drogue_ellipse *e, int64_t x_px_q16, int64_t y_px_q16, int32_t nx_q14,
+                  int32_t ny_q14)
+{
+    r->x_px_q16 = placed(e->xc_px_q16 + x_px_q16);
+    r->y_px_q16 = placed(e->yc_px_q16 + y_px_q16);
+    r->nx_q14 = nx_q14;
+    r->ny_q14 = ny_q14;
+    r->step_px_q16 = HALF;
+    r->count = 0;
+}
+
 void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase)
 {
     const int64_t turn_q29 = 52707179; /* 2 pi / 64 */
@@ -125,28 +137,30 @@ void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int3
     int32_t cos_q30;
     int32_t k;
     drogue_sincos_q30(&sin_q30, &cos_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
-    for (k = 0; k < DROGUE_RAYS; k++) {
-        const int32_t eighths = 8 * k + phase - (k < DROGUE_RAYS / 2 ? 0 : 8 * DROGUE_RAYS); /* of the turn */
-        drogue_ray *r = &rays[k];
+    for (k = 0; k < DROGUE_RAYS / 2; k++) { /* and the one across */
         int32_t s_q30;
         int32_t c_q30;
         int64_t u; /* offset from the centre along the axes, px Q16, then the normal along them */
         int64_t v;
+        int64_t x;
+        int64_t y;
         int64_t length;
-        drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shr_round_s64(eighths * turn_q29, 3));
+        int32_t nx_q14;
+        int32_t ny_q14;
+        drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shr_round_s64((8 * k + phase) * turn_q29, 3));
         u = drogue_shr_round_s64((int64_t)e->a_px_q16 * c_q30, 30);
         v = drogue_shr_round_s64((int64_t)e->b_px_q16 * s_q30, 30);
-        r->x_px_q16 = placed(e->xc_px_q16 + drogue_shr_round_s64(u * cos_q30 - v * sin_q30, 30));
-        r->y_px_q16 = placed(e->yc_px_q16 + drogue_shr_round_s64(u * sin_q30 + v * cos_q30, 30));
+        x = drogue_shr_round_s64(u * cos_q30 - v * sin_q30, 30);
+        y = drogue_shr_round_s64(u * sin_q30 + v * cos_q30, 30);
         u = drogue_shr_round_s64((int64_t)e->b_px_q16 * c_q30, 30);
         v = drogue_shr_round_s64((int64_t)e->a_px_q16 * s_q30, 30);
         length = (int64_t)drogue_isqrt_u64((uint64_t)(u * u) + (uint64_t)(v * v)) + 1;
         u = drogue_div_round_s64(u * (1 << 14), length);
         v = drogue_div_round_s64(v * (1 << 14), length);
-        r->nx_q14 = (int32_t)drogue_shr_round_s64(u * cos_q30 - v * sin_q30, 30);
-        r->ny_q14 = (int32_t)drogue_shr_round_s64(u * sin_q30 + v * cos_q30, 30);
-        r->step_px_q16 = HALF;
-        r->count = 0;
+        nx_q14 = (int32_t)drogue_shr_round_s64(u * cos_q30 - v * sin_q30, 30);
+        ny_q14 = (int32_t)drogue_shr_round_s64(u * sin_q30 + v * cos_q30, 30);
+        place(&rays[k], e, x, y, nx_q14, ny_q14);
+        place(&rays[k + DROGUE_RAYS / 2], e, -x, -y, -nx_q14, -ny_q14);
     }
 }
 
