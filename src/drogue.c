@@ -123,12 +123,24 @@ static void return_to(const best_try *best, drogue_frame *f, const drogue_region
     f->too_large = best->too_large;
 }
 
+/* TOO_WIDE or FULL when a try had too little room: with more another might stand. */
+static drogue_second_look short_of_room(const drogue_frame *f, drogue_status status)
+{
+    switch (status) {
+    case DROGUE_E_LABELS_FULL:
+    case DROGUE_E_EDGES_FULL:
+    case DROGUE_E_ARCS_FULL: return DROGUE_SECOND_FULL;
+    default: return f->second_look >= DROGUE_SECOND_TOO_WIDE ? f->second_look : DROGUE_SECOND_NONE;
+    }
+}
+
 /* Measure; while the inner disc is not seen or not of its size, try what else the outline may be. What has the disc
  * nearest to its size stands. */
 static drogue_status measure(drogue_frame *f, const drogue_region *region)
 {
     const drogue_config *config = f->setup->config;
     drogue_status status = DROGUE_OK;
+    drogue_second_look room = DROGUE_SECOND_NONE;
     best_try best;
     int last = -1;
     int what;
@@ -152,9 +164,15 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
         if (what == FIRST || f->doubt_q16 < best.least_q16 - CLEARLY_Q16) {
             keep_try(&best, f, what, status);
         }
+        if (room == DROGUE_SECOND_NONE) {
+            room = short_of_room(f, status);
+        }
     }
     if (best.what != last || f->others) {
         return_to(&best, f, region, last);
+    }
+    if (room != DROGUE_SECOND_NONE) {
+        f->second_look = room;
     }
     if (best.status == DROGUE_OK && f->too_large) { /* an edge within the drogue: the canopy's or its wall's */
         refuse(f->out);

@@ -83,8 +83,13 @@ static void run_refused(bench *b)
     width_px = DROGUE_HLS_WIDTH + 1;
     refuses(b, "wider than the memory", 0, 0);
     width_px = 0;
-    refuses(b, "no pixel", 0, 0);
+    refuses(b, "no column", 0, 0);
     width_px = 1;
+    height_px = DROGUE_HLS_HEIGHT + 1;
+    refuses(b, "higher than the memory", 0, 0);
+    height_px = 0;
+    refuses(b, "no row", 0, 0);
+    height_px = 1;
     arc.count = 0;
     arcs[0] = drogue_hls_pack_arc(&arc);
     refuses(b, "empty arc", 4, 1);

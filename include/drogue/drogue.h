@@ -50,7 +50,7 @@ const char *drogue_version(void);
 /* What a frame gives. Coordinates are px of the whole image. */
 typedef struct drogue_result {
     drogue_status status;           /* what drogue_measure() returned */
-    drogue_second_look second_look; /* from TOO_WIDE on, a larger workspace may give another result */
+    drogue_second_look second_look; /* from TOO_WIDE on, of any try, a larger workspace may give another result */
     drogue_region region;           /* the region used: the one asked for, clipped to the image */
     drogue_edge_list list;    /* edges and arcs in the workspace, in coordinates of the region; where no try gave an
                                        outline those of the last one */

@@ -19,7 +19,8 @@ extern "C" {
 
 /* The outline of the end plane and what speaks for it. */
 typedef struct drogue_outline {
-    drogue_ellipse ellipse;   /* region coordinates, as seen, what moved it put back */
+    drogue_ellipse ellipse;   /* region coordinates, as seen, what blur took put back; after
+                                 drogue_outline_pull() what lies beside it, too */
     drogue_ellipse fitted;    /* the same before: what edge points lie about */
     drogue_quality quality;   /* of the winning candidate; l_r is the share of the circumference that is covered */
     drogue_polarity polarity; /* DARK, BRIGHT, or BOTH where the background crosses the drogue's own grey */
@@ -75,7 +76,7 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
  * has edge points and no image does without.
  *
  *  outline  in: found or enlarged; out: ellipse, and support.pull_q24 with the coefficients: 0 where they are no larger
- *           than noise makes them, and at most an eighth of the semi-axis
+ *           than noise makes them, and at most an eighth of the semi-axis. Below 1 px of b: as fitted
  *  rays     memory, as that of the workspace: nothing in it is kept
  *  view     the region's pixels
  *  config   as it was found with

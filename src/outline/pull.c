@@ -158,8 +158,8 @@ static uint64_t squares_left(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], cons
     return squares_q48;
 }
 
-/* Variance of a harmonic, px^2 Q48: a quarter of what it is of a group's mean, which the three degrees of freedom show that
- * the harmonics leave; and a quarter of the mean square of the points' offsets, as measured. */
+/* Variance of a wave, px^2 Q48: a quarter of what it is of a group's mean, which the three degrees of freedom show that
+ * the harmonics leave (of the mean over all groups it is half that: shrunk more); and a quarter of the mean square of the points' offsets, as measured. */
 static uint64_t variance_of(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t c_px_q24[5],
                             const drogue_outline *outline)
 {

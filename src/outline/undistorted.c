@@ -7,6 +7,24 @@
 #include "collection.h"
 #include "near.h"
 
+/* The pull as waves over the eccentric angle of an ellipse whose major axis is turned against that it was found on, as by
+ * half a turn where the angle passes the vertical. */
+static void turned(int32_t out_q24[5], const int32_t pull_q24[5], drogue_q16 turn_rad_q16)
+{
+    int32_t s_q30;
+    int32_t c_q30;
+    int64_t s2_q30;
+    int64_t c2_q30;
+    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(turn_rad_q16, 13));
+    c2_q30 = drogue_shr_round_s64((int64_t)c_q30 * c_q30 - (int64_t)s_q30 * s_q30, 30);
+    s2_q30 = drogue_shr_round_s64((int64_t)s_q30 * c_q30, 29);
+    out_q24[0] = pull_q24[0];
+    out_q24[1] = (int32_t)drogue_shr_round_s64((int64_t)pull_q24[1] * c_q30 + (int64_t)pull_q24[2] * s_q30, 30);
+    out_q24[2] = (int32_t)drogue_shr_round_s64((int64_t)pull_q24[2] * c_q30 - (int64_t)pull_q24[1] * s_q30, 30);
+    out_q24[3] = (int32_t)drogue_shr_round_s64(pull_q24[3] * c2_q30 + pull_q24[4] * s2_q30, 30);
+    out_q24[4] = (int32_t)drogue_shr_round_s64(pull_q24[4] * c2_q30 - pull_q24[3] * s2_q30, 30);
+}
+
 drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outline *outline,
                                          const drogue_workspace *workspace, const drogue_edge_list *list,
                                          const drogue_setup *setup, int32_t x_px, int32_t y_px)
@@ -17,6 +35,7 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
     drogue_status status;
     drogue_outline_room *room = workspace->outline; /* what found the outline has served */
     drogue_region_lens l;
+    int32_t pull_q24[5];
     uint32_t own;
     memset(out, 0, sizeof *out);
     l.camera = setup->camera;
@@ -37,7 +56,8 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         status = DROGUE_E_DEGENERATE; /* most of the outline lies beyond what the lens model can undo */
     }
     if (status == DROGUE_OK) {
-        drogue_outline_put_back(out, outline->support.pull_q24);
+        turned(pull_q24, outline->support.pull_q24, out->angle_rad_q16 - outline->fitted.angle_rad_q16);
+        drogue_outline_put_back(out, pull_q24);
         drogue_undo_blur(out, setup->config);
     }
     return status;

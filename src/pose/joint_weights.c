@@ -122,7 +122,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
     drogue_real_product(&t, &a, &t);
     square_ratio(&variance, &variance, &t);
     drogue_real_sum(&covariance[0], &covariance[0], &variance);
-    for (i = 0; i < DROGUE_JOINT_FIT; i++) { /* of what opposite edges nearby did, half remains */
+    for (i = 0; i < DROGUE_JOINT_FIT; i++) { /* of what lies beside it and was put back, half remains */
         real *own = &covariance[DROGUE_PACKED(i, i)];
         drogue_real_set(&variance, support->pull_q24[i], -25);
         drogue_real_product(&variance, &variance, &variance);

@@ -324,7 +324,6 @@ static void look(drogue_result *result, const drogue_region *region, const drogu
                  const drogue_image *image)
 {
     const int lost = track->state == DROGUE_LOST;
-    drogue_result *found = &search->found;
     memset(result, 0, sizeof *result);
     result->status = DROGUE_E_REGION;
     if (region->width_px > 0) {
@@ -336,9 +335,9 @@ static void look(drogue_result *result, const drogue_region *region, const drogu
     if (drogue_measurement_counts(result, &track->config) || (!lost && !track->search)) {
         return;
     }
-    (void)drogue_acquire(found, search, workspace, setup, image, lost ? NULL : &track->reach);
-    if (drogue_measurement_counts(found, &track->config) || region->width_px <= 0) {
-        *result = *found;
+    (void)drogue_acquire(&search->found, search, workspace, setup, image, lost ? NULL : &track->reach);
+    if (drogue_measurement_counts(&search->found, &track->config) || region->width_px <= 0) {
+        *result = search->found;
     }
 }
 

@@ -152,6 +152,15 @@ void add_disturbed_scenes(Set &set)
     s.background = accuracy::Background::ground();
     s.look = accuracy::Look::bright();
     add_frame(set, "barrel-lens-bright", Tier::ordinary, {"barrel"}, photograph(s, region_of(s), 0));
+    /* far off, where wall and rim blur into each other; the major axis near the vertical */
+    for (int index = 0; index < 6; index++) {
+        s = scene_at(40 + static_cast<uint64_t>(index), 4.0, 3.0, 20, 16 + index, index % 2 == 0 ? -3 : 3);
+        s.camera = barrel;
+        s.background = index % 3 == 0 ? accuracy::Background::ground() : accuracy::Background::cloud();
+        s.look = index < 3 ? accuracy::Look::bright() : accuracy::Look::dark();
+        add_frame(set, "barrel-lens-far-" + std::to_string(index), Tier::ordinary, {"barrel"},
+                  photograph(s, region_of(s), 0));
+    }
     s = scene_at(38, 1.0, -2.0, 12, 8, 9);
     s.camera = {1400, 1410, 1023.5, 1023.5, 0.15, 0.05, 0, 0, 0};
     add_frame(set, "pincushion-lens", Tier::ordinary, {"pincushion"}, photograph(s, region_of(s), 0));

@@ -377,6 +377,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         return best;
     }
     drogue_status status = DROGUE_OK;
+    drogue_second_look room = DROGUE_SECOND_NONE; /* of any try that had too little of it */
     for (int what = 0; what < 4 && least > SURE; what++) {
         const bool larger = what % 2 == 1;
         Result out;
@@ -417,6 +418,13 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             doubt = judge(out, from, f, task, library);
         }
         status = out.status;
+        if (room == DROGUE_SECOND_NONE) {
+            const bool full =
+                status == DROGUE_E_LABELS_FULL || status == DROGUE_E_EDGES_FULL || status == DROGUE_E_ARCS_FULL;
+            room = full                                        ? DROGUE_SECOND_FULL
+                   : out.second_look >= DROGUE_SECOND_TOO_WIDE ? out.second_look
+                                                               : DROGUE_SECOND_NONE;
+        }
         if (what == 0) {
             best = out;
             if (status != DROGUE_OK && status != DROGUE_E_NO_ELLIPSE && status != DROGUE_E_NO_EDGES &&
@@ -432,8 +440,10 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
+    best.second_look = room != DROGUE_SECOND_NONE ? room : best.second_look;
     if (best.status == DROGUE_OK && best.too_large) {
         Result refused;
+        refused.second_look = best.second_look;
         refused.status = DROGUE_E_NO_ELLIPSE;
         refused.region = best.region;
         refused.outline.arcs.fill(DROGUE_NO_ARC);

@@ -499,7 +499,7 @@ Ellipse ideal_of(const Outline &outline, const FrontEnd &front, const drogue_con
     if (!e.ok || 4 * straight.size() < 3 * members || e.b < e.a * real(config.min_axis_ratio_q16) || e.b < 1) {
         return none;
     }
-    put_back(e, outline.support.pull);
+    put_back(e, turned(outline.support.pull, e.angle - outline.fitted.angle));
     undo_blur(e, config);
     return e;
 }

@@ -66,6 +66,8 @@ bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const
 /* What lies beside the outline as drogue_outline_pull(), along rays from the ellipse 'aim', and blur put back. */
 void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const drogue_config &config);
 void put_back(reference::Ellipse &e, const std::array<Real, 5> &pull);
+std::array<Real, 5> turned(const std::array<Real, 5> &pull,
+                           Real turn); /* over the angles of an ellipse turned by that */
 void undo_blur(reference::Ellipse &e, const drogue_config &config);
 
 /* Ellipse as the ideal camera would see it, px of the whole image; not ok when the lens cannot be undone. */

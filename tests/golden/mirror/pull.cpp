@@ -153,6 +153,12 @@ void put_back(Ellipse &e, const std::array<Real, 5> &pull)
     e.b = (a + b) / 2 - apart;
 }
 
+std::array<Real, 5> turned(const std::array<Real, 5> &p, Real turn)
+{
+    const Real c = std::cos(turn), s = std::sin(turn), c2 = std::cos(2 * turn), s2 = std::sin(2 * turn);
+    return {p[0], p[1] * c + p[2] * s, p[2] * c - p[1] * s, p[3] * c2 + p[4] * s2, p[4] * c2 - p[3] * s2};
+}
+
 void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const drogue_config &config)
 {
     std::array<drogue_ray, DROGUE_RAYS> rays;

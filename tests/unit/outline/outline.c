@@ -2,6 +2,8 @@
 /* The outline from edge lists made by hand: found, filtered by polarity and thresholds, and freed of distortion. */
 #include "suite.h"
 
+#include "../../../src/outline/collection.h"
+
 #include "drogue/outline.h"
 #include "drogue/undistort.h"
 #include "geometry.h"
@@ -463,6 +465,42 @@ START_TEST(undistorted_without_points)
 }
 END_TEST
 
+/* What is put back goes the same way whatever the angle of the axis, past the vertical too, where it wraps. */
+START_TEST(undistorted_and_put_back)
+{
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    drogue_camera camera = pinhole(800, 800, 350, 420);
+    drogue_config c = plain_config();
+    int i;
+    camera.k1_q16 = q16_of(-0.05);
+    for (i = -40; i <= 40; i++) {
+        const ellipse_real e = {127, 128, 100, i % 2 ? 85 : 98, TEST_PI / 2 + 0.001 * i};
+        const drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+        const drogue_setup setup = {&camera, NULL, &c};
+        drogue_ellipse seen, ideal, moved;
+        drogue_outline out;
+        int k;
+        ck_assert_int_eq(drogue_outline_find(&out, &t.workspace, &list, &mask, &c), DROGUE_OK);
+        ck_assert_int_eq(drogue_outline_undistorted(&ideal, &out, &t.workspace, &list, &setup, 0, 0), DROGUE_OK);
+        for (k = 1; k < 5; k++) {
+            double dx, dy;
+            memset(out.support.pull_q24, 0, sizeof out.support.pull_q24);
+            out.support.pull_q24[k] = (1 << 24) / 100;
+            seen = out.fitted;
+            drogue_outline_put_back(&seen, out.support.pull_q24);
+            ck_assert_int_eq(drogue_outline_undistorted(&moved, &out, &t.workspace, &list, &setup, 0, 0), DROGUE_OK);
+            dx = real_of_q16(seen.xc_px_q16 - out.fitted.xc_px_q16) - real_of_q16(moved.xc_px_q16 - ideal.xc_px_q16);
+            dy = real_of_q16(seen.yc_px_q16 - out.fitted.yc_px_q16) - real_of_q16(moved.yc_px_q16 - ideal.yc_px_q16);
+            MUST(hypot(dx, dy) < 0.06, "angle %d, wave %d: %g, %g px", i, k, dx, dy);
+            dx = real_of_q16(seen.a_px_q16 - out.fitted.a_px_q16) - real_of_q16(moved.a_px_q16 - ideal.a_px_q16);
+            MUST(i % 2 == 0 || fabs(dx) < 0.15, "angle %d, wave %d: semi-axis %g px", i, k, dx);
+        }
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
 /* A lens may take a wide outline to less than a pixel: none, either. */
 START_TEST(undistorted_to_less_than_a_pixel)
 {
@@ -549,4 +587,5 @@ END_TEST
 SUITE_MAIN("outline", whole_ellipses_of_both_polarities, foreign_arc_is_left_out, second_choice_of_every_quadrant,
            outline_of_mixed_polarity, bump_drops_out_of_the_band, all_points_are_collected, thresholds_decide,
            cover_is_the_share_of_the_circumference, nothing_to_find, distortion_is_removed, undistorted_without_points,
-           undistorted_to_a_flat_one, undistorted_to_less_than_a_pixel, an_arc_of_too_many_points)
+           undistorted_and_put_back, undistorted_to_a_flat_one, undistorted_to_less_than_a_pixel,
+           an_arc_of_too_many_points)
