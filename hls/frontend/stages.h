@@ -268,15 +268,15 @@ void drogue_hls_settle_begin(drogue_hls_settling *s, uint32_t any);
 drogue_hls_settled drogue_hls_settle(drogue_hls_settling *s, uint32_t merges, uint32_t merge, uint32_t parent,
                                      uint32_t parent_2);
 
-/* The merge that the next clock asks for. */
+/* The merge that the next clock looks at. */
 uint32_t drogue_hls_settle_place(const drogue_hls_settling *s);
 
-/* The lists at the end of a frame: lists.c. Labels and points go through one a clock, in four stages. */
+/* The lists at the end of a frame: lists.c. Labels and points go through one a clock: asked for, then four stages. */
 typedef struct drogue_hls_lists {
     uint32_t points; /* listed so far */
     uint32_t points_full;
-    uint32_t at[3];   /* the entry that comes in; those of the two clocks before */
-    uint32_t here[4]; /* 1: there is one; [0] not used */
+    uint32_t at[4];   /* the entry asked for; the one whose words are there; those of the two clocks before */
+    uint32_t here[5]; /* 1: there is one; [0] not used */
     uint32_t strong;  /* what a stage hands to the next */
     uint32_t root;
     uint32_t count[2];
@@ -345,7 +345,7 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
 void drogue_hls_append(drogue_hls_lists *list, uint64_t point, const drogue_hls_labels *labels,
                        const drogue_hls_words *read, drogue_hls_writes *write);
 
-/* A clock of a phase from PHASE_COMPONENTS on; 1 when the phase is complete. Of the places those that a word read names. */
+/* A clock of a phase from PHASE_COMPONENTS on; 1 when the phase is complete. */
 uint32_t drogue_hls_lists_step(drogue_hls_lists *list, const drogue_hls_labels *labels, uint32_t phase,
                                uint32_t min_arc_px, const drogue_hls_words *read, drogue_hls_places *places,
                                drogue_hls_writes *write);

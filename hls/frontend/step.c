@@ -26,9 +26,8 @@ static void start(drogue_hls_registers *r, const drogue_hls_asked *a)
 {
     static const drogue_hls_lists empty;
     const int32_t period = a->width_px + IDLE_PX;
-    const drogue_status refused = check(a);
-    r->status = (uint32_t)refused;
-    r->phase = refused == DROGUE_OK ? PHASE_SQUARES : PHASE_IDLE;
+    r->status = (uint32_t)check(a);
+    r->phase = PHASE_SQUARES;
     r->frame.width_px = a->width_px & 0xFFF;
     r->frame.height_px = a->height_px & 0xFFF;
     r->frame.period = (period > LEAST_PERIOD ? period : LEAST_PERIOD) & 0xFFF;
@@ -55,14 +54,14 @@ static uint64_t next_bit(uint64_t square, uint32_t v, uint32_t bit)
 
 static uint32_t size_of(int32_t v) { return (uint32_t)(v < 0 ? -v : v) & 0x3FFFFu; }
 
-/* The squares from their highest bit on. */
+/* The squares from their highest bit on; the end for what start() refused. */
 static void square(drogue_hls_registers *r, int32_t longest_px)
 {
     r->bit = (r->bit - 1u) & 31u;
     r->square[0] = next_bit(r->square[0], size_of(r->ring_dx), r->bit);
     r->square[1] = next_bit(r->square[1], size_of(r->ring_dy), r->bit);
     r->square[2] = next_bit(r->square[2], (uint32_t)longest_px & 0x1FFFFFu, r->bit);
-    r->phase = r->bit == 0 ? PHASE_NINE : PHASE_SQUARES;
+    r->phase = r->status != (uint32_t)DROGUE_OK ? PHASE_IDLE : r->bit == 0 ? PHASE_NINE : PHASE_SQUARES;
 }
 
 /* A row of labels begins: the ring in it. */
@@ -88,6 +87,7 @@ static void begin_list(drogue_hls_lists *l, uint32_t first)
     l->here[1] = 0;
     l->here[2] = 0;
     l->here[3] = 0;
+    l->here[4] = 0;
 }
 
 static void take_nine(drogue_hls_registers *r)
@@ -126,11 +126,13 @@ static void tick(drogue_hls_registers *r, uint32_t pixel, const drogue_hls_words
     r->ends = r->column + 1u == (uint32_t)r->frame.period;
 }
 
-/* What comes next follows from registers alone, a clock after the last merge: places to read hang on it. */
+/* What comes next follows from registers alone, a clock after the last merge; a table that is done asks for what the next
+ * tick needs. */
 static void settle(drogue_hls_registers *r, const drogue_hls_words *read, drogue_hls_places *places,
                    drogue_hls_writes *write)
 {
-    const uint32_t done = r->components.done & r->arcs.done;
+    const uint32_t components_done = r->components.done;
+    const uint32_t arcs_done = r->arcs.done;
     const drogue_hls_settled component =
         drogue_hls_settle(&r->components, r->labels.component_merges, (uint32_t)read->component_merges,
                           (uint32_t)read->component_parent, (uint32_t)read->component_parent_2);
@@ -140,11 +142,14 @@ static void settle(drogue_hls_registers *r, const drogue_hls_words *read, drogue
     write->component_merges = component.merge;
     write->arc_parent = arc.parent;
     write->arc_merges = arc.merge;
-    places->component_parent = component.place;
+    places->component_parent = components_done ? r->labels.component_next : component.place;
     places->component_parent_2 = component.place_2;
-    places->arc_parent = arc.place;
+    places->arc_parent = arcs_done ? r->labels.arc_next : arc.place;
     places->arc_parent_2 = arc.place_2;
-    if (done) {
+    places->arc_points = r->labels.arc;
+    places->component_merges = drogue_hls_settle_place(&r->components);
+    places->arc_merges = drogue_hls_settle_place(&r->arcs);
+    if (components_done & arcs_done) {
         end_row(r);
     }
 }
@@ -172,24 +177,26 @@ static void list(drogue_hls_registers *r, const drogue_hls_asked *asked, const d
     }
 }
 
-/* Words that registers name. */
-static void ask(drogue_hls_places *p, const drogue_hls_registers *r)
+/* Words that registers name, in the phase at work, not in the one that comes next: that would be a long path to every memory.
+ * What a phase's first clock reads is asked for in the last of the phase before, or, in the lists, a clock later. */
+static void ask(drogue_hls_places *p, const drogue_hls_registers *r, uint32_t phase)
 {
     const drogue_hls_windows *w = &r->windows;
-    const uint32_t at = r->lists.at[0];
+    const uint32_t at = r->lists.at[1];
+    if (phase == PHASE_IDLE) {
+        return;
+    }
     p->raw_rows = w->x[AT_PICK_ROWS];
     p->smooth_rows = w->x[AT_LEVELS];
     p->gradient_row = w->x[AT_MAGNITUDES];
     p->magnitude_rows = w->x[AT_MAGNITUDES];
     p->component_row = w->x[AT_LABEL - 3];
     p->arc_row = w->x[AT_LABEL + 1 - 3];
-    p->component_merges = drogue_hls_settle_place(&r->components);
-    p->arc_merges = drogue_hls_settle_place(&r->arcs);
     p->arc_component = at;
     p->arc_key = at;
     p->point_arc = at;
     p->points = at;
-    switch (r->phase) {
+    switch (phase) {
     case PHASE_ROWS:
         p->component_parent = r->labels.component_next;
         p->arc_parent = r->labels.arc_next;
@@ -216,10 +223,11 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
 {
     static const drogue_hls_places nowhere;
     static const drogue_hls_writes nothing;
+    const uint32_t phase = drogue_hls_narrow(r->phase, PHASE_BITS);
     *places = nowhere;
     *write = nothing;
-    r->phase = drogue_hls_narrow(r->phase, PHASE_BITS);
-    switch (r->phase) {
+    r->phase = phase;
+    switch (phase) {
     case PHASE_IDLE:
         if (asked->start) {
             start(r, asked);
@@ -239,5 +247,5 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
     case PHASE_SETTLE: settle(r, read, places, write); break;
     default: list(r, asked, read, places, write); break;
     }
-    ask(places, r);
+    ask(places, r, phase);
 }
