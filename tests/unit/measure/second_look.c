@@ -110,4 +110,35 @@ START_TEST(second_look_of_less_cover)
 }
 END_TEST
 
-SUITE_MAIN("second_look", second_look_beyond_the_coordinates, second_look_of_less_cover)
+/* Thresholds lower than the configured ones find more than a table holds: another workspace would give another result. */
+START_TEST(too_little_room_for_the_lower_thresholds)
+{
+    static uint8_t pixels[SIDE * SIDE];
+    const drogue_image image = {pixels, SIDE, SIDE, SIDE};
+    const drogue_region all = {0, 0, SIDE, SIDE};
+    const drogue_camera camera = pinhole(400, 400, 64, 64);
+    const uint32_t edges[2] = {64, 4096};
+    drogue_config config;
+    int32_t x, y;
+    int k;
+    drogue_config_default(&config);
+    for (y = 0; y < SIDE; y++) {
+        for (x = 0; x < SIDE; x++) {
+            pixels[y * SIDE + x] = (uint8_t)(120 - 8 * fmin(fmax(50.5 - hypot(x - 63.5, y - 63.5), 0), 1));
+        }
+    }
+    for (k = 0; k < 2; k++) {
+        test_workspace t = test_workspace_of(SIDE, edges[k], 4096, 512);
+        drogue_result r;
+        (void)drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &bare, &config}, &image, &all);
+        MUST(r.status == (k == 0 ? DROGUE_E_NO_EDGES : DROGUE_OK), "%u edges: %s", (unsigned)edges[k],
+             drogue_status_name(r.status));
+        MUST(r.second_look == (k == 0 ? DROGUE_SECOND_FULL : DROGUE_SECOND_NONE), "%u edges: second look %d",
+             (unsigned)edges[k], (int)r.second_look);
+        test_workspace_free(&t);
+    }
+}
+END_TEST
+
+SUITE_MAIN("second_look", second_look_beyond_the_coordinates, second_look_of_less_cover,
+           too_little_room_for_the_lower_thresholds)
