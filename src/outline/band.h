@@ -67,12 +67,6 @@ static inline int32_t offset_q16_of(const drogue_ellipse_frame *frame, int32_t f
     return low_shr_round(drogue_product(f_b_px_q16, frame->half_over_b_q31), 31);
 }
 
-/* F of F b within reach */
-static inline int32_t f_q24_of(const drogue_ellipse_frame *frame, int32_t f_b_px_q16)
-{
-    return low_shr_round(drogue_product(f_b_px_q16, frame->half_over_b_q31), 22);
-}
-
 static inline int32_t q14_of_q22(int32_t n_q22) { return (n_q22 + 128) >> 8; }
 
 /* Direction of a point from its normal, in the ellipse's frame. */
