@@ -95,6 +95,9 @@ static void put_support(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const drogue_su
     for (k = 0; k < 5; k++) {
         words[DROGUE_HLS_O_PULL + k] = support->pull_q24[k];
     }
+    for (k = 0; k < 2; k++) {
+        words[DROGUE_HLS_O_SMEAR + k] = support->smear_px2_q16[k];
+    }
 }
 
 static void put(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const frame *f)

@@ -23,6 +23,9 @@ static void get_support(drogue_support *support, const int32_t words[DROGUE_HLS_
     for (k = 0; k < 5; k++) {
         support->pull_q24[k] = words[DROGUE_HLS_O_PULL + k];
     }
+    for (k = 0; k < 2; k++) {
+        support->smear_px2_q16[k] = words[DROGUE_HLS_O_SMEAR + k];
+    }
 }
 
 static void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS],

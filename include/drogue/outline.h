@@ -76,7 +76,8 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
  * has edge points and no image does without.
  *
  *  outline  in: found or enlarged; out: ellipse, and support.pull_q24 with the coefficients: 0 where they are no larger
- *           than noise makes them, and at most an eighth of the semi-axis. Below 1 px of b: as fitted
+ *           than noise makes them, and at most an eighth of the semi-axis; support.smear_px2_q16 with the motion blur that
+ *           the edge's widths show. Below 1 px of b: as fitted
  *  rays     memory, as that of the workspace: nothing in it is kept
  *  view     the region's pixels
  *  config   as it was found with

@@ -28,6 +28,8 @@ typedef struct drogue_support {
     uint32_t bright_bins; /* bit k: bin k is brighter inside; all 0 or all 1 for an outline of one polarity */
     int32_t pull_q24[5];  /* by how much what lies beside the outline moved it outwards, in semi-axes: 1, cos t, sin t,
                              cos 2t, sin 2t over the eccentric angle t */
+    int32_t smear_px2_q16[2]; /* motion blur: variance along the motion less that across it, px^2, times cosine and sine
+                                 of twice the angle between it and the major axis; 0 where none stands out */
     uint32_t covered;     /* bins that hold enough points, less the changes of polarity round the outline beyond none */
 } drogue_support;
 

@@ -8,16 +8,18 @@
 
 #include <string.h>
 
-#define GROUPS 8                            /* equal parts of the outline */
+#include "slopes.h"
+
+#define GROUPS DROGUE_EDGE_GROUPS
 #define GROUP (DROGUE_RAYS / GROUPS)        /* rays taken together */
 #define BINS (DROGUE_SUPPORT_BINS / GROUPS) /* of a support beside them */
 
 #define HALF_TURN (DROGUE_SUPPORT_BINS / 2) /* bins */
 
-#define MIDDLE 11               /* the slope on the ellipse */
-#define SLOPES (2 * MIDDLE + 1) /* half a pixel apart */
-#define NEAR 3                  /* slopes: so near the ellipse lies its edge */
-#define FAR DROGUE_Q16(12, 5)   /* slopes: so far from there, 1.2 px, lies the sharpened one */
+#define MIDDLE DROGUE_SLOPE_MIDDLE
+#define SLOPES DROGUE_SLOPES
+#define NEAR DROGUE_SLOPE_NEAR
+#define FAR DROGUE_Q16(12, 5) /* slopes: so far from there, 1.2 px, lies the sharpened one */
 #define TAPS 7
 #define MOST_Q24 (1 << 21) /* semi-axes, of a harmonic */
 
@@ -53,7 +55,7 @@ static int find_peak(int32_t *at_q16, const int32_t curve[SLOPES], int32_t from,
 }
 
 /* How far outwards of the sharpened edge the blurred one lies, in slopes Q16; 0 when there are not both. */
-static int32_t moved_q16(const int32_t slope[SLOPES])
+static int32_t moved_q16(const int32_t slope[SLOPES], const int32_t seen[SLOPES])
 {
     int32_t curve[SLOPES];
     int32_t seen_q16;
@@ -61,13 +63,10 @@ static int32_t moved_q16(const int32_t slope[SLOPES])
     int32_t from;
     int32_t to;
     int32_t i;
-    curve[0] = 0; /* what a peak is to be higher than */
-    for (i = MIDDLE - NEAR - 1; i <= MIDDLE + NEAR + 1; i++) {
-        curve[i] = blurred(slope, i);
-    }
-    if (!find_peak(&seen_q16, curve, MIDDLE - NEAR, MIDDLE + NEAR)) {
+    if (!find_peak(&seen_q16, seen, MIDDLE - NEAR, MIDDLE + NEAR)) {
         return 0;
     }
+    curve[0] = 0; /* what a peak is to be higher than */
     from = (seen_q16 - FAR) >> 16;
     to = (seen_q16 + FAR + DROGUE_Q16_ONE - 1) >> 16;
     for (i = from - 1; i <= to + 1; i++) {
@@ -184,6 +183,7 @@ static int32_t shrunk(int32_t c_px_q24, uint64_t variance_q48)
 static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view)
 {
     int32_t moved[GROUPS];
+    int32_t variance_px2_q16[GROUPS];
     int32_t off_px_q24[DROGUE_SUPPORT_BINS];
     int32_t c_px_q24[5];
     uint64_t variance_q48;
@@ -191,9 +191,17 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
     drogue_rays_aim(rays, &outline->fitted, 4);
     for (i = 0; i < GROUPS; i++) {
         int32_t slope[SLOPES];
+        int32_t seen[SLOPES];
+        int32_t k;
         add_slopes(slope, rays, i, view, &outline->support);
-        moved[i] = moved_q16(slope);
+        seen[0] = 0; /* what a peak is to be higher than */
+        for (k = DROGUE_SLOPE_FIRST; k <= DROGUE_SLOPE_LAST; k++) {
+            seen[k] = blurred(slope, k);
+        }
+        moved[i] = moved_q16(slope, seen);
+        variance_px2_q16[i] = drogue_edge_variance(slope, seen);
     }
+    drogue_find_smear(outline->support.smear_px2_q16, variance_px2_q16);
     spread(off_px_q24, moved, &outline->fitted);
     find_harmonics(c_px_q24, off_px_q24);
     variance_q48 = variance_of(off_px_q24, c_px_q24, outline);
@@ -208,6 +216,7 @@ void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], 
                          const drogue_config *config)
 {
     memset(outline->support.pull_q24, 0, sizeof outline->support.pull_q24);
+    memset(outline->support.smear_px2_q16, 0, sizeof outline->support.smear_px2_q16);
     outline->ellipse = outline->fitted;
     if (outline->fitted.b_px_q16 < DROGUE_Q16_ONE) {
         return;

@@ -163,8 +163,8 @@ static void judge_above(drogue_search *search, int k, int32_t y)
     level->pending_count = kept;
 }
 
-/* Add a dark disc; of those beside each other the one of most contrast stays, and so when there are too many at once: what
- * a row of texture costs is bounded. */
+/* Add a dark disc of more contrast than the faintest of a full list; of those beside each other the one of most contrast
+ * stays, and so when there are too many at once: what a row of texture costs is bounded. */
 static void keep_disc(drogue_search_level *level, const drogue_search_disc *disc)
 {
     const int32_t near = disc->ring_q4 >> 4;
@@ -184,7 +184,7 @@ static void keep_disc(drogue_search_level *level, const drogue_search_disc *disc
     }
     if (level->pending_count < DROGUE_SEARCH_PENDING) {
         level->pending[level->pending_count++] = *disc;
-    } else if (disc->contrast > level->pending[faintest].contrast) {
+    } else {
         level->pending[faintest] = *disc;
     }
 }

@@ -289,6 +289,16 @@ bool outline_covariance(Covariance &out, const Ellipse &e, const Support &s, Rea
         const Real left = s.pull[static_cast<size_t>(i)] / 2;
         out(i, i) += static_cast<double>(left * left);
     }
+    {
+        const auto c = static_cast<double>(s.smear[0]), d = static_cast<double>(s.smear[1]), v = std::hypot(c, d);
+        const auto share = static_cast<double>(0.01171875L / (e.a * e.b));
+        const cv::Vec<double, 5> alike(v / 2, 0, 0, c / 2, d / 2);
+        out += share * Covariance(alike * alike.t());
+        out(1, 1) += share * v * (v + c) / 2;
+        out(2, 2) += share * v * (v - c) / 2;
+        out(1, 2) += share * v * d / 2;
+        out(2, 1) += share * v * d / 2;
+    }
     return true;
 }
 

@@ -152,6 +152,39 @@ void add_rim(Set &set)
     }
 }
 
+namespace {
+
+/* Squares of chance grey with some darker discs over them, by number; wide: 128 places and one more for one of the scales. */
+cv::Mat textured(uint64_t number, bool wide)
+{
+    uint64_t state = number * 77777;
+    const auto below = [&state](int end) {
+        state = state * 6364136223846793005u + 1442695040888963407u;
+        return static_cast<int>((state >> 33) % static_cast<uint64_t>(end));
+    };
+    const int width = wide ? 2 * (2 * (2 + below(4)) + 129) : 40 + below(60), height = wide ? 24 + below(24) : 40 + below(60);
+    const int square = 1 + below(4), least = below(60), range = 20 + below(150);
+    cv::Mat image(height, width, CV_8U);
+    for (int y = 0; y < height; y += square) {
+        for (int x = 0; x < width; x += square) {
+            image(cv::Rect(x, y, square, square) & cv::Rect(0, 0, width, height)) = least + below(range);
+        }
+    }
+    for (int count = 1 + below(6); count > 0; count--) {
+        const int xc = below(width), yc = below(height), radius = 3 + below(12), grey = below(least + 1);
+        for (int y = 0; y < height; y++) {
+            for (int x = 0; x < width; x++) {
+                if ((x - xc) * (x - xc) + (y - yc) * (y - yc) <= radius * radius) {
+                    image.at<uint8_t>(y, x) = static_cast<uint8_t>(grey);
+                }
+            }
+        }
+    }
+    return image;
+}
+
+} // namespace
+
 void add_search(Set &set)
 {
     set.begin("search");
@@ -232,6 +265,14 @@ void add_search(Set &set)
         cv::Mat image = noise(90, 84, random, 0, 8 + 14 * i);
         image += discs(90, 84, 150, drogue(186, 164, 100 + 10 * i, 70, 5, 10, -8));
         add_frame(set, name, Tier::stress, {"noise"}, image, 3 + i);
+    }
+    for (const int number : {1, 153, 224, 604}) { /* discs beside each other wait, and more than there is room for */
+        add_frame(set, "texture-" + std::to_string(number), Tier::stress, {"noise", "table-full"},
+                  textured(static_cast<uint64_t>(number), false));
+    }
+    for (const int number : {12, 21, 93}) { /* places are looked at 128 at a time: one is left over */
+        add_frame(set, "texture-wide-" + std::to_string(number), Tier::stress, {"noise", "table-full"},
+                  textured(static_cast<uint64_t>(number), true));
     }
     accuracy::Random random = set.random("levels");
     add_frame(set, "few-levels", Tier::stress, {"tie"}, few_levels(70, 60, random, {20, 40, 60}), 5);

@@ -75,10 +75,48 @@ Real peak(const Curve &c, int from, int to)
                            (c[best + 1] - c[best - 1]) / (2 * (2 * c[best] - c[best - 1] - c[best + 1]));
 }
 
-/* How far outwards the front end's blur moves a group's edge, px. */
-Real moved(const Curve &slope)
+/* The most that slopes add up to from one place on. */
+template <typename Iterator> Real most_of(Iterator from, Iterator to)
 {
-    const Real seen = peak(blurred(slope), MIDDLE - 3, MIDDLE + 3);
+    Real sum = 0, most = 0;
+    for (; from != to; ++from) {
+        sum += *from;
+        most = std::max(most, sum);
+    }
+    return most;
+}
+
+/* Variance of a group's edge from its width, px^2; 0 without one. */
+Real edge_variance(const Curve &slope, const Curve &seen)
+{
+    const auto at = std::max_element(seen.begin() + MIDDLE - 4, seen.begin() + MIDDLE + 5) - seen.begin();
+    const auto i = static_cast<size_t>(at);
+    const Real rise = slope[i] + most_of(slope.begin() + at + 1, slope.end()) +
+                      most_of(slope.rbegin() + (SLOPES - at), slope.rend());
+    const Real width = seen[i] > 0 && rise > 0 ? std::min<Real>(rise * 369 / seen[i], 16) : 0;
+    return width * width / 8;
+}
+
+std::array<Real, 2> smear_of(const std::array<Real, GROUPS> &variance)
+{
+    std::array<Real, GROUPS / 2> both;
+    for (size_t k = 0; k < GROUPS / 2; k++) {
+        const Real p = variance[k], q = variance[k + GROUPS / 2];
+        both[k] = p > 0 && q > 0 ? (p + q) / 2 : p + q;
+        if (!(both[k] > 0)) {
+            return {0, 0};
+        }
+    }
+    const Real c = both[0] - both[1] - both[2] + both[3], s = both[0] + both[1] - both[2] - both[3];
+    const Real other = std::abs(both[0] - both[1] + both[2] - both[3]) / 2, length = std::hypot(c, s);
+    const Real beyond = length / std::sqrt(Real(2)) - other - 0.5L;
+    return beyond > 0 ? std::array<Real, 2>{c * beyond / length, s * beyond / length} : std::array<Real, 2>{0, 0};
+}
+
+/* How far outwards the front end's blur moves a group's edge, px. */
+Real moved(const Curve &slope, const Curve &blurry)
+{
+    const Real seen = peak(blurry, MIDDLE - 3, MIDDLE + 3);
     if (seen < 0) {
         return 0;
     }
@@ -162,14 +200,18 @@ std::array<Real, 5> turned(const std::array<Real, 5> &p, Real turn)
 void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const drogue_config &config)
 {
     std::array<drogue_ray, DROGUE_RAYS> rays;
-    std::array<Real, GROUPS> off;
+    std::array<Real, GROUPS> off, variance;
     o.ellipse = o.fitted;
     o.support.pull = {};
+    o.support.smear = {};
     if (o.support.points > 0) {
         drogue_rays_aim(rays.data(), &aim, 4);
         for (int g = 0; g < GROUPS; g++) {
-            off[static_cast<size_t>(g)] = moved(slopes(o.support, rays.data(), g, view));
+            const Curve slope = slopes(o.support, rays.data(), g, view), seen = blurred(slope);
+            off[static_cast<size_t>(g)] = moved(slope, seen);
+            variance[static_cast<size_t>(g)] = edge_variance(slope, seen);
         }
+        o.support.smear = smear_of(variance);
         o.support.pull = harmonics(off, o);
         put_back(o.ellipse, o.support.pull);
     }
