@@ -30,7 +30,7 @@ typedef struct drogue_support {
                              cos 2t, sin 2t over the eccentric angle t */
     int32_t smear_px2_q16[2]; /* motion blur: variance along the motion less that across it, px^2, times cosine and sine
                                  of twice the angle between it and the major axis; 0 where none stands out */
-    uint32_t covered;     /* bins that hold enough points, less the changes of polarity round the outline beyond none */
+    uint32_t covered; /* bins that hold enough points, less the changes of polarity round the outline beyond none */
 } drogue_support;
 
 /* From the counts, decide the polarity of each bin and how many bins are covered.

@@ -4,7 +4,7 @@
 
 #include "drogue/fixed.h"
 
-#define WIDEST_Q12 (16 << 12) /* px */
+#define WIDEST_Q12 (16 << 12)      /* px */
 #define LEAST_Q16 DROGUE_Q16(1, 2) /* px^2: texture and light make so much of edges alike */
 
 /* The most that slopes add up to from one end on. */
@@ -34,7 +34,8 @@ int32_t drogue_edge_variance(const int32_t slope[DROGUE_SLOPES], const int32_t s
     if (seen[at] <= 0 || rise <= 0) {
         return 0;
     }
-    width_q12 = drogue_div_round_s64(rise * (DROGUE_SLOPE_GAIN / 2 * 4096), seen[at]); /* slopes are half a pixel apart */
+    width_q12 =
+        drogue_div_round_s64(rise * (DROGUE_SLOPE_GAIN / 2 * 4096), seen[at]); /* slopes are half a pixel apart */
     width_q12 = width_q12 < WIDEST_Q12 ? width_q12 : WIDEST_Q12;
     return (int32_t)drogue_shr_round_s64(width_q12 * width_q12, 11);
 }

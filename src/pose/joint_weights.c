@@ -86,35 +86,30 @@ static void square_ratio(real *out, const real *num, const real *den)
 /* Motion blur with a smear of v px^2 leaves a doubt of 0.153 px / px^2 of v in the outline's place on each of the two sides
  * that it blurs, whose edge has no steepest place: their mean and half their difference by the root of half of that each.
  * As for an outline that is nearly round. */
+#define MOST_SMEAR_Q16 DROGUE_Q16(256, 1) /* px^2 */
 
 static void add_smear(real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *e, const drogue_support *support)
 {
-    const int64_t c = support->smear_px2_q16[0];
-    const int64_t s = support->smear_px2_q16[1];
-    const int64_t v = (int64_t)drogue_isqrt_u64(drogue_square_sum((int32_t)c, (int32_t)s));
-    const struct {
-        int place;
-        int64_t square_q32;
-    } more[9] = {{DROGUE_PACKED(0, 0), v * v},           {DROGUE_PACKED(1, 1), 2 * v * (v + c)},
-                 {DROGUE_PACKED(2, 1), 2 * v * s},       {DROGUE_PACKED(2, 2), 2 * v * (v - c)},
-                 {DROGUE_PACKED(3, 0), v * c},           {DROGUE_PACKED(3, 3), c * c},
-                 {DROGUE_PACKED(4, 0), v * s},           {DROGUE_PACKED(4, 3), c * s},
-                 {DROGUE_PACKED(4, 4), s * s}};
+    static const uint8_t added[9][3] = {
+        /* where, product of which */
+        {DROGUE_PACKED(0, 0), 0, 0}, {DROGUE_PACKED(1, 1), 0, 3}, {DROGUE_PACKED(2, 1), 0, 5},
+        {DROGUE_PACKED(2, 2), 0, 4}, {DROGUE_PACKED(3, 0), 0, 1}, {DROGUE_PACKED(3, 3), 1, 1},
+        {DROGUE_PACKED(4, 0), 0, 2}, {DROGUE_PACKED(4, 3), 1, 2}, {DROGUE_PACKED(4, 4), 2, 2}};
+    const int32_t c = drogue_clamp_s32(support->smear_px2_q16[0], -MOST_SMEAR_Q16, MOST_SMEAR_Q16);
+    const int32_t s = drogue_clamp_s32(support->smear_px2_q16[1], -MOST_SMEAR_Q16, MOST_SMEAR_Q16);
+    const int32_t v = (int32_t)drogue_isqrt_u64(drogue_square_sum(c, s));
+    const int32_t factor[6] = {v, c, s, 2 * (v + c), 2 * (v - c), 2 * s};
     real share;
-    real a;
     real t;
     int i;
-    if (v == 0) {
-        return;
-    }
     drogue_real_set(&share, 3, -10); /* 0.153^2 / 8 */
-    drogue_real_set_q16(&a, e->a_px_q16);
-    drogue_real_quotient(&share, &share, &a);
-    drogue_real_set_q16(&a, e->b_px_q16);
-    drogue_real_quotient(&share, &share, &a);
+    drogue_real_set_q16(&t, e->a_px_q16);
+    drogue_real_quotient(&share, &share, &t);
+    drogue_real_set_q16(&t, e->b_px_q16);
+    drogue_real_quotient(&share, &share, &t);
     for (i = 0; i < 9; i++) {
-        real *own = &covariance[more[i].place];
-        drogue_real_set(&t, more[i].square_q32, -32);
+        real *own = &covariance[added[i][0]];
+        drogue_real_set(&t, drogue_product(factor[added[i][1]], factor[added[i][2]]), -32);
         drogue_real_product(&t, &t, &share);
         drogue_real_sum(own, own, &t);
     }

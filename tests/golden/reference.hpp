@@ -113,9 +113,9 @@ struct Support {
     std::array<Real, SUPPORT_BINS> sum = {}; /* of f / 2 over the points of the bin's polarity */
     Real squares = 0, gradient = 0;
     int points = 0;
-    std::array<Real, 5> pull = {}; /* by what lies beside the outline: harmonics, in semi-axes */
+    std::array<Real, 5> pull = {};  /* by what lies beside the outline: harmonics, in semi-axes */
     std::array<Real, 2> smear = {}; /* motion blur: variance along it less that across, px^2, by twice its angle */
-    uint32_t bright = 0;           /* bit set of the bins that are brighter inside */
+    uint32_t bright = 0;            /* bit set of the bins that are brighter inside */
     int covered = 0;
 };
 /* Count a point; add it to the sums when its polarity is that of its bin. */

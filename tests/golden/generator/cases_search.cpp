@@ -162,7 +162,8 @@ cv::Mat textured(uint64_t number, bool wide)
         state = state * 6364136223846793005u + 1442695040888963407u;
         return static_cast<int>((state >> 33) % static_cast<uint64_t>(end));
     };
-    const int width = wide ? 2 * (2 * (2 + below(4)) + 129) : 40 + below(60), height = wide ? 24 + below(24) : 40 + below(60);
+    const int width = wide ? 2 * (2 * (2 + below(4)) + 129) : 40 + below(60),
+              height = wide ? 24 + below(24) : 40 + below(60);
     const int square = 1 + below(4), least = below(60), range = 20 + below(150);
     cv::Mat image(height, width, CV_8U);
     for (int y = 0; y < height; y += square) {

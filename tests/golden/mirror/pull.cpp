@@ -91,8 +91,8 @@ Real edge_variance(const Curve &slope, const Curve &seen)
 {
     const auto at = std::max_element(seen.begin() + MIDDLE - 4, seen.begin() + MIDDLE + 5) - seen.begin();
     const auto i = static_cast<size_t>(at);
-    const Real rise = slope[i] + most_of(slope.begin() + at + 1, slope.end()) +
-                      most_of(slope.rbegin() + (SLOPES - at), slope.rend());
+    const Real rise =
+        slope[i] + most_of(slope.begin() + at + 1, slope.end()) + most_of(slope.rbegin() + (SLOPES - at), slope.rend());
     const Real width = seen[i] > 0 && rise > 0 ? std::min<Real>(rise * 369 / seen[i], 16) : 0;
     return width * width / 8;
 }

@@ -274,9 +274,11 @@ START_TEST(the_smallest)
     {
         drogue_outline o = fitted_at(&r, 0.999, 0.001);
         o.support.pull_q24[2] = 77;
+        o.support.smear_px2_q16[1] = 88;
         drogue_outline_pull(&o, rays, &view, &config);
         ck_assert_int_eq(memcmp(&o.ellipse, &o.fitted, sizeof o.fitted), 0);
         ck_assert_int_eq(largest(&o), 0);
+        ck_assert_int_eq(o.support.smear_px2_q16[1], 0);
     }
 }
 END_TEST

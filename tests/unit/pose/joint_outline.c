@@ -156,6 +156,32 @@ START_TEST(shading_and_blur_are_added)
 }
 END_TEST
 
+START_TEST(smear_is_doubt_across_two_sides)
+{
+    const double a = 100, b = 90, v = 4, angle = 0.6, c = v * cos(2 * angle), d = v * sin(2 * angle);
+    const double share = 3.0 / 1024 / (a * b), along[5] = {v, 0, 0, c, d};
+    drogue_support s = support_of(32);
+    drogue_joint_outline base = {{0, 0, 100 * 65536, 90 * 65536, 0}, {{0, 0}}, {0}, 0}, more = base;
+    int i, j;
+    ck_assert_int_eq(drogue_joint_outline_covariance(&base, &s, 0, 0), DROGUE_OK);
+    s.smear_px2_q16[0] = q16_of(c);
+    s.smear_px2_q16[1] = q16_of(d);
+    ck_assert_int_eq(drogue_joint_outline_covariance(&more, &s, 0, 0), DROGUE_OK);
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j <= i; j++) {
+            const int k = DROGUE_PACKED(i, j);
+            const double got = (double)quad_of(more.covariance[k]) - (double)quad_of(base.covariance[k]);
+            double added = share * along[i] * along[j];
+            if (i == 1 || i == 2) { /* cos^2, cos sin, sin^2 of the angle itself */
+                const double side[3] = {0, cos(angle), sin(angle)};
+                added = share * 4 * v * v * side[i] * side[j];
+            }
+            MUST(fabs(got - added) < 1e-4 * share * v * v, "entry %d %d: %g added, not %g", i, j, got, added);
+        }
+    }
+}
+END_TEST
+
 START_TEST(degenerate_support)
 {
     drogue_joint_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}, {0}, 0};
@@ -193,4 +219,5 @@ START_TEST(degenerate_support)
 END_TEST
 
 SUITE_MAIN("joint_outline", covariance_of_independent_noise, covariance_of_noise_shared_within_bins,
-           covariance_of_a_partial_outline, shading_and_blur_are_added, degenerate_support)
+           covariance_of_a_partial_outline, shading_and_blur_are_added, smear_is_doubt_across_two_sides,
+           degenerate_support)
