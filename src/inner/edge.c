@@ -6,6 +6,7 @@
 
 #include "shade.h"
 
+#define APART DROGUE_Q16(3, 4)     /* px */
 #define INWARD DROGUE_Q16(45, 100) /* px: a quarter of a blurred step is this far within its middle */
 
 /* Squared residuals of the bins over their weights; the number of bins that hold rays. */
@@ -29,18 +30,17 @@ static int32_t scatter_of(drogue_real *scatter, const drogue_ray_bins *b)
     return bins;
 }
 
-/* From all edges within the gate to those about one place: place alone, then with its size. */
+/* From all edges within the gate to those about one place: place alone, then, where 'size' says so, with its size. */
 static int settle(drogue_ray_sums *s, drogue_q16 v_px_q16[3], const drogue_ray rays[RAYS], drogue_q16 gate_px_q16,
-                  drogue_q16 last_px_q16)
+                  drogue_q16 last_px_q16, int size)
 {
     drogue_real normal[6];
     drogue_q16 within = gate_px_q16;
     int round;
-    memset(v_px_q16, 0, 3 * sizeof v_px_q16[0]);
     for (round = 0; round < 10; round++) {
         memset(s, 0, sizeof *s);
         drogue_ray_sums_add_edges(s, NULL, rays, v_px_q16, within);
-        if (!drogue_ray_sums_solve(v_px_q16, normal, s, round > 1)) {
+        if (!drogue_ray_sums_solve(v_px_q16, normal, s, size && round > 1)) {
             return 0;
         }
         within = larger(within / 4 * 3, last_px_q16);
@@ -64,6 +64,42 @@ static int narrow(drogue_ray_sums *s, drogue_q16 v_px_q16[3], drogue_q16 *within
         *within_px_q16 = larger(DROGUE_Q16(1, 4), 3 * rms < *within_px_q16 ? 3 * rms : *within_px_q16);
     }
     return 1;
+}
+
+static drogue_q16 magnitude(drogue_q16 v) { return v < 0 ? -v : v; }
+
+/* Of the edges those that lie beyond a first circle on the side of what was expected. */
+static void keep_beyond(drogue_ray rays[RAYS], const drogue_q16 first_px_q16[3])
+{
+    int32_t k;
+    for (k = 0; k < RAYS; k++) {
+        drogue_ray *r = &rays[k];
+        const drogue_q16 at = drogue_ray_along(r, first_px_q16);
+        uint32_t kept = 0;
+        uint32_t i;
+        for (i = 0; i < r->count; i++) { /* bound: DROGUE_RAY_EDGES */
+            const drogue_q16 off = drogue_q16_sub(r->edges[i].at_px_q16, at);
+            if ((first_px_q16[2] > 0 ? -off : off) > APART) {
+                r->edges[kept++] = r->edges[i];
+            }
+        }
+        r->count = kept;
+    }
+}
+
+/* Where the steepest edge is of another size than expected, as a collar's about the disc, one of the size that lies beyond it
+ * takes its place: a quarter of the rays see it apart, elsewhere both may be one. */
+static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS])
+{
+    drogue_q16 v[3];
+    drogue_ray_sums s;
+    v[0] = v_px_q16[0];
+    v[1] = v_px_q16[1];
+    v[2] = 0;
+    keep_beyond(rays, v_px_q16);
+    if (settle(&s, v, rays, drogue_q16_add(magnitude(v_px_q16[2]), DROGUE_Q16(1, 1)), APART, 0) && s.rays >= RAYS / 4) {
+        memcpy(v_px_q16, v, sizeof v);
+    }
 }
 
 /* Measure about a first place: which rays see the edge, and how large it is, by its steepest place; where it is, by as many
@@ -159,12 +195,16 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
     for (i = 0; i < expected->count; i++) { /* bound: 2 */
         const drogue_ellipse *e = &expected->disc[i];
         const drogue_q16 reach = drogue_q16_add(gate_px_q16, drogue_q16_add(e->a_px_q16 / 16, DROGUE_Q16(2, 1)));
-        drogue_q16 v[3];
+        drogue_q16 v[3] = {0, 0, 0};
         drogue_ray_sums s;
         drogue_rays_cast(rays, image, e, reach, 4, config->min_inner_contrast);
-        if (settle(&s, v, rays, drogue_q16_add(gate_px_q16, DROGUE_Q16(1, 1)), larger(DROGUE_Q16(3, 2), reach / 16)) &&
+        if (settle(&s, v, rays, drogue_q16_add(gate_px_q16, DROGUE_Q16(1, 1)), larger(DROGUE_Q16(3, 2), reach / 16),
+                   1) &&
             s.slopes_q8 > steepest) {
             steepest = s.slopes_q8;
+            if (magnitude(v[2]) > drogue_q16_add(e->a_px_q16 / 64, DROGUE_Q16(1, 2))) {
+                prefer_size(v, rays);
+            }
             memcpy(best, v, sizeof best);
             which = i;
         }

@@ -129,6 +129,13 @@ void add_disturbed_scenes(Set &set)
     s.sensor.motion_length_px = 6;
     s.sensor.motion_angle_rad = 0.6;
     add_frame(set, "motion-blur", Tier::stress, {"motion-blur"}, photograph(s, region_of(s), 0));
+    for (int k = 0; k < 3; k++) { /* a dark collar about the inner disc, its outer edge steeper than the disc's own */
+        accuracy::Scene collar = scene_at(static_cast<uint64_t>(51 + k), 0.1, -0.05, 7.0 + k, 9 - 6 * k, -5 + 4 * k);
+        collar.look.canopy_grey = 165;
+        collar.look.coupling_grey = 62;
+        collar.drogue.coupling_radius_m = 0.137 + 0.005 * k;
+        add_frame(set, "collar-" + std::to_string(k), Tier::stress, {}, photograph(collar, region_of(collar), 0));
+    }
     s = scene_at(33, 0.2, 0.3, 14, 3, 14);
     s.background = accuracy::Background::ground();
     s.look = accuracy::Look::bright();

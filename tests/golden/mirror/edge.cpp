@@ -89,6 +89,38 @@ bool solve(Offset &v, const Sums &s, bool size)
     return true;
 }
 
+/* From all edges within a gate to those about one place. */
+bool settle(Sums &s, Offset &v, const Rays &rays, Real within, Real last, bool size)
+{
+    for (int round = 0; round < 10; round++) {
+        s = Sums();
+        add_rays(s, rays, v, within, false);
+        if (!solve(v, s, size && round > 1)) {
+            return false;
+        }
+        within = std::max(within * 3 / 4, last);
+    }
+    return true;
+}
+
+/* An edge of the size expected for one that is not: among the edges that lie beyond the first on that side. */
+void prefer_size(Offset &first, Rays rays)
+{
+    Offset v = {first[0], first[1], 0};
+    Sums s;
+    for (drogue_ray &r : rays) {
+        const Real at = along(r, first);
+        const auto end = std::remove_if(r.edges, r.edges + r.count, [&](const drogue_ray_edge &e) {
+            const Real off = real(e.at_px_q16) - at;
+            return (first[2] > 0 ? -off : off) <= 0.75L;
+        });
+        r.count = static_cast<uint32_t>(end - r.edges);
+    }
+    if (settle(s, v, rays, std::fabs(first[2]) + 1, 0.75L, false) && s.rays >= DROGUE_RAYS / 4) {
+        first = v;
+    }
+}
+
 Rays cast(const drogue_image &view, const drogue_ellipse &e, drogue_q16 reach, int phase, int least)
 {
     Rays rays;
@@ -209,16 +241,11 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
         const Rays rays = cast(view, expected.disc[i], reference::q16(reach), 4, least);
         Offset v = {0, 0, 0};
         Sums s;
-        Real within = gate + 1;
-        bool good = true;
-        for (int round = 0; round < 10 && good; round++) {
-            s = Sums();
-            add_rays(s, rays, v, within, false);
-            good = solve(v, s, round > 1);
-            within = std::max({within * 3 / 4, Real(1.5), reach / 16});
-        }
-        if (good && s.slopes > steepest) {
+        if (settle(s, v, rays, gate + 1, std::max<Real>(1.5, reach / 16), true) && s.slopes > steepest) {
             steepest = s.slopes;
+            if (std::fabs(v[2]) > real(expected.disc[i].a_px_q16) / 64 + 0.5L) {
+                prefer_size(v, rays);
+            }
             first = v;
             out.which = static_cast<int>(i);
         }

@@ -164,6 +164,58 @@ START_TEST(neither_light_nor_a_ring_moves_it)
 }
 END_TEST
 
+/* A disc of radius 12, a ring about it as far as 'outer' about a centre (x, 0.7 x) aside, and what is about that, blurred. */
+static void draw_collar(double outer, double x_aside, int disc, int ring, int beyond)
+{
+    int x, y, i, j;
+    for (y = 0; y < SIDE; y++) {
+        for (x = 0; x < SIDE; x++) {
+            double sum = 0;
+            for (i = -4; i <= 4; i++) {
+                for (j = -4; j <= 4; j++) { /* a fifth of a pixel apart */
+                    const double u = x + i / 5.0 - 100.3, v = y + j / 5.0 - 99.8;
+                    sum += hypot(u, v) < 12 ? disc : hypot(u - x_aside, v - 0.7 * x_aside) < outer ? ring : beyond;
+                }
+            }
+            pixels[y * SIDE + x] = (uint8_t)lround(sum / 81);
+        }
+    }
+}
+
+START_TEST(the_size_decides_between_two_edges)
+{
+    const double aside[4] = {0, 0.8, -1, 1.2};
+    drogue_inner_edge e;
+    int k;
+    for (k = 0; k < 4; k++) {
+        const drogue_ellipse disc = circle(99 + 0.3 * k, 101 - 0.4 * k, 12.1), collar = circle(99, 101, 17.6);
+        draw_collar(15.5, aside[k], 20, 55, 150);
+        ck_assert_int_eq(find(&e, &disc, 1), DROGUE_OK);
+        MUST(fabs(real_of_q16(e.grown_px_q16)) < 0.7 &&
+                 hypot(real_of_q16(e.x_px_q16) - 100.3, real_of_q16(e.y_px_q16) - 99.8) < 0.6,
+             "disc %d: off by %g px, %g larger", k,
+             hypot(real_of_q16(e.x_px_q16) - 100.3, real_of_q16(e.y_px_q16) - 99.8), real_of_q16(e.grown_px_q16));
+        draw_collar(17.5, aside[k], 20, 115, 150); /* the steeper edge is the smaller one */
+        ck_assert_int_eq(find(&e, &collar, 1), DROGUE_OK);
+        MUST(fabs(real_of_q16(e.grown_px_q16)) < 0.5 && hypot(real_of_q16(e.x_px_q16) - 100.3 - aside[k],
+                                                              real_of_q16(e.y_px_q16) - 99.8 - 0.7 * aside[k]) < 0.4,
+             "outer %d: %g larger", k, real_of_q16(e.grown_px_q16));
+    }
+}
+END_TEST
+
+START_TEST(one_edge_of_another_size_stays)
+{
+    drogue_inner_edge e;
+    const drogue_ellipse small = circle(101, 99, 10.8), large = circle(101, 99, 13.2);
+    draw_disc(100, 100, 12);
+    ck_assert_int_eq(find(&e, &small, 1), DROGUE_OK);
+    ck_assert(fabs(real_of_q16(e.grown_px_q16) - 1.2) < 0.2);
+    ck_assert_int_eq(find(&e, &large, 1), DROGUE_OK);
+    ck_assert(fabs(real_of_q16(e.grown_px_q16) + 1.2) < 0.2);
+}
+END_TEST
+
 START_TEST(nothing_there)
 {
     const drogue_ellipse disc = circle(100, 100, 24);
@@ -220,4 +272,5 @@ START_TEST(noise_of_an_image)
 END_TEST
 
 SUITE_MAIN("edge", place_and_size, noise_shows_in_the_standard_deviation, what_touches_it_costs_rays_alone,
-           neither_light_nor_a_ring_moves_it, nothing_there, rays_meet_the_edge, noise_of_an_image)
+           neither_light_nor_a_ring_moves_it, the_size_decides_between_two_edges, one_edge_of_another_size_stays,
+           nothing_there, rays_meet_the_edge, noise_of_an_image)
