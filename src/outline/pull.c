@@ -21,7 +21,8 @@
 #define NEAR DROGUE_SLOPE_NEAR
 #define FAR DROGUE_Q16(12, 5) /* slopes: so far from there, 1.2 px, lies the sharpened one */
 #define TAPS 7
-#define MOST_Q24 (1 << 21) /* semi-axes, of a harmonic */
+#define SMEARED_Q16 DROGUE_Q16(5, 2) /* px^2: an edge that is not is narrower */
+#define MOST_Q24 (1 << 21)           /* semi-axes, of a harmonic */
 
 /* As the front end blurs: variance 1.33 px^2, 1 of its smoothing and 1/3 of Sobel's operator. */
 static int32_t blurred(const int32_t slope[SLOPES], int32_t i)
@@ -180,6 +181,18 @@ static int32_t shrunk(int32_t c_px_q24, uint64_t variance_q48)
     return c_px_q24 < 0 ? -kept : kept;
 }
 
+/* An edge that motion blurs has no steepest place: what it says of one is chance. */
+static void leave_smeared(int32_t moved[GROUPS], const int32_t smear_px2_q16[2], const int32_t variance_px2_q16[GROUPS])
+{
+    const uint64_t least_q32 = UINT64_C(1) << 32; /* a smear of 1 px^2 */
+    int32_t i;
+    if (drogue_square_sum(smear_px2_q16[0], smear_px2_q16[1]) > least_q32) {
+        for (i = 0; i < GROUPS; i++) {
+            moved[i] = variance_px2_q16[i] > SMEARED_Q16 ? 0 : moved[i];
+        }
+    }
+}
+
 static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view)
 {
     int32_t moved[GROUPS];
@@ -202,6 +215,7 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
         variance_px2_q16[i] = drogue_edge_variance(slope, seen);
     }
     drogue_find_smear(outline->support.smear_px2_q16, variance_px2_q16);
+    leave_smeared(moved, outline->support.smear_px2_q16, variance_px2_q16);
     spread(off_px_q24, moved, &outline->fitted);
     find_harmonics(c_px_q24, off_px_q24);
     variance_q48 = variance_of(off_px_q24, c_px_q24, outline);

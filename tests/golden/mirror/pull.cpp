@@ -212,6 +212,9 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
             variance[static_cast<size_t>(g)] = edge_variance(slope, seen);
         }
         o.support.smear = smear_of(variance);
+        for (size_t g = 0; g < GROUPS && std::hypot(o.support.smear[0], o.support.smear[1]) > 1; g++) {
+            off[g] = variance[g] > 2.5L ? 0 : off[g];
+        }
         o.support.pull = harmonics(off, o);
         put_back(o.ellipse, o.support.pull);
     }

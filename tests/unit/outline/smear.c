@@ -139,8 +139,8 @@ END_TEST
 static uint8_t pixels[SIDE * SIDE];
 static drogue_ray rays[DROGUE_RAYS];
 
-/* A bright disc smeared over 'length' px along an angle. */
-static drogue_image draw(double radius, double length, double angle)
+/* A bright disc, darker by a share 'ramp' a pixel inwards, smeared over 'length' px along an angle. */
+static drogue_image draw(double radius, double ramp, double length, double angle)
 {
     const drogue_image view = {pixels, SIDE, SIDE, SIDE};
     int x, y, k;
@@ -150,7 +150,7 @@ static drogue_image draw(double radius, double length, double angle)
             for (k = -10; k <= 10; k++) {
                 const double off = length * k / 21;
                 const double d = hypot(x - 54.5 - off * cos(angle), y - 55.2 - off * sin(angle));
-                sum += 0.5 * erfc((d - radius) / sqrt(2 * 0.45)) / 21;
+                sum += 0.5 * erfc((d - radius) / sqrt(2 * 0.45)) * fmin(1, fmax(0, 1 - ramp * (radius - d))) / 21;
             }
             pixels[y * SIDE + x] = (uint8_t)lround(50 + 120 * sum);
         }
@@ -158,34 +158,38 @@ static drogue_image draw(double radius, double length, double angle)
     return view;
 }
 
+static drogue_outline pulled(double radius, double ramp, double length, double angle)
+{
+    const drogue_image view = draw(radius, ramp, length, angle);
+    drogue_config config;
+    drogue_outline o;
+    uint32_t k;
+    drogue_config_default(&config);
+    memset(&o, 0, sizeof o);
+    o.fitted.xc_px_q16 = q16_of(54.5);
+    o.fitted.yc_px_q16 = q16_of(55.2);
+    o.fitted.a_px_q16 = o.fitted.b_px_q16 = q16_of(radius);
+    o.fitted.angle_rad_q16 = q16_of(0.3);
+    o.support.bright_bins = UINT32_MAX;
+    o.support.points = 320;
+    o.support.smear_px2_q16[0] = 5; /* forgotten */
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        o.support.bin[k].count[1] = 10;
+    }
+    drogue_outline_pull(&o, rays, &view, &config);
+    return o;
+}
+
 START_TEST(of_a_smeared_disc)
 {
     static const double lengths[] = {0, 2, 6, 9};
-    drogue_config config;
     double angle;
     size_t i;
-    drogue_config_default(&config);
     for (i = 0; i < 4; i++) {
         for (angle = -1.4; angle < 1.5; angle += 0.7) {
             const double l2 = lengths[i] * lengths[i] / 12;
-            const drogue_image view = draw(38, lengths[i], angle);
-            drogue_outline o;
-            double c, s;
-            uint32_t k;
-            memset(&o, 0, sizeof o);
-            o.fitted.xc_px_q16 = q16_of(54.5);
-            o.fitted.yc_px_q16 = q16_of(55.2);
-            o.fitted.a_px_q16 = o.fitted.b_px_q16 = q16_of(38);
-            o.fitted.angle_rad_q16 = q16_of(0.3);
-            o.support.bright_bins = UINT32_MAX;
-            o.support.points = 320;
-            o.support.smear_px2_q16[0] = 5; /* forgotten */
-            for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-                o.support.bin[k].count[1] = 10;
-            }
-            drogue_outline_pull(&o, rays, &view, &config);
-            c = real_of_q16(o.support.smear_px2_q16[0]);
-            s = real_of_q16(o.support.smear_px2_q16[1]);
+            const drogue_outline o = pulled(38, 0, lengths[i], angle);
+            const double c = real_of_q16(o.support.smear_px2_q16[0]), s = real_of_q16(o.support.smear_px2_q16[1]);
             if (lengths[i] < 3) {
                 MUST(o.support.smear_px2_q16[0] == 0 && o.support.smear_px2_q16[1] == 0, "%g px: %g %g", lengths[i], c,
                      s);
@@ -200,5 +204,20 @@ START_TEST(of_a_smeared_disc)
 }
 END_TEST
 
+START_TEST(only_sharp_sides_say_what_lies_beside_them)
+{
+    double angle;
+    for (angle = -1.4; angle < 1.5; angle += 0.7) { /* shading moves the edge */
+        const drogue_outline o = pulled(38, 0.06, 6, angle);
+        int k, said = 0;
+        for (k = 0; k < 5; k++) {
+            said += o.support.pull_q24[k] != 0;
+            MUST(abs(o.support.pull_q24[k]) < (1 << 24) / 500, "at %g: wave %d", angle, k);
+        }
+        MUST(o.support.smear_px2_q16[0] != 0 && said > 0, "at %g: nothing", angle);
+    }
+}
+END_TEST
+
 SUITE_MAIN("smear", variance_of_known_edges, only_what_rises_counts, no_edge_and_the_widest, waves_by_angle,
-           groups_without_an_edge, of_a_smeared_disc)
+           groups_without_an_edge, of_a_smeared_disc, only_sharp_sides_say_what_lies_beside_them)
