@@ -66,7 +66,7 @@ static int lower_thresholds(drogue_frame *f)
     return high < config->canny_high;
 }
 
-#define SURE_Q16 DROGUE_Q16(4, 100)    /* the inner disc is of its size to this */
+#define SURE_Q16 DROGUE_Q16(3, 100)    /* the inner disc is of its size to this */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 
 /* Take back what was measured. */

@@ -366,7 +366,7 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
 /* The tries of drogue_measure(), in its order. */
 Result measure(const Task &asked, const drogue_result *library, Features *features)
 {
-    constexpr Real SURE = 0.04L;
+    constexpr Real SURE = 0.03L;
     Task task = asked;
     Frame f;
     Result best;

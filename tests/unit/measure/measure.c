@@ -14,6 +14,7 @@ typedef struct scene {
     double depth;                   /* of the inner part, m */
     double inner_shift[2];          /* m, in the image's x and y */
     double slope[2];                /* of the background, grey levels a pixel */
+    double wall, wall_share;        /* grey level within so much of the rim's radius; 0: none */
 } scene;
 
 static const drogue_model model = {22938, 13107, 16384}; /* 0.35 m, 0.2 m, 0.25 m behind the end plane */
@@ -51,15 +52,16 @@ static void draw(const scene *s)
                 ray[1] = (v - 140) / f;
                 sum += !hits(ray, s->position, axis, 0.35)
                            ? s->outside + s->slope[0] * (u - 160) + s->slope[1] * (v - 140)
-                       : hits(ray, inner, axis, 0.2) ? s->inside
-                                                     : s->canopy;
+                       : hits(ray, inner, axis, 0.2)                        ? s->inside
+                       : hits(ray, s->position, axis, 0.35 * s->wall_share) ? s->wall
+                                                                            : s->canopy;
             }
             pixels[y * WIDTH + x] = (uint8_t)(fmin(fmax(sum / (FINE * FINE), 0), 255) + 0.5);
         }
     }
 }
 
-static const scene usual = {{0.01, -0.02, 4.4}, 0.2, -0.1, 200, 110, 10, 0.25, {0, 0}, {0, 0}};
+static const scene usual = {{0.01, -0.02, 4.4}, 0.2, -0.1, 200, 110, 10, 0.25, {0, 0}, {0, 0}, 0, 0};
 
 /* Angle between the axes, rad. */
 static double axis_error(const drogue_pose *p, const scene *s)
@@ -152,6 +154,31 @@ START_TEST(a_disc_too_large_refuses_the_outline)
     ck_assert_int_eq(measure(&r, &t, &config, &smaller, &whole), DROGUE_OK);
     ck_assert_int_eq(r.has_inner, 0);
     test_workspace_free(&t);
+}
+END_TEST
+
+/* Its outer edge is faint, and the disc is 3 to 5 % larger than what the inner one lets expect. */
+START_TEST(a_canopy_so_narrow_that_its_inner_edge_is_found)
+{
+    double share;
+    for (share = 0.955; share < 0.975; share += 0.005) {
+        test_workspace t = usual_workspace();
+        drogue_config config;
+        drogue_result r;
+        scene s = usual;
+        s.outside = 100;
+        s.canopy = 120;
+        s.wall = 30;
+        s.wall_share = share;
+        draw(&s);
+        drogue_config_default(&config);
+        MUST(measure(&r, &t, &config, &model, &whole) == DROGUE_OK, "share %g: %s", share,
+             drogue_status_name(r.status));
+        MUST(fabs(real_of_q16(r.ideal.a_px_q16) - 1465.5 * 0.35 / 4.4) < 0.3, "share %g: a = %g px", share,
+             real_of_q16(r.ideal.a_px_q16));
+        MUST(r.tried > 0, "share %g: at once", share);
+        test_workspace_free(&t);
+    }
 }
 END_TEST
 
@@ -753,7 +780,8 @@ START_TEST(capacity_by_macro_is_capacity_by_function)
 }
 END_TEST
 
-SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline, without_inner_part, regions_of_one_image,
+SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline,
+           a_canopy_so_narrow_that_its_inner_edge_is_found, without_inner_part, regions_of_one_image,
            ring_of_a_clipped_region, arguments, regions_that_miss, images_beyond_the_coordinates, full_tables,
            nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide, inner_part_that_contradicts,
            covariance_of_the_result, off_centre_region, second_look_that_fails, second_look_is_told,
