@@ -62,6 +62,8 @@ static inline uint64_t drogue_inner_away2_q32(const drogue_inner_edge *edge, con
  * rays see it, where it has risen by a quarter of the usual step above the disc's own where it is and how large, by a fit of
  * place and size to the rays that agree. Ribs, a wall or a probe that touch the disc cost rays, not place; a ring about it or
  * light from one side hardly move what is dark.
+ * Where the edge that rises fastest is of another size than expected, and one of the size is beside it, that one is the
+ * disc's.
  *
  *  out      the expected disc whose rays agree with the steepest edges; zero on failure
  *  rays     work area; the workspace has one

@@ -29,7 +29,7 @@ typedef struct drogue_support {
     int32_t pull_q24[5];  /* by how much what lies beside the outline moved it outwards, in semi-axes: 1, cos t, sin t,
                              cos 2t, sin 2t over the eccentric angle t */
     int32_t smear_px2_q16[2]; /* motion blur: variance along the motion less that across it, px^2, times cosine and sine
-                                 of twice the angle between it and the major axis; 0 where none stands out */
+                                 of twice its angle from +x; less what edges differ by without: 0 where none stands out */
     uint32_t covered; /* bins that hold enough points, less the changes of polarity round the outline beyond none */
 } drogue_support;
 
@@ -55,6 +55,9 @@ static inline drogue_q16 drogue_support_cover(const drogue_support *support)
 
 /* 1, cos t, sin t, cos 2t, sin 2t in the middle of a bin. */
 void drogue_support_basis(int64_t basis_q30[5], uint32_t k);
+
+/* A wave of twice the angle, by its cosine's and its sine's part, with all angles larger by so much; saturates. */
+void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16);
 
 #ifdef __cplusplus
 }

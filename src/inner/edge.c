@@ -66,7 +66,7 @@ static int narrow(drogue_ray_sums *s, drogue_q16 v_px_q16[3], drogue_q16 *within
     return 1;
 }
 
-static drogue_q16 magnitude(drogue_q16 v) { return v < 0 ? -v : v; }
+static drogue_q16 magnitude(drogue_q16 v) { return v < 0 ? drogue_q16_sub(0, v) : v; }
 
 /* Of the edges those that lie beyond a first circle on the side of what was expected. */
 static void keep_beyond(drogue_ray rays[RAYS], const drogue_q16 first_px_q16[3])
@@ -79,7 +79,7 @@ static void keep_beyond(drogue_ray rays[RAYS], const drogue_q16 first_px_q16[3])
         uint32_t i;
         for (i = 0; i < r->count; i++) { /* bound: DROGUE_RAY_EDGES */
             const drogue_q16 off = drogue_q16_sub(r->edges[i].at_px_q16, at);
-            if ((first_px_q16[2] > 0 ? -off : off) > APART) {
+            if (first_px_q16[2] > 0 ? off < -APART : off > APART) {
                 r->edges[kept++] = r->edges[i];
             }
         }
@@ -87,8 +87,8 @@ static void keep_beyond(drogue_ray rays[RAYS], const drogue_q16 first_px_q16[3])
     }
 }
 
-/* Where the steepest edge is of another size than expected, as a collar's about the disc, one of the size that lies beyond it
- * takes its place: a quarter of the rays see it apart, elsewhere both may be one. */
+/* Where the steepest edge is of another size than expected, as a collar's about the disc, one of the size that lies
+ * beyond it takes its place: a quarter of the rays see it apart, elsewhere both may be one. */
 static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS])
 {
     drogue_q16 v[3];

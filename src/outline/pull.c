@@ -216,6 +216,7 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
     }
     drogue_find_smear(outline->support.smear_px2_q16, variance_px2_q16);
     leave_smeared(moved, outline->support.smear_px2_q16, variance_px2_q16);
+    drogue_turn_wave(outline->support.smear_px2_q16, outline->fitted.angle_rad_q16);
     spread(off_px_q24, moved, &outline->fitted);
     find_harmonics(c_px_q24, off_px_q24);
     variance_q48 = variance_of(off_px_q24, c_px_q24, outline);

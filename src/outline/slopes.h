@@ -22,8 +22,8 @@
  */
 int32_t drogue_edge_variance(const int32_t slope[DROGUE_SLOPES], const int32_t seen[DROGUE_SLOPES]);
 
-/* Motion blur, from the variances round the outline: what they have of a wave of twice the angle, where it stands out of
- * the one of four times the angle by half a px^2.
+/* Motion blur, from the variances round the outline: what they have of a wave of twice the angle, less
+ * half a px^2 and what one of four times the angle shows in eight groups.
  *
  *  smear     variance along the motion less that across it, px^2 Q16, times cosine and sine of twice the angle from the
  *            major axis; 0 where it is less than what is no motion's, or where two opposite groups have no edge

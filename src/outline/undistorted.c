@@ -13,16 +13,11 @@ static void turned(int32_t out_q24[5], const int32_t pull_q24[5], drogue_q16 tur
 {
     int32_t s_q30;
     int32_t c_q30;
-    int64_t s2_q30;
-    int64_t c2_q30;
     drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(turn_rad_q16, 13));
-    c2_q30 = drogue_shr_round_s64((int64_t)c_q30 * c_q30 - (int64_t)s_q30 * s_q30, 30);
-    s2_q30 = drogue_shr_round_s64((int64_t)s_q30 * c_q30, 29);
-    out_q24[0] = pull_q24[0];
+    memcpy(out_q24, pull_q24, 5 * sizeof *out_q24);
     out_q24[1] = (int32_t)drogue_shr_round_s64((int64_t)pull_q24[1] * c_q30 + (int64_t)pull_q24[2] * s_q30, 30);
     out_q24[2] = (int32_t)drogue_shr_round_s64((int64_t)pull_q24[2] * c_q30 - (int64_t)pull_q24[1] * s_q30, 30);
-    out_q24[3] = (int32_t)drogue_shr_round_s64(pull_q24[3] * c2_q30 + pull_q24[4] * s2_q30, 30);
-    out_q24[4] = (int32_t)drogue_shr_round_s64(pull_q24[4] * c2_q30 - pull_q24[3] * s2_q30, 30);
+    drogue_turn_wave(out_q24 + 3, -turn_rad_q16);
 }
 
 drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outline *outline,

@@ -86,7 +86,7 @@ static void square_ratio(real *out, const real *num, const real *den)
 /* Motion blur with a smear of v px^2 leaves a doubt of 0.153 px / px^2 of v in the outline's place on each of the two sides
  * that it blurs, whose edge has no steepest place: their mean and half their difference by the root of half of that each.
  * As for an outline that is nearly round. */
-#define MOST_SMEAR_Q16 DROGUE_Q16(256, 1) /* px^2 */
+#define MOST_SMEAR_Q16 DROGUE_Q16(48, 1) /* px^2: more than drogue_outline_pull() finds */
 
 static void add_smear(real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *e, const drogue_support *support)
 {
@@ -95,13 +95,22 @@ static void add_smear(real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *
         {DROGUE_PACKED(0, 0), 0, 0}, {DROGUE_PACKED(1, 1), 0, 3}, {DROGUE_PACKED(2, 1), 0, 5},
         {DROGUE_PACKED(2, 2), 0, 4}, {DROGUE_PACKED(3, 0), 0, 1}, {DROGUE_PACKED(3, 3), 1, 1},
         {DROGUE_PACKED(4, 0), 0, 2}, {DROGUE_PACKED(4, 3), 1, 2}, {DROGUE_PACKED(4, 4), 2, 2}};
-    const int32_t c = drogue_clamp_s32(support->smear_px2_q16[0], -MOST_SMEAR_Q16, MOST_SMEAR_Q16);
-    const int32_t s = drogue_clamp_s32(support->smear_px2_q16[1], -MOST_SMEAR_Q16, MOST_SMEAR_Q16);
-    const int32_t v = (int32_t)drogue_isqrt_u64(drogue_square_sum(c, s));
-    const int32_t factor[6] = {v, c, s, 2 * (v + c), 2 * (v - c), 2 * s};
+    int32_t wave[2] = {drogue_clamp_s32(support->smear_px2_q16[0], -MOST_SMEAR_Q16, MOST_SMEAR_Q16),
+                       drogue_clamp_s32(support->smear_px2_q16[1], -MOST_SMEAR_Q16, MOST_SMEAR_Q16)};
+    int32_t factor[6]; /* v, c, s, 2 (v + c), 2 (v - c), 2 s */
+    uint64_t square;
     real share;
     real t;
     int i;
+    drogue_turn_wave(wave, drogue_q16_sub(0, e->angle_rad_q16));
+    square = drogue_square_sum(wave[0], wave[1]);
+    factor[0] = (int32_t)drogue_isqrt_u64(square);
+    factor[0] += (uint64_t)((int64_t)factor[0] * factor[0]) < square; /* rounded up: what is added stays positive */
+    factor[1] = wave[0];
+    factor[2] = wave[1];
+    factor[3] = 2 * (factor[0] + wave[0]);
+    factor[4] = 2 * (factor[0] - wave[0]);
+    factor[5] = 2 * wave[1];
     drogue_real_set(&share, 3, -10); /* 0.153^2 / 8 */
     drogue_real_set_q16(&t, e->a_px_q16);
     drogue_real_quotient(&share, &share, &t);

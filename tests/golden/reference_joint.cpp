@@ -290,7 +290,9 @@ bool outline_covariance(Covariance &out, const Ellipse &e, const Support &s, Rea
         out(i, i) += static_cast<double>(left * left);
     }
     {
-        const auto c = static_cast<double>(s.smear[0]), d = static_cast<double>(s.smear[1]), v = std::hypot(c, d);
+        const auto c2 = static_cast<double>(std::cos(2 * e.angle)), s2 = static_cast<double>(std::sin(2 * e.angle));
+        const auto p = static_cast<double>(s.smear[0]), q = static_cast<double>(s.smear[1]), v = std::hypot(p, q);
+        const double c = p * c2 + q * s2, d = q * c2 - p * s2; /* from the major axis */
         const auto share = static_cast<double>(0.01171875L / (e.a * e.b));
         const cv::Vec<double, 5> alike(v / 2, 0, 0, c / 2, d / 2);
         out += share * Covariance(alike * alike.t());

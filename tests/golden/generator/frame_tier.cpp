@@ -105,6 +105,9 @@ Real scatter_error(const reference::Support &s, const Ellipse &e)
     return 5 * 2 * 0.29L / std::sqrt(scatter) + bins / 12.0L / scatter + 2 / e.b * std::sqrt(points / scatter);
 }
 
+/* Edges are up to 16 px wide to 2^-13 px, whose square over 8 is the variance; of four, halved. */
+constexpr Real SMEAR_LSB = 32;
+
 /* What the words behind the ellipse move by when what they come from does. */
 class Sensitivity {
 public:
@@ -183,6 +186,9 @@ void poses_more(std::vector<Real> &more, const mirror::Task &task, const mirror:
             }
         },
         error);
+    for (size_t k = 0; k < 2 && (f.support.smear[0] != 0 || f.support.smear[1] != 0); k++) {
+        s.move([k](mirror::Features &g, Real by) { g.support.smear[k] += by; }, SMEAR_LSB / 65536);
+    }
     if (f.placed) {
         s.move([](mirror::Features &g, Real by) { g.inner.at.x += by; }, 2 / 65536.0L);
         s.move([](mirror::Features &g, Real by) { g.inner.at.y += by; }, 2 / 65536.0L);

@@ -215,6 +215,8 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
         for (size_t g = 0; g < GROUPS && std::hypot(o.support.smear[0], o.support.smear[1]) > 1; g++) {
             off[g] = variance[g] > 2.5L ? 0 : off[g];
         }
+        const Real c2 = std::cos(2 * o.fitted.angle), s2 = std::sin(2 * o.fitted.angle), c = o.support.smear[0];
+        o.support.smear = {c * c2 - o.support.smear[1] * s2, o.support.smear[1] * c2 + c * s2}; /* from +x */
         o.support.pull = harmonics(off, o);
         put_back(o.ellipse, o.support.pull);
     }

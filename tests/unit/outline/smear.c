@@ -196,8 +196,8 @@ START_TEST(of_a_smeared_disc)
             } else {
                 MUST(hypot(c, s) > 0.5 * l2 && hypot(c, s) < 1.2 * l2, "%g px: %g for %g px^2", lengths[i], hypot(c, s),
                      l2);
-                MUST(cos(2 * (angle - 0.3)) * c + sin(2 * (angle - 0.3)) * s > cos(0.12) * hypot(c, s),
-                     "%g px at %g: at %g", lengths[i], angle, atan2(s, c) / 2 + 0.3);
+                MUST(cos(2 * angle) * c + sin(2 * angle) * s > cos(0.12) * hypot(c, s), "%g px at %g: at %g",
+                     lengths[i], angle, atan2(s, c) / 2);
             }
         }
     }

@@ -158,14 +158,16 @@ END_TEST
 
 START_TEST(smear_is_doubt_across_two_sides)
 {
-    const double a = 100, b = 90, v = 4, angle = 0.6, c = v * cos(2 * angle), d = v * sin(2 * angle);
+    const double a = 100, b = 90, v = 4, angle = 0.6,
+                 axis = -0.25; /* of the motion from the major axis; of that from +x */
+    const double c = v * cos(2 * angle), d = v * sin(2 * angle);
     const double share = 3.0 / 1024 / (a * b), along[5] = {v, 0, 0, c, d};
     drogue_support s = support_of(32);
-    drogue_joint_outline base = {{0, 0, 100 * 65536, 90 * 65536, 0}, {{0, 0}}, {0}, 0}, more = base;
+    drogue_joint_outline base = {{0, 0, 100 * 65536, 90 * 65536, -16384}, {{0, 0}}, {0}, 0}, more = base;
     int i, j;
     ck_assert_int_eq(drogue_joint_outline_covariance(&base, &s, 0, 0), DROGUE_OK);
-    s.smear_px2_q16[0] = q16_of(c);
-    s.smear_px2_q16[1] = q16_of(d);
+    s.smear_px2_q16[0] = q16_of(v * cos(2 * (angle + axis)));
+    s.smear_px2_q16[1] = q16_of(v * sin(2 * (angle + axis)));
     ck_assert_int_eq(drogue_joint_outline_covariance(&more, &s, 0, 0), DROGUE_OK);
     for (i = 0; i < 5; i++) {
         for (j = 0; j <= i; j++) {
@@ -177,6 +179,44 @@ START_TEST(smear_is_doubt_across_two_sides)
                 added = share * 4 * v * v * side[i] * side[j];
             }
             MUST(fabs(got - added) < 1e-4 * share * v * v, "entry %d %d: %g added, not %g", i, j, got, added);
+        }
+    }
+}
+END_TEST
+
+/* Any smear leaves the covariance positive, beside hardly anything else. */
+START_TEST(smear_of_any_size_and_direction)
+{
+    uint64_t rng = 9;
+    int i;
+    for (i = 0; i < 3000; i++) {
+        drogue_joint_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}, {0}, 0};
+        drogue_support s = support_of(32);
+        const double most = i % 3 == 0 ? 40 : i % 3 == 1 ? 10 : 1;
+        uint32_t k;
+        for (k = 0; k < DROGUE_SUPPORT_BINS; k++) { /* 1/65536 of a semi-axis */
+            s.bin[k].sum_q16 = k & 1 ? 20 : -20;
+        }
+        s.smear_px2_q16[0] = q16_of(rng_real(&rng, -most, most));
+        s.smear_px2_q16[1] = q16_of(rng_real(&rng, -most, most));
+        outline.ellipse.angle_rad_q16 = q16_of(rng_real(&rng, -1.5, 1.5));
+        MUST(drogue_joint_outline_covariance(&outline, &s, 65536, 7864) == DROGUE_OK, "case %d: %d %d at %d", i,
+             s.smear_px2_q16[0], s.smear_px2_q16[1], outline.ellipse.angle_rad_q16);
+    }
+}
+END_TEST
+
+START_TEST(hostile_smear)
+{
+    static const int32_t ends[] = {INT32_MIN, INT32_MIN + 1, -1, 0, 1, INT32_MAX};
+    int i, j;
+    for (i = 0; i < 6; i++) {
+        for (j = 0; j < 6; j++) { /* as 48 px^2: no overflow, and what is said is said */
+            drogue_joint_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 90000}, {{0, 0}}, {0}, 0};
+            drogue_support s = support_of(32);
+            s.smear_px2_q16[0] = ends[i];
+            s.smear_px2_q16[1] = ends[j];
+            ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 7864), DROGUE_OK);
         }
     }
 }
@@ -220,4 +260,4 @@ END_TEST
 
 SUITE_MAIN("joint_outline", covariance_of_independent_noise, covariance_of_noise_shared_within_bins,
            covariance_of_a_partial_outline, shading_and_blur_are_added, smear_is_doubt_across_two_sides,
-           degenerate_support)
+           smear_of_any_size_and_direction, hostile_smear, degenerate_support)
