@@ -12,6 +12,7 @@
 #define FIRST 3                  /* may be the last one below the level, */
 #define LAST 9                   /* up to this one; the last of all is beyond the edge */
 #define STILL DROGUE_Q16(2, 1)   /* grey levels by which the disc may differ from itself */
+#define GREYS DROGUE_Q16(256, 1) /* no grey changes by more */
 #define SIGNIFICANT 50           /* variances of a change of grey across the disc */
 
 /* Where a profile about an edge begins: at a multiple of the distance of its samples, so that it does not tremble with the
@@ -42,7 +43,7 @@ static int32_t median_of(int32_t *v, uint32_t count)
 static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const int32_t dark_q16[RAYS])
 {
     drogue_real normal[6];
-    drogue_q16 within = DROGUE_Q16(256, 1);
+    drogue_q16 within = GREYS;
     int64_t change2;
     int64_t noise2;
     drogue_ray_sums s;
@@ -62,6 +63,11 @@ static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const 
             return 0;
         }
         within = larger(STILL, 2 * drogue_ray_sums_rms(&s));
+    }
+    for (i = 0; i < 3; i++) {
+        if (plane_q16[i] > GREYS || plane_q16[i] < -GREYS) { /* rays too much alike to say */
+            return 0;
+        }
     }
     change2 = (int64_t)drogue_square_sum(plane_q16[0], plane_q16[1]) >> 16;
     noise2 = drogue_div_round_s64(s.squares_q16 * SIGNIFICANT, (int64_t)s.rays * s.rays);

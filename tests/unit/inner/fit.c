@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Least squares over rays: place and size from edges that agree, and rays that do not determine them. */
+/* Least squares over rays: place and size from edges that agree, and rays that do not determine them,
+ * nor the grey of the disc. */
 #include "suite.h"
 
 #include "../../../src/inner/fit.h"
+#include "../../../src/inner/shade.h"
 
 /* Rays at these angles, with edges where a disc that lies (dx, dy) px off and is larger by 'grown' px shows them. */
 static drogue_ray_sums sums_of(const double *angles, int count, double dx, double dy, double grown)
@@ -45,4 +47,36 @@ START_TEST(what_rays_determine)
 }
 END_TEST
 
-SUITE_MAIN("fit", what_rays_determine)
+/* Rays about a dark band, to both its sides; nearly parallel ones say nothing of how the grey changes along it. */
+START_TEST(a_plane_of_grey_that_rays_do_not_determine)
+{
+    enum { SIDE = 96 };
+    static uint8_t pixels[SIDE * SIDE];
+    static const drogue_image image = {pixels, SIDE, SIDE, SIDE};
+    const drogue_q16 v[3] = {0, 0, 0};
+    uint64_t rng = 5;
+    int i, k, spread;
+    for (i = 0; i < SIDE * SIDE; i++) {
+        pixels[i] = (uint8_t)((abs(2 * (i / SIDE) - SIDE + 1) < 41 ? 30 : 130) + rng_range(&rng, 0, 20));
+    }
+    for (spread = 0; spread < 2; spread++) {
+        drogue_ray rays[DROGUE_RAYS];
+        drogue_inner_shade shade;
+        memset(rays, 0, sizeof rays);
+        for (k = 0; k < DROGUE_RAYS; k++) {
+            drogue_ray *r = &rays[k];
+            const int32_t side = k % 2 == 0 ? 1 : -1;
+            r->nx_q14 = spread ? rng_range(&rng, -8000, 8000) : k / 2 % 2; /* a last bit off being parallel */
+            r->ny_q14 = side * (int32_t)lround(sqrt(16384.0 * 16384 - (double)r->nx_q14 * r->nx_q14));
+            r->x_px_q16 = DROGUE_Q16(16 + k, 1);
+            r->y_px_q16 = DROGUE_Q16(95, 2) + side * DROGUE_Q16(20, 1);
+            r->step_px_q16 = DROGUE_Q16(1, 2);
+            r->edges[0].slope_q8 = 100 * 256 * DROGUE_RAY_WEIGHT;
+            r->count = 1;
+        }
+        ck_assert_int_eq(drogue_inner_shade_find(&shade, rays, &image, v, DROGUE_Q16(3, 2)), spread);
+    }
+}
+END_TEST
+
+SUITE_MAIN("fit", what_rays_determine, a_plane_of_grey_that_rays_do_not_determine)
