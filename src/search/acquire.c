@@ -4,13 +4,18 @@
 
 #include <string.h>
 
-/* What a search must show to be sure: an inner part, and this cover of the outline, less of it when the inner part decides
- * the orientation; where the model knows no inner part its reliability, too. */
-#define DECIDED_COVER DROGUE_Q16(6, 10)
+/* What a search must show to be sure: where the model knows no inner part cover of the outline and reliability; else an inner
+ * part that is dark, sharp and near to its size, and cover. One that decides the orientation and has its size needs less of
+ * it, or need not be sharp. */
 #define SURE_COVER DROGUE_Q16(3, 4)
 #define SURE_RELIABILITY DROGUE_Q16(9, 10)
-#define MOST_OFF_PX DROGUE_Q16(6, 10)   /* and an eighth, of the inner part's radius */
-#define SETTLED_COVER DROGUE_Q16(8, 10) /* of a result after which nothing else is looked at */
+#define DECIDED_COVER DROGUE_Q16(6, 10)
+#define BLURRED_COVER DROGUE_Q16(9, 10)
+#define MOST_SPREAD_PX DROGUE_Q16(3, 10)
+#define MOST_OFF_PX DROGUE_Q16(6, 10)   /* and a tenth, of the inner part's radius: near; */
+#define EXACT_PX DROGUE_Q16(3, 10)      /* and a twenty-fifth: its size */
+#define SETTLED_COVER DROGUE_Q16(8, 10) /* of a result after which only larger outlines about it are looked at */
+#define SURE (2 * DROGUE_Q16_ONE)       /* the worth of what is sure is more */
 #define MOST_PRODUCT (INT64_MAX / 4)
 #define MOST_WHOLE_PX 512 /* a larger image is not measured itself: a drogue in it shows its inner part */
 
@@ -36,11 +41,18 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
 {
     int64_t expected;
     int64_t off;
+    int sharp;
     if (model->inner_radius_m_q16 == 0) {
         return r->cover_q16 >= SURE_COVER && r->quality.reliability_q16 >= SURE_RELIABILITY;
     }
-    return sizes(&expected, &off, r, model) && 8 * (off - MOST_OFF_PX) <= expected &&
-           r->cover_q16 >= (r->orientation_resolved ? DECIDED_COVER : SURE_COVER);
+    if (!sizes(&expected, &off, r, model) || 10 * r->inner.contrast < 3 * r->inner.threshold) {
+        return 0;
+    }
+    sharp = r->inner.spread_px_q16 <= MOST_SPREAD_PX;
+    if (r->orientation_resolved && 25 * (off - EXACT_PX) <= expected) {
+        return r->cover_q16 >= (sharp ? DECIDED_COVER : BLURRED_COVER);
+    }
+    return sharp && r->cover_q16 >= SURE_COVER && 10 * (off - MOST_OFF_PX) <= expected;
 }
 
 /* How much a result is worth: 0 without a pose; more where it is sure; most when the inner part decides, too; and then by
@@ -73,6 +85,48 @@ static int settles(const drogue_result *r, const drogue_model *model)
     }
     return model->inner_radius_m_q16 == 0 ||
            (r->orientation_resolved && sizes(&expected, &off, r, model) && 16 * (off - MOST_OFF_PX / 2) <= expected);
+}
+
+/* What is kept of the best measurement. */
+typedef struct best_seen {
+    int32_t worth;
+    int32_t sighting; /* its index */
+    drogue_q16 a_px_q16;
+    drogue_q16 x_px_q16; /* of the inner part */
+    drogue_q16 y_px_q16;
+} best_seen;
+
+/* Keep a result that is worth more. Of two outlines about one inner part that both are sure the larger one is the rim, the
+ * other an edge of the canopy. */
+static void keep_better(best_seen *best, const drogue_result *r, int32_t sighting, const drogue_model *model)
+{
+    const int32_t value = worth(r, model);
+    const int64_t a = r->ellipse.a_px_q16;
+    const int64_t was = best->a_px_q16;
+    int more = value > best->worth;
+    if (r->has_inner && value > SURE && best->worth > SURE &&
+        drogue_square_sum(drogue_q16_sub(r->inner.x_px_q16, best->x_px_q16),
+                          drogue_q16_sub(r->inner.y_px_q16, best->y_px_q16)) < drogue_square_sum(DROGUE_Q16_ONE, 0) &&
+        (8 * a > 9 * was || 9 * a < 8 * was)) {
+        more = a > was;
+    }
+    if (more) {
+        best->worth = value;
+        best->sighting = sighting;
+        best->a_px_q16 = r->ellipse.a_px_q16;
+        best->x_px_q16 = r->inner.x_px_q16;
+        best->y_px_q16 = r->inner.y_px_q16;
+    }
+}
+
+/* Is a sighting one of a larger outline about the same middle? */
+static int surrounds(const drogue_sighting *s, const drogue_sighting *what)
+{
+    const int32_t dx = s->x_px - what->x_px;
+    const int32_t dy = s->y_px - what->y_px;
+    const int32_t within = what->radius_px / 4 + 1;
+    return 8 * s->radius_px > 9 * what->radius_px && s->radius_px < 2 * what->radius_px && dx <= within &&
+           dx >= -within && dy <= within && dy >= -within;
 }
 
 /* Sightings in a part of the image, in coordinates of the image. */
@@ -109,11 +163,12 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     drogue_region part;
     drogue_region whole;
     drogue_status status;
-    int32_t most = 0;
-    int32_t best = 0;
+    best_seen best;
     int32_t last = -1;
+    int settled = 0;
     int32_t i;
     memset(out, 0, sizeof *out);
+    memset(&best, 0, sizeof best);
     whole.x_px = 0;
     whole.y_px = 0;
     whole.width_px = image->width_px;
@@ -132,22 +187,21 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         return status;
     }
     out->status = DROGUE_E_NO_INNER_PART;
-    for (i = 0; i <= search->count; i++) {
-        if (i == search->count && (most > 2 * DROGUE_Q16_ONE || !measures_whole(&part, setup->model))) {
-            break;
+    for (i = 0; i < search->count; i++) {
+        if (!settled || surrounds(&search->best[i], &search->best[best.sighting])) {
+            (void)drogue_measure(out, workspace, setup, image, &search->best[i].region);
+            keep_better(&best, out, i, setup->model);
+            settled = settled || settles(out, setup->model);
+            last = i;
         }
-        (void)drogue_measure(out, workspace, setup, image, i < search->count ? &search->best[i].region : &whole);
-        if (settles(out, setup->model)) {
-            return DROGUE_OK;
-        }
-        if (worth(out, setup->model) > most) {
-            most = worth(out, setup->model);
-            best = i;
-        }
-        last = i;
     }
-    if (most > 0 && best != last) { /* again, so that the workspace holds its points */
-        (void)drogue_measure(out, workspace, setup, image, &search->best[best].region);
+    if (best.worth <= SURE && measures_whole(&part, setup->model)) {
+        (void)drogue_measure(out, workspace, setup, image, &whole);
+        last = search->count;
+        keep_better(&best, out, last, setup->model);
+    }
+    if (best.worth > 0 && best.sighting != last) { /* again, so that the workspace holds its points */
+        (void)drogue_measure(out, workspace, setup, image, &search->best[best.sighting].region);
     }
     if (out->status == DROGUE_OK && !drogue_result_sure(out, setup->model)) {
         out->status = DROGUE_E_UNSURE;
