@@ -65,7 +65,7 @@ typedef struct drogue_config {
     drogue_q16 inner_size_q16;    /* share */
     drogue_q16 outline_shading_q16; /* 3.8 px grey * 8: error of the outline that its own residuals cannot show, over
                                        the gradient along it (joint.h) */
-    drogue_q16 optics_blur_std_px2_q16; /* 0.12 px^2: uncertainty of half the variance of the optics' blur */
+    drogue_q16 optics_blur_std_px2_q16; /* 0.2 px^2: uncertainty of half the variance of the optics' blur */
     drogue_q16 inner_std_px_q16;        /* 0.05 px: standard deviation of the inner disc's centre, */
     drogue_q16 inner_std_share_q16;     /* 0.005: and what its size adds, as a share of the disc's semi-axis */
     drogue_q16 max_chi2_q16;            /* 16: outline and inner part contradict each other above this */

@@ -63,16 +63,19 @@ void drogue_search_row(drogue_search *search, const uint8_t *row);
 /* End the frame: search->best[0 .. count - 1] are its sightings. Returns the count. */
 int32_t drogue_search_end(drogue_search *search);
 
-/* Is enough of a drogue seen in a measurement to begin with it: an inner part of about the model's size that decides the
- * orientation within an outline covered to 0.6, or that is seen in one covered to 0.75; or, for a model without an inner part, cover of at least
- * 0.75 and a reliability of at least 0.9?
+/* Is enough of a drogue seen in a measurement to begin with it? For a model with an inner part one that is dark (a contrast
+ * of at least a quarter of the grey at its edge), sharp (a spread of at most 0.3 px) and near to the model's size (its radius to
+ * 0.6 px and a tenth), within an outline covered to 0.75; where it decides the orientation and has its size (to 0.3 px and a
+ * twenty-fifth) a cover of 0.6 will do, or, where it is not sharp, one of 0.9. For a model without one a cover of 0.75 and a
+ * reliability of 0.9.
  *
  *  r  of status DROGUE_OK
  */
 int drogue_result_sure(const drogue_result *r, const drogue_model *model);
 
 /* Search a part of an image, and measure what was sighted in order of score, until an inner part decides the orientation
- * within an outline covered to four fifths. When none does, the result is the one of most cover among those that are sure and
+ * within an outline covered to four fifths; after that only what was sighted larger about the same middle. Of two outlines
+ * about one inner part that both are sure the larger one is the rim. Else the result is the one of most cover among those that are sure and
  * whose inner part decides; or else that are sure; or else of all. The part itself is measured last, with
  * the drogue about its middle, where no inner part decides and the part is small, at most 512 px a side, or the model has
  * no inner part.

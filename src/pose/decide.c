@@ -94,28 +94,53 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
     return drogue_real_order(&best->chi2, &limit) <= 0;
 }
 
+/* Add the square of a vector, Q16, times 2^-shift. */
+static void add_square(drogue_joint *joint, const int64_t v_q16[5], int32_t shift)
+{
+    int i;
+    int j;
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j <= i; j++) {
+            drogue_real *sum = &joint->covariance[DROGUE_PACKED(i, j)];
+            drogue_real t;
+            drogue_real factor;
+            drogue_real_set(&t, v_q16[i], -16);
+            drogue_real_set(&factor, v_q16[j], -16 - shift);
+            drogue_real_product(&t, &t, &factor);
+            drogue_real_sum(sum, sum, &t);
+        }
+    }
+}
+
 /* Unresolved, the truth is as likely the one pose as the other: half the square of what lies between them. */
 static void add_spread(drogue_joint *joint, const drogue_pose *other)
 {
     const drogue_pose *p = &joint->pose;
     int64_t apart_q16[5];
     int i;
-    int j;
     for (i = 0; i < 3; i++) {
         apart_q16[i] = (int64_t)other->position_m_q16[i] - p->position_m_q16[i];
     }
     apart_q16[3] = (int64_t)other->yaw_rad_q16 - p->yaw_rad_q16;
     apart_q16[4] = (int64_t)other->pitch_rad_q16 - p->pitch_rad_q16;
-    for (i = 0; i < 5; i++) {
-        for (j = 0; j <= i; j++) {
-            drogue_real *sum = &joint->covariance[DROGUE_PACKED(i, j)];
-            drogue_real t;
-            drogue_real other_factor;
-            drogue_real_set(&t, apart_q16[i], -16);
-            drogue_real_set(&other_factor, apart_q16[j], -17);
-            drogue_real_product(&t, &t, &other_factor);
-            drogue_real_sum(sum, sum, &t);
-        }
+    add_square(joint, apart_q16, 1);
+}
+
+/* An outline that no inner part agrees with may be another edge than the rim: 1.1 % of the distance, 2^-13 of its square. */
+static void add_doubt(drogue_joint *joint)
+{
+    const drogue_q16 *at = joint->pose.position_m_q16;
+    const int64_t position_q16[5] = {at[0], at[1], at[2], 0, 0};
+    add_square(joint, position_q16, 13);
+}
+
+/* Outline and inner part that are apart by more than their standard deviations have larger ones. */
+static void widen(drogue_joint *joint, const drogue_real *chi2)
+{
+    const drogue_real one = {1 << 30, -30};
+    int i;
+    for (i = 0; i < DROGUE_PACKED_MAX && drogue_real_order(chi2, &one) > 0; i++) {
+        drogue_real_product(&joint->covariance[i], &joint->covariance[i], chi2);
     }
 }
 
@@ -126,19 +151,32 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
     drogue_joint joint;
     uint32_t index = evidence->nearer;
     int32_t resolved = 0;
+    int agree = 0;
+    drogue_real chi2;
     memset(&joint, 0, sizeof joint);
     outline.ellipse = evidence->ideal;
     if (drogue_joint_outline_covariance(&outline, evidence->support, setup->config->outline_shading_q16,
                                         setup->config->optics_blur_std_px2_q16) != DROGUE_OK) {
         return DROGUE_E_DOMAIN;
     }
-    if (evidence->inner.std_px_q16 == 0 || !solve_together(&joint, &index, &resolved, &outline, evidence, setup)) {
+    drogue_real_set(&chi2, 0, 0);
+    if (evidence->inner.std_px_q16 > 0) {
+        agree = solve_together(&joint, &index, &resolved, &outline, evidence, setup);
+        drogue_real_set_q16(&chi2, setup->config->max_chi2_q16);
+    }
+    if (agree) {
+        chi2 = joint.chi2;
+    } else {
         resolved = 0;
         index = evidence->nearer;
         if (drogue_joint_solve(&joint, &evidence->poses[index], &outline, &none, setup->camera, setup->model, 0) !=
             DROGUE_OK) {
             return DROGUE_E_DOMAIN;
         }
+    }
+    widen(&joint, &chi2);
+    if (!agree && setup->model->inner_radius_m_q16 > 0) {
+        add_doubt(&joint);
     }
     out->orientation_resolved = resolved;
     out->pose = joint.pose;

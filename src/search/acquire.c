@@ -45,7 +45,7 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
     if (model->inner_radius_m_q16 == 0) {
         return r->cover_q16 >= SURE_COVER && r->quality.reliability_q16 >= SURE_RELIABILITY;
     }
-    if (!sizes(&expected, &off, r, model) || 10 * r->inner.contrast < 3 * r->inner.threshold) {
+    if (!sizes(&expected, &off, r, model) || 4 * r->inner.contrast < r->inner.threshold) {
         return 0;
     }
     sharp = r->inner.spread_px_q16 <= MOST_SPREAD_PX;

@@ -104,6 +104,24 @@ Picture drawn_drogues(uint64_t number)
     return p;
 }
 
+/* A drogue seen along its axis with a canopy from 'within' a to a, a wall and an inner part. */
+Picture banded(double a, double within, int ground, int canopy, int wall, int inner)
+{
+    const int side = static_cast<int>(std::ceil(4 * a));
+    const double middle = side / 2.0 + 0.3, z = 500 * 0.35 / a, disc = a * 0.12 / 0.35 * z / (z + 0.25);
+    Picture p;
+    p.camera = {500, 500, middle, middle};
+    p.image = image_from(side, side, [&](int x, int y) {
+        double sum = 0;
+        for (int k = 0; k < 36; k++) { /* two pixels wide: some blur */
+            const double r = std::hypot(x + (2 * (k % 6) - 5) / 6.0 - middle, y + (2 * (k / 6) - 5) / 6.0 - middle);
+            sum += r < disc ? inner : r < within * a ? wall : r < a ? canopy : ground;
+        }
+        return static_cast<int>(std::lround(sum / 36));
+    });
+    return p;
+}
+
 /* What is asked of an acquisition. */
 struct Ask {
     bool part = false;
@@ -195,6 +213,13 @@ void add_acquire(Set &set)
         p = drawn_drogues(static_cast<uint64_t>(number));
         p.inner_radius = 0;
         add_ask(set, "drawn-inner-unknown-" + std::to_string(number), Tier::stress, {"tie", "inner-missing"}, p, ask);
+    }
+    for (const double a : {11.0, 12.5, 14.0, 17.0, 22.0, 30.0}) { /* the canopy's inner edge is an outline, too */
+        const std::string name = "band-" + std::to_string(std::lround(10 * a));
+        add_ask(set, name, Tier::stress, {"tie"}, banded(a, 0.8, 120, 180, 50, 12), ask);
+        add_ask(set, name + "-dark", Tier::stress, {"tie"}, banded(a, 0.74, 15, 90, 160, 10), ask);
+        add_ask(set, name + "-haze", Tier::stress, {"tie"}, banded(a, 0.8, 230, 150, 135, 103), ask);
+        add_ask(set, name + "-thick-haze", Tier::stress, {"tie"}, banded(a, 0.8, 230, 150, 135, 90), ask);
     }
     p.image = constant(520, 8, 90);
     ask.search = 520;

@@ -333,13 +333,14 @@ void add_decide(Set &set)
         add_evidence(set, e.nearer != 0 ? "no-inner-second" : "no-inner", Tier::ordinary, {"inner-missing"}, j, e);
     }
     e = Evidence();
-    for (const double off : {1.0, 4.0, 60.0}) { /* agrees less and less, then contradicts the outline */
+    for (const double off : {0.1, 0.2, 0.3, 1.0, 4.0, 60.0}) { /* agrees less and less, then contradicts the outline */
         e.off_px = off;
         e.nearer = 0;
-        add_evidence(set, "inner-off-" + std::to_string(static_cast<int>(off)), Tier::stress, {"twin-pose"}, j, e);
+        const std::string name = off < 1 ? "inner-off-tenths-" + std::to_string(std::lround(10 * off))
+                                         : "inner-off-" + std::to_string(std::lround(off));
+        add_evidence(set, name, Tier::stress, {"twin-pose"}, j, e);
         e.nearer = 1;
-        add_evidence(set, "inner-off-" + std::to_string(static_cast<int>(off)) + "-twin", Tier::stress, {"twin-pose"},
-                     j, e);
+        add_evidence(set, name + "-twin", Tier::stress, {"twin-pose"}, j, e);
     }
     e = Evidence();
     e.off_px = 4;

@@ -175,13 +175,19 @@ public:
         if (seen_) { /* radii of the inner part, px: as expected, and of its area */
             expected_ = std::sqrt(r.seen.a * r.seen.b) * m.inner_radius / m.rim_radius * z / end;
             off_ = std::fabs(std::sqrt(std::floor(r.area + 0.5L) / std::acos(Real(-1))) - expected_);
+            sharp_ = r.part.rms <= 0.3L;
+            dark_ = 4 * r.part.contrast >= r.part.level;
         }
     }
     bool sure() const
     {
-        return ok_ &&
-               (model_.inner_radius > 0 ? seen_ && off_ <= 0.6L + expected_ / 8 && cover_ >= (resolved_ ? 0.6L : 0.75L)
-                                        : cover_ >= 0.75L && reliable_);
+        if (!ok_ || model_.inner_radius <= 0) {
+            return ok_ && cover_ >= 0.75L && reliable_;
+        }
+        const bool decides = resolved_ && off_ <= 0.3L + expected_ / 25;
+        return seen_ && dark_ &&
+               (decides ? cover_ >= (sharp_ ? 0.6L : 0.9L)
+                        : sharp_ && cover_ >= 0.75L && off_ <= 0.6L + expected_ / 10);
     }
     bool settles() const
     {
@@ -196,7 +202,7 @@ public:
     }
 
 private:
-    bool ok_, reliable_ = false, seen_ = false;
+    bool ok_, reliable_ = false, seen_ = false, sharp_ = false, dark_ = false;
     Real cover_;
     bool resolved_;
     reference::Model model_;
@@ -246,19 +252,36 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
     size_t best = 0;
     const auto attempt = [&](const std::array<int64_t, 4> &region) {
         tried.push_back(measured(region));
-        const Weighed w = weigh(tried.back());
-        const bool settles = w.settles();
-        if (w.worth() > most || settles) {
+        const FrameWords &f = tried.back(), &kept = tried[best];
+        const Weighed w = weigh(f);
+        bool better = w.worth() > most;
+        if (w.sure() && weigh(kept).sure() && f.result.has_inner &&
+            std::hypot(f.result.inner.x - kept.result.inner.x, f.result.inner.y - kept.result.inner.y) < 1) {
+            const Real larger = f.result.seen.a / kept.result.seen.a; /* of two about one inner part */
+            better = larger > 9 / 8.0L || (better && larger >= 8 / 9.0L);
+        }
+        if (better) {
             most = w.worth();
             best = tried.size() - 1;
         }
-        return settles;
+        return w.settles();
     };
+    const std::vector<mirror::Sighting> sightings = mirror::sightings_in(image(part), as_int(p[7]));
+    std::vector<mirror::Sighting> measured_ones;
     bool settled = false;
-    for (const mirror::Sighting &s : mirror::sightings_in(image(part), as_int(p[7]))) {
-        settled = settled || attempt({s.region.x + left, s.region.y + top, s.region.width, s.region.height});
+    for (const mirror::Sighting &s : sightings) {
+        if (settled) { /* a larger outline about the same middle? */
+            const mirror::Sighting &of = measured_ones[best];
+            const int room = of.radius / 4 + 1;
+            if (8 * s.radius <= 9 * of.radius || s.radius >= 2 * of.radius || std::abs(s.x - of.x) > room ||
+                std::abs(s.y - of.y) > room) {
+                continue;
+            }
+        }
+        measured_ones.push_back(s);
+        settled = attempt({s.region.x + left, s.region.y + top, s.region.width, s.region.height}) || settled;
     }
-    if (!settled && most <= 2 && (model.inner_radius <= 0 || std::max(part.width, part.height) <= 512)) {
+    if (most <= 2 && (model.inner_radius <= 0 || std::max(part.width, part.height) <= 512)) {
         (void)attempt(asked);
     }
     if (tried.empty()) {

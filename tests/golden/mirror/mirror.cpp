@@ -298,6 +298,16 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
     out.pose = t.joint.pose;
     out.alternative = pair[1 - t.index];
     out.covariance = t.joint.covariance;
+    if (out.has_inner) {
+        out.covariance *= std::max(1.0, t.agree ? t.joint.chi2 : static_cast<double>(real(config.max_chi2_q16)));
+    }
+    for (int i = 0; i < 3 && !t.agree && task.model.inner_radius > 0; i++) { /* it may be another edge than the rim */
+        for (int j = 0; j < 3; j++) {
+            out.covariance(i, j) += static_cast<double>(out.pose.position[static_cast<size_t>(i)] *
+                                                        out.pose.position[static_cast<size_t>(j)]) *
+                                    0x1p-13;
+        }
+    }
     if (!t.resolved) { /* the truth is as likely the other pose */
         const Pose &p = out.pose, &q = out.alternative;
         const double apart[5] = {static_cast<double>(q.position[0] - p.position[0]),

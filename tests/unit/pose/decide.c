@@ -147,6 +147,51 @@ START_TEST(contradiction)
 }
 END_TEST
 
+/* An inner part off by more than it should be makes all variances chi2 times as large, one that contradicts the outline the
+ * outline's max_chi2 times; and without one that agrees the distance is known to 1.1 %. */
+START_TEST(disagreement_widens)
+{
+    const field f = usual_field();
+    const drogue_joint_inner none = {0, 0, 0};
+    seen s;
+    drogue_joint_inner moved;
+    drogue_config config;
+    drogue_joint_outline outline;
+    drogue_joint joint;
+    double agreed, alone, own;
+    int i;
+    drogue_config_default(&config);
+    look_ahead(&s, &f, 0.25, -0.1);
+    ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
+    agreed = (double)s.result.covariance_q48[2][2];
+    moved = s.evidence.inner;
+    for (i = 1; i < 4; i++) { /* across the line on which both poses have it */
+        double ratio;
+        moved.x_px_q16 += q16_of(0.02);
+        moved.y_px_q16 += q16_of(0.05);
+        ck_assert_int_eq(decide(&s, &f, 0, &moved), DROGUE_OK);
+        ck_assert(s.result.orientation_resolved);
+        ratio = (double)s.result.covariance_q48[2][2] / agreed;
+        MUST(fabs(ratio / fmax(1, 0.613 * i * i) - 1) < 0.05, "%d: %g", i, ratio);
+    }
+    ck_assert_int_eq(decide(&s, &f, 0, &none), DROGUE_OK);
+    alone = (double)s.result.covariance_q48[2][2];
+    outline.ellipse = s.evidence.ideal;
+    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s.support, config.outline_shading_q16,
+                                                     config.optics_blur_std_px2_q16),
+                     DROGUE_OK);
+    ck_assert_int_eq(drogue_joint_solve(&joint, &s.evidence.poses[0], &outline, &none, &f.camera, &f.model, 0),
+                     DROGUE_OK);
+    own = (double)drogue_real_to_s64(joint.covariance[DROGUE_PACKED(2, 2)], 48);
+    MUST(fabs(sqrt(alone) / 0x1p24 / 6 - 0.01105) < 0.0005, "%g of the distance", sqrt(alone) / 0x1p24 / 6);
+    moved.y_px_q16 += q16_of(0.75 * s.outline_px);
+    ck_assert_int_eq(decide(&s, &f, 0, &moved), DROGUE_OK);
+    ck_assert(!s.result.orientation_resolved);
+    MUST(fabs(((double)s.result.covariance_q48[2][2] - alone) / own - 15) < 0.1, "%g more",
+         ((double)s.result.covariance_q48[2][2] - alone) / own);
+}
+END_TEST
+
 /* Head-on the two poses are one: nothing to choose, and so nothing open. */
 START_TEST(head_on)
 {
@@ -202,5 +247,5 @@ START_TEST(solutions_that_leave_the_numbers)
 }
 END_TEST
 
-SUITE_MAIN("decide", the_right_pose_from_both_sides, outline_alone, contradiction, head_on, no_covariance,
-           solutions_that_leave_the_numbers)
+SUITE_MAIN("decide", the_right_pose_from_both_sides, outline_alone, contradiction, disagreement_widens, head_on,
+           no_covariance, solutions_that_leave_the_numbers)

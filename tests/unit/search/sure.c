@@ -20,6 +20,9 @@ static drogue_result measured(void)
     r.quality.reliability_q16 = DROGUE_Q16(95, 100);
     r.has_inner = 1;
     r.inner.area_px = 3269;
+    r.inner.threshold = 60;
+    r.inner.contrast = 40;
+    r.inner.spread_px_q16 = DROGUE_Q16(1, 10);
     r.orientation_resolved = 1;
     return r;
 }
@@ -30,15 +33,47 @@ START_TEST(limits_of_sure)
     ck_assert(drogue_result_sure(&r, &model));
     r.cover_q16 = DROGUE_Q16(61, 100);
     ck_assert(drogue_result_sure(&r, &model));
+    r.inner.area_px = 2880; /* 30.3 px: off by 2.0, a twenty-fifth and 0.3 are 1.6 */
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.inner.area_px = 2980; /* 30.8 px: off by 1.5 */
+    ck_assert(drogue_result_sure(&r, &model));
+    r.cover_q16 = DROGUE_Q16(59, 100);
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.cover_q16 = DROGUE_Q16(74, 100);
     r.orientation_resolved = 0;
     ck_assert(!drogue_result_sure(&r, &model));
     r.cover_q16 = DROGUE_Q16(76, 100);
     ck_assert(drogue_result_sure(&r, &model));
-    r.inner.area_px = 4400; /* 37.4 px: off by 5.1, an eighth and 0.6 are 4.6 */
+    r.inner.area_px = 4100; /* 36.1 px: off by 3.9, a tenth and 0.6 are 3.8 */
     ck_assert(!drogue_result_sure(&r, &model));
-    r.inner.area_px = 2500; /* 28.2 px: off by 4.1 */
+    r.inner.area_px = 2600; /* 28.8 px: off by 3.5 */
+    ck_assert(drogue_result_sure(&r, &model));
+    r.orientation_resolved = 1;
     ck_assert(drogue_result_sure(&r, &model));
     r.has_inner = 0;
+    ck_assert(!drogue_result_sure(&r, &model));
+}
+END_TEST
+
+START_TEST(dark_and_sharp)
+{
+    drogue_result r = measured();
+    r.inner.spread_px_q16 = DROGUE_Q16(31, 100);
+    ck_assert(drogue_result_sure(&r, &model)); /* it decides, has its size, and the cover is 0.9 */
+    r.cover_q16 = DROGUE_Q16(89, 100);
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.inner.spread_px_q16 = DROGUE_Q16(29, 100);
+    ck_assert(drogue_result_sure(&r, &model));
+    r.orientation_resolved = 0;
+    ck_assert(drogue_result_sure(&r, &model));
+    r.inner.spread_px_q16 = DROGUE_Q16(31, 100);
+    r.cover_q16 = DROGUE_Q16_ONE;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r = measured();
+    r.inner.threshold = 130;
+    r.inner.contrast = 33;
+    ck_assert(drogue_result_sure(&r, &model));
+    r.inner.contrast = 32;
     ck_assert(!drogue_result_sure(&r, &model));
 }
 END_TEST
@@ -112,5 +147,5 @@ START_TEST(acquire_without_an_inner_part)
 }
 END_TEST
 
-SUITE_MAIN("sure", limits_of_sure, behind_or_beside_the_camera_nothing_is_sure,
+SUITE_MAIN("sure", limits_of_sure, dark_and_sharp, behind_or_beside_the_camera_nothing_is_sure,
            without_an_inner_part_cover_and_reliability_decide, acquire_without_an_inner_part)
