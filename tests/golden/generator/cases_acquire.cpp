@@ -104,11 +104,11 @@ Picture drawn_drogues(uint64_t number)
     return p;
 }
 
-/* A drogue seen along its axis with a canopy from 'within' a to a, a wall and an inner part. */
-Picture banded(double a, double within, int ground, int canopy, int wall, int inner)
+/* A drogue seen along its axis with a canopy from 'within' a to a, a wall and an inner part of 'size' times what it should be. */
+Picture banded(double a, double within, int ground, int canopy, int wall, int inner, double size = 1)
 {
     const int side = static_cast<int>(std::ceil(4 * a));
-    const double middle = side / 2.0 + 0.3, z = 500 * 0.35 / a, disc = a * 0.12 / 0.35 * z / (z + 0.25);
+    const double middle = side / 2.0 + 0.3, z = 500 * 0.35 / a, disc = size * a * 0.12 / 0.35 * z / (z + 0.25);
     Picture p;
     p.camera = {500, 500, middle, middle};
     p.image = image_from(side, side, [&](int x, int y) {
@@ -217,6 +217,8 @@ void add_acquire(Set &set)
     for (const double a : {11.0, 12.5, 14.0, 17.0, 22.0, 30.0}) { /* the canopy's inner edge is an outline, too */
         const std::string name = "band-" + std::to_string(std::lround(10 * a));
         add_ask(set, name, Tier::stress, {"tie"}, banded(a, 0.8, 120, 180, 50, 12), ask);
+        add_ask(set, name + "-small-inner", Tier::stress, {"tie"}, banded(a, 0.8, 120, 180, 50, 12, 0.88), ask);
+        add_ask(set, name + "-smaller-inner", Tier::stress, {"tie"}, banded(a, 0.8, 120, 180, 50, 12, 0.83), ask);
         add_ask(set, name + "-dark", Tier::stress, {"tie"}, banded(a, 0.74, 15, 90, 160, 10), ask);
         add_ask(set, name + "-haze", Tier::stress, {"tie"}, banded(a, 0.8, 230, 150, 135, 103), ask);
         add_ask(set, name + "-thick-haze", Tier::stress, {"tie"}, banded(a, 0.8, 230, 150, 135, 90), ask);

@@ -390,13 +390,13 @@ START_TEST(sure_at_its_limits)
     r.has_inner = 0;
     ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
     r.has_inner = 1;
-    r.inner.area_px = 10200; /* 56.98 px: an eighth is 6.25, and 0.6 */
+    r.inner.area_px = 9740; /* 55.68 px: a tenth is 5, and 0.6 */
     ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
-    r.inner.area_px = 10130; /* 56.78 px */
+    r.inner.area_px = 9680; /* 55.51 px */
     ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
-    r.inner.area_px = 5805; /* 42.98 px */
+    r.inner.area_px = 6170; /* 44.32 px */
     ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
-    r.inner.area_px = 5890; /* 43.3 px */
+    r.inner.area_px = 6220; /* 44.5 px */
     ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
     r.inner.area_px = 1963; /* 25 px: as large as a part twice as far away */
     ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
