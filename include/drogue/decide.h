@@ -24,13 +24,13 @@ typedef struct drogue_decision {
     drogue_pose pose;              /* unresolved: the nearer one */
     drogue_pose alternative;       /* the other one that the outline allows */
     int32_t orientation_resolved;  /* 1: the inner part decided between the two */
-    int64_t covariance_q48[5][5];  /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric */
+    int64_t covariance_q48[5][5];  /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric; saturated: at most 2^15 */
     int64_t position_std_m_q32[3]; /* roots of its first three diagonal entries, Q32 */
     int64_t axis_std_rad_q32;      /* root mean square angle between measured and true axis, Q32 */
 } drogue_decision;
 
 /* Solve for outline and inner part together; for the outline alone when they contradict each other or there is no inner
- * part to be believed. Where they disagree by more than their standard deviations the covariance is chi2 times as large, and
+ * part to be believed. Where their chi2, 0.5 on average of frames that are as supposed, is above 1, the covariance is so many times as large, and
  * max_chi2 times when they contradict each other; where none agrees and the model knows one, the outline may be another edge:
  * 1.1 % of the distance is added.
  *

@@ -74,8 +74,9 @@ int32_t drogue_search_end(drogue_search *search);
 int drogue_result_sure(const drogue_result *r, const drogue_model *model);
 
 /* Search a part of an image, and measure what was sighted in order of score, until an inner part decides the orientation
- * within an outline covered to four fifths; after that only what was sighted larger about the same middle. Of two outlines
- * about one inner part that both are sure the larger one is the rim. Else the result is the one of most cover among those that are sure and
+ * within an outline covered to four fifths; after that only what was sighted about the same middle with 9/8 to 2 times the
+ * radius. Of two sure outlines whose inner parts are within 1 px of each other and whose semi-axes differ by more than an
+ * eighth the larger one is preferred, unless it has less cover, or an inner part less of its size, by an eighth. Else the result is the one of most cover among those that are sure and
  * whose inner part decides; or else that are sure; or else of all. The part itself is measured last, with
  * the drogue about its middle, where no inner part decides and the part is small, at most 512 px a side, or the model has
  * no inner part.

@@ -16,7 +16,9 @@
 #define EXACT_PX DROGUE_Q16(3, 10)      /* and a twenty-fifth: its size */
 #define SETTLED_COVER DROGUE_Q16(8, 10) /* of a result after which only larger outlines about it are looked at */
 #define SURE (2 * DROGUE_Q16_ONE)       /* the worth of what is sure is more */
+#define LARGER (DROGUE_Q16_ONE / 8)     /* the worth of being the larger one of two outlines about one inner part */
 #define MOST_PRODUCT (INT64_MAX / 4)
+#define MOST_EXPECTED (INT64_C(1) << 40) /* px Q16: no inner part's area says more */
 #define MOST_WHOLE_PX 512 /* a larger image is not measured itself: a drogue in it shows its inner part */
 
 /* Radii of the inner part, px Q16, as circles of its area: what the model expects in this outline, and by how much it is
@@ -32,6 +34,7 @@ static int sizes(int64_t *expected, int64_t *off, const drogue_result *r, const 
     *expected = drogue_div_round_s64(*expected * model->inner_radius_m_q16, model->rim_radius_m_q16);
     *expected = *expected < MOST_PRODUCT / z ? *expected : MOST_PRODUCT / z; /* of a model that fits no outline */
     *expected = drogue_div_round_s64(*expected * z, end);
+    *expected = *expected < MOST_EXPECTED ? *expected : MOST_EXPECTED;
     *off = (int64_t)drogue_isqrt_u64((((uint64_t)r->inner.area_px << 32) / (uint64_t)DROGUE_Q16_PI) << 16) - *expected;
     *off = *off < 0 ? -*off : *off;
     return 1;
@@ -75,7 +78,7 @@ static int32_t worth(const drogue_result *r, const drogue_model *model)
            (int32_t)(off < DROGUE_Q16_ONE ? off : DROGUE_Q16_ONE);
 }
 
-/* Good enough not to look at what scored less? */
+/* Good enough to look at nothing else but larger outlines about it? */
 static int settles(const drogue_result *r, const drogue_model *model)
 {
     int64_t expected;
@@ -96,27 +99,30 @@ typedef struct best_seen {
     drogue_q16 y_px_q16;
 } best_seen;
 
-/* Keep a result that is worth more. Of two outlines about one inner part that both are sure the larger one is the rim, the
- * other an edge of the canopy. */
-static void keep_better(best_seen *best, const drogue_result *r, int32_t sighting, const drogue_model *model)
+/* Keep a result that is worth more; returns whether it is. Of two sure outlines about one inner part the larger one is more
+ * likely the rim, and the other an edge of the canopy. */
+static int keep_better(best_seen *best, const drogue_result *r, int32_t sighting, const drogue_model *model)
 {
-    const int32_t value = worth(r, model);
     const int64_t a = r->ellipse.a_px_q16;
     const int64_t was = best->a_px_q16;
-    int more = value > best->worth;
+    const int32_t value = worth(r, model);
+    int32_t own = value;
+    int32_t other = best->worth;
     if (r->has_inner && value > SURE && best->worth > SURE &&
         drogue_square_sum(drogue_q16_sub(r->inner.x_px_q16, best->x_px_q16),
-                          drogue_q16_sub(r->inner.y_px_q16, best->y_px_q16)) < drogue_square_sum(DROGUE_Q16_ONE, 0) &&
-        (8 * a > 9 * was || 9 * a < 8 * was)) {
-        more = a > was;
+                          drogue_q16_sub(r->inner.y_px_q16, best->y_px_q16)) < drogue_square_sum(DROGUE_Q16_ONE, 0)) {
+        own += 8 * a > 9 * was ? LARGER : 0;
+        other += 9 * a < 8 * was ? LARGER : 0;
     }
-    if (more) {
-        best->worth = value;
-        best->sighting = sighting;
-        best->a_px_q16 = r->ellipse.a_px_q16;
-        best->x_px_q16 = r->inner.x_px_q16;
-        best->y_px_q16 = r->inner.y_px_q16;
+    if (own <= other) {
+        return 0;
     }
+    best->worth = value;
+    best->sighting = sighting;
+    best->a_px_q16 = r->ellipse.a_px_q16;
+    best->x_px_q16 = r->inner.x_px_q16;
+    best->y_px_q16 = r->inner.y_px_q16;
+    return 1;
 }
 
 /* Is a sighting one of a larger outline about the same middle? */
@@ -188,17 +194,18 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     }
     out->status = DROGUE_E_NO_INNER_PART;
     for (i = 0; i < search->count; i++) {
-        if (!settled || surrounds(&search->best[i], &search->best[best.sighting])) {
-            (void)drogue_measure(out, workspace, setup, image, &search->best[i].region);
-            keep_better(&best, out, i, setup->model);
-            settled = settled || settles(out, setup->model);
-            last = i;
+        if (settled &&
+            (setup->model->inner_radius_m_q16 == 0 || !surrounds(&search->best[i], &search->best[best.sighting]))) {
+            continue;
         }
+        (void)drogue_measure(out, workspace, setup, image, &search->best[i].region);
+        settled = (keep_better(&best, out, i, setup->model) && settles(out, setup->model)) || settled;
+        last = i;
     }
     if (best.worth <= SURE && measures_whole(&part, setup->model)) {
         (void)drogue_measure(out, workspace, setup, image, &whole);
         last = search->count;
-        keep_better(&best, out, last, setup->model);
+        (void)keep_better(&best, out, last, setup->model);
     }
     if (best.worth > 0 && best.sighting != last) { /* again, so that the workspace holds its points */
         (void)drogue_measure(out, workspace, setup, image, &search->best[best.sighting].region);

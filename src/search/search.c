@@ -137,8 +137,8 @@ static void judge_disc(drogue_search *search, int k, const drogue_search_disc *d
         c.x_px = (int32_t)(((16 * disc->x + 8 + rim->x_q4) * cell_px) >> 4);
         c.y_px = (int32_t)(((16 * disc->y + 8 + rim->y_q4) * cell_px) >> 4);
         c.radius_px = (int32_t)((rim->radius_q4 * cell_px) >> 4);
-        side = (c.radius_px * 21) >> 3;   /* 2.5 major semi-axes; */
-        side += c.radius_px < 10 ? 4 : 0; /* a small radius may be a cell too small */
+        side = c.radius_px + (c.radius_px < 10 ? 1 : 0); /* a small radius may be half a cell too small */
+        side = (side * 21) >> 3;                         /* 2.5 major semi-axes */
         side = side < DROGUE_MAX_SIDE ? side : DROGUE_MAX_SIDE;
         c.region.x_px = c.x_px - side / 2;
         c.region.y_px = c.y_px - side / 2;

@@ -17,7 +17,7 @@ if [ "${1:-}" != --again ]; then
         exit 1
     }
 fi
-# The rows' and cells' second form, which the compiler's default is not, is compiled by its unit test alone.
+# Left out, too: the rows' and cells' form for cores without SIMD, which its own unit test and the images in QEMU run.
 # DROGUE_PACKED orders its two indices: where a caller's order is fixed one arm of it is dead.
 summed=(gcovr -r . --object-directory $build --exclude-directories '.*_lanes.dir.*' --exclude-branches-by-pattern '.*DROGUE_PACKED\(.*')
 status=0

@@ -77,7 +77,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
         in[inputs] = input_of(&stages[which].in[inputs], data[inputs], &b);
     }
     count = conf_run_stage(stages[which].stage, in, inputs, out, CONF_MAX_OUTPUTS);
-    FUZZ_MUST(count > 0 || count == CONF_E_MALFORMED || count == CONF_E_MEMORY); /* a mask may be larger than that */
+    if (strcmp(stages[which].stage, "mask") == 0 && count == CONF_E_MEMORY) {
+        return 0; /* one of up to 2048 px a side is drawn */
+    }
+    FUZZ_MUST(count > 0 || count == CONF_E_MALFORMED);
     for (i = 0; i < count; i++) {
         for (k = 0; k < out[i].count && at < sizeof first / sizeof first[0]; k++) {
             first[at++] = conf_word(&out[i], k);

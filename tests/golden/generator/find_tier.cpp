@@ -254,22 +254,27 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
         tried.push_back(measured(region));
         const FrameWords &f = tried.back(), &kept = tried[best];
         const Weighed w = weigh(f);
-        bool better = w.worth() > most;
+        Real own = w.worth(), other = most;
         if (w.sure() && weigh(kept).sure() && f.result.has_inner &&
             std::hypot(f.result.inner.x - kept.result.inner.x, f.result.inner.y - kept.result.inner.y) < 1) {
             const Real larger = f.result.seen.a / kept.result.seen.a; /* of two about one inner part */
-            better = larger > 9 / 8.0L || (better && larger >= 8 / 9.0L);
+            own += larger > 9 / 8.0L ? 0.125L : 0;
+            other += larger < 8 / 9.0L ? 0.125L : 0;
         }
-        if (better) {
-            most = w.worth();
-            best = tried.size() - 1;
+        if (own <= other) {
+            return false;
         }
+        most = w.worth();
+        best = tried.size() - 1;
         return w.settles();
     };
     const std::vector<mirror::Sighting> sightings = mirror::sightings_in(image(part), as_int(p[7]));
     std::vector<mirror::Sighting> measured_ones;
     bool settled = false;
     for (const mirror::Sighting &s : sightings) {
+        if (settled && model.inner_radius <= 0) {
+            break;
+        }
         if (settled) { /* a larger outline about the same middle? */
             const mirror::Sighting &of = measured_ones[best];
             const int room = of.radius / 4 + 1;

@@ -197,6 +197,11 @@ bool find_shade(Shade &out, const Rays &rays, const drogue_image &view, const Of
         }
         room = std::max<Real>(2, 2 * rms_of(s));
     }
+    for (const Real v : out.dark) {
+        if (std::fabs(v) > 256) {
+            return false;
+        }
+    }
     const Real change = out.dark[0] * out.dark[0] + out.dark[1] * out.dark[1];
     const Real kept = change > 0 ? change / (change + 50 * s.squares / s.rays / s.rays) : 0;
     out.dark[0] *= kept;

@@ -266,7 +266,7 @@ Sighting sighting_of(const Rim &rim, const DarkDisc &d, int cell_px)
 {
     const auto pixels = [cell_px](int q4) { return cvFloor(q4 * cell_px / 16.0); };
     Sighting s = {pixels(16 * d.x + 8 + rim.x), pixels(16 * d.y + 8 + rim.y), pixels(rim.radius), rim.score, {}};
-    const int side = std::min(cvFloor(s.radius * 21 / 8.0) + (s.radius < 10 ? 4 : 0), DROGUE_MAX_SIDE);
+    const int side = std::min(cvFloor((s.radius + (s.radius < 10)) * 21 / 8.0), DROGUE_MAX_SIDE);
     s.region = {s.x - side / 2, s.y - side / 2, side, side};
     return s;
 }

@@ -152,6 +152,31 @@ START_TEST(what_is_worth_more_stands)
 }
 END_TEST
 
+/* Of two sure outlines about one inner part the larger one stands, though its worth be less by up to an eighth. */
+START_TEST(the_larger_of_two_about_one_inner_part)
+{
+    const drogue_result small = with_inner(75, 1);
+    drogue_result large = with_inner(70, 1);
+    large.ellipse.a_px_q16 = large.ellipse.b_px_q16 = 115 * DROGUE_Q16_ONE;
+    large.inner.area_px = 4323; /* as large as that lets expect */
+    better(&large, &small, &model, DROGUE_OK);
+    large.inner.x_px_q16 = DROGUE_Q16(3, 2); /* another inner part */
+    better(&small, &large, &model, DROGUE_OK);
+    large.inner.x_px_q16 = DROGUE_Q16(1, 2);
+    better(&large, &small, &model, DROGUE_OK);
+    large.cover_q16 = DROGUE_Q16(62, 100); /* less by more than an eighth */
+    better(&small, &large, &model, DROGUE_OK);
+    large = with_inner(79, 0); /* which decides nothing */
+    large.ellipse.a_px_q16 = large.ellipse.b_px_q16 = 115 * DROGUE_Q16_ONE;
+    large.inner.area_px = 4323;
+    better(&small, &large, &model, DROGUE_OK);
+    large = with_inner(70, 1); /* hardly larger */
+    large.ellipse.a_px_q16 = large.ellipse.b_px_q16 = 110 * DROGUE_Q16_ONE;
+    large.inner.area_px = 3955;
+    better(&small, &large, &model, DROGUE_OK);
+}
+END_TEST
+
 /* After what settles nothing is looked at; what has no pose does not settle, whatever else was measured. */
 START_TEST(what_settles)
 {
@@ -224,4 +249,5 @@ START_TEST(the_part_after_its_sightings)
 }
 END_TEST
 
-SUITE_MAIN("acquire", what_is_worth_more_stands, what_settles, when_the_part_is_measured, the_part_after_its_sightings)
+SUITE_MAIN("acquire", what_is_worth_more_stands, the_larger_of_two_about_one_inner_part, what_settles,
+           when_the_part_is_measured, the_part_after_its_sightings)
