@@ -78,12 +78,12 @@ static int32_t worth(const drogue_result *r, const drogue_model *model)
            (int32_t)(off < DROGUE_Q16_ONE ? off : DROGUE_Q16_ONE);
 }
 
-/* Good enough to look at nothing else but larger outlines about it? */
+/* Is a pose good enough to look at nothing else but larger outlines about it? */
 static int settles(const drogue_result *r, const drogue_model *model)
 {
     int64_t expected;
     int64_t off;
-    if (r->status != DROGUE_OK || r->cover_q16 < SETTLED_COVER || !drogue_result_sure(r, model)) {
+    if (r->cover_q16 < SETTLED_COVER || !drogue_result_sure(r, model)) {
         return 0;
     }
     return model->inner_radius_m_q16 == 0 ||

@@ -96,6 +96,9 @@ static drogue_status acquire(drogue_result *out, const drogue_model *m, int32_t 
     if (discs > 1) {
         draw(width, 300, 260, 60);
     }
+    if (discs > 2) {
+        draw(width, 60, 300, 50);
+    }
     calls = 0;
     ck_assert_int_eq(drogue_search_init(&search, memory, sizeof memory, width), DROGUE_OK);
     (void)drogue_acquire(out, &search, NULL, &setup, &image, NULL);
@@ -190,6 +193,17 @@ START_TEST(what_settles)
     first = without_inner(95, 95);
     ck_assert_int_eq(acquire(&out, &no_inner, 480, 360, 2), DROGUE_OK);
     ck_assert_int_eq(calls, 1);
+    first = with_inner(75, 1); /* larger than what would settle, which is not kept: the third is looked at */
+    first.ellipse.a_px_q16 = first.ellipse.b_px_q16 = 115 * DROGUE_Q16_ONE;
+    first.inner.area_px = 4323;
+    second = with_inner(81, 1);
+    elsewhere = with_inner(95, 1);
+    elsewhere.inner.x_px_q16 = 9 * DROGUE_Q16_ONE;
+    ck_assert_int_eq(acquire(&out, &model, 480, 360, 3), DROGUE_OK);
+    ck_assert_int_eq(calls, 3);
+    ck_assert_int_eq(out.cover_q16, elsewhere.cover_q16);
+    elsewhere = nothing();
+    first = without_inner(95, 95);
     first.status = DROGUE_E_DOMAIN; /* farther away than numbers go */
     second = without_inner(85, 95);
     ck_assert_int_eq(acquire(&out, &no_inner, 480, 360, 2), DROGUE_OK);
