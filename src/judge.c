@@ -27,8 +27,6 @@ static void describe(drogue_result *out, const drogue_outline *outline)
     out->ideal = out->ellipse;
 }
 
-#define SEEN_TO_PX_Q16 DROGUE_Q16(1, 2) /* blur and what touches the inner disc move its edge by so much */
-
 /* Find the inner part where a pose expects it, weigh it, and see which pose it is nearer to. */
 static void find_inner(drogue_evidence *evidence, drogue_frame *f)
 {
@@ -43,6 +41,7 @@ static void find_inner(drogue_evidence *evidence, drogue_frame *f)
         DROGUE_OK) {
         drogue_inner_weigh(&inner, &edge, &out->region, &expected, outline, evidence->poses, f->setup);
         evidence->inner = inner.weighed;
+        evidence->doubt_q16 = inner.doubt_q16;
         evidence->nearer = inner.nearer;
         out->inner = inner.part;
         out->has_inner = inner.weighed.std_px_q16 > 0;
@@ -52,8 +51,9 @@ static void find_inner(drogue_evidence *evidence, drogue_frame *f)
     f->doubt_q16 = DROGUE_Q16_ONE;
     if (out->has_inner) {
         const drogue_q16 off_px_q16 = edge.grown_px_q16 < 0 ? -edge.grown_px_q16 : edge.grown_px_q16;
-        f->doubt_q16 =
-            off_px_q16 <= SEEN_TO_PX_Q16 ? 0 : drogue_q16_div(off_px_q16, expected.disc[edge.which].a_px_q16);
+        f->doubt_q16 = off_px_q16 <= DROGUE_INNER_SEEN_TO_PX_Q16
+                           ? 0
+                           : drogue_q16_div(off_px_q16, expected.disc[edge.which].a_px_q16);
     }
 }
 

@@ -108,7 +108,7 @@ static void end_row(drogue_hls_registers *r)
 static void tick(drogue_hls_registers *r, uint32_t pixel, const drogue_hls_words *read, drogue_hls_writes *write)
 {
     drogue_hls_windows *w = &r->windows;
-    const uint32_t code = w->code[AT_LABEL] & (w->in_ring ? 0x1Fu : 3u); /* no arc outside the ring */
+    const uint32_t code = w->code[AT_LABEL] & drogue_hls_when((int)w->in_ring); /* no candidate outside the ring */
     /* Of the last tick of a row: no pixel of the region is labelled in it, so that no merge comes after these. */
     const uint32_t component_merges = drogue_hls_row_merges(r->labels.component_merges, r->labels.component_met);
     const uint32_t arc_merges = drogue_hls_row_merges(r->labels.arc_merges, r->labels.arc_met);

@@ -74,6 +74,7 @@ static drogue_status solve(drogue_decision *out, drogue_inner_evidence *inner, d
         drogue_inner_weigh(inner, &edge, &region, &expected, &ellipse, evidence->poses, &setup);
         evidence->inner = inner->weighed;
         evidence->nearer = inner->nearer;
+        evidence->doubt_q16 = inner->doubt_q16;
     }
     return drogue_decide(out, evidence, &setup);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Canny's non-maximum suppression on the L1 Sobel magnitude, and the subpixel offset across the edge; with both thresholds
- * equal to cv::Canny(aperture 3, L1) in every pixel once hysteresis has run (frontend.h). */
+ * equal to cv::Canny(aperture 3, L1) in every pixel once hysteresis has run over the whole image (frontend.h). */
 #ifndef DROGUE_CANNY_H
 #define DROGUE_CANNY_H
 
@@ -20,14 +20,19 @@ typedef enum drogue_sector {
     DROGUE_SECTOR_ANTIDIAGONAL = 3 /* above right, below left */
 } drogue_sector;
 
-/* Sector of a gradient; ax |gx|, tg22 ax tan(22.5 degrees) * 2^15. */
+/* Sector of ax |gx| and ay |gy|, where what is slanted counts as diagonal; tg22 ax tan(22.5 degrees) * 2^15. */
+static inline drogue_sector drogue_canny_sector_of(uint32_t ax, uint32_t ay, uint32_t tg22)
+{
+    const int flat = ay << 15 < tg22;
+    const int steep = ay << 15 > tg22 + (ax << 16);
+    return flat ? DROGUE_SECTOR_HORIZONTAL : steep ? DROGUE_SECTOR_VERTICAL : DROGUE_SECTOR_DIAGONAL;
+}
+
+/* The same with the signs of gx and gy, which tell the diagonals apart. */
 static inline drogue_sector drogue_canny_sector_by(int16_t gx, int16_t gy, uint32_t ax, uint32_t tg22)
 {
-    const uint32_t ay = (uint32_t)(gy < 0 ? -gy : gy) << 15;
-    const int flat = ay < tg22;
-    const int steep = ay > tg22 + (ax << 16);
-    const drogue_sector slanted = (gx ^ gy) < 0 ? DROGUE_SECTOR_ANTIDIAGONAL : DROGUE_SECTOR_DIAGONAL;
-    return flat ? DROGUE_SECTOR_HORIZONTAL : steep ? DROGUE_SECTOR_VERTICAL : slanted;
+    const drogue_sector sector = drogue_canny_sector_of(ax, (uint32_t)(gy < 0 ? -gy : gy), tg22);
+    return sector == DROGUE_SECTOR_DIAGONAL && (gx ^ gy) < 0 ? DROGUE_SECTOR_ANTIDIAGONAL : sector;
 }
 
 /* Sector of a gradient by itself; (0, 0), which is no edge, counts as diagonal. */

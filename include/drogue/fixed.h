@@ -58,6 +58,13 @@ static inline int32_t drogue_clamp_s32(int32_t v, int32_t least, int32_t most)
     return v < least ? least : v > most ? most : v;
 }
 
+/* v within 2^30 of 0: two of them have a difference of 32 bits. */
+static inline int32_t drogue_clamp_s64(int64_t v)
+{
+    const int64_t most = 1 << 30;
+    return (int32_t)(v > most ? most : v < -most ? -most : v);
+}
+
 /* Saturate to 32 bits. */
 static inline int32_t drogue_sat_s32(int64_t v)
 {
@@ -89,10 +96,22 @@ static inline int drogue_clz_u64(uint64_t v)
 /* 2^62 / d for 2^30 <= d < 2^31, from below, to 2^-29 of it: one 32-bit division and two products. */
 uint32_t drogue_reciprocal_u32(uint32_t d);
 
+/* Are there instructions for saturating sums (Armv7E-M)? */
+#if defined __GNUC__ && defined __ARM_FEATURE_DSP && defined __ARM_FEATURE_QBIT
+#define DROGUE_SATURATING_INSTRUCTIONS 1
+#else
+#define DROGUE_SATURATING_INSTRUCTIONS 0
+#endif
+
 /* Whole number, sum, difference and rounded product as Q16; all saturate. */
 drogue_q16 drogue_q16_from_int(int32_t v);
+#if DROGUE_SATURATING_INSTRUCTIONS
+static inline drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b) { return __builtin_arm_qadd(a, b); }
+static inline drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b) { return __builtin_arm_qsub(a, b); }
+#else
 drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b);
 drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b);
+#endif
 drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b);
 
 /* a^2 + b^2, exact. */

@@ -3,7 +3,10 @@
  *
  * smooth -> gradient -> non-maximum suppression -> labelling run in line buffers. Hysteresis and arc
  * labelling are two union-finds in the same pass; an arc remembers its candidate component and survives when
- * that turns out strong, which gives Canny's exact edge map without a frame store. */
+ * that turns out strong, which gives Canny's exact edge map without a frame store.
+ *
+ * With a ring Canny's candidates are those in the ring alone: they are compared with all their neighbours, but what lies
+ * outside is in no component, so that hysteresis neither begins nor passes there. */
 #ifndef DROGUE_FRONTEND_H
 #define DROGUE_FRONTEND_H
 
@@ -77,7 +80,7 @@ typedef struct drogue_workspace {
     uint8_t *smooth_rows;                /* 3 x 4 (half + 2); aligned for uint32_t, like the others */
     uint16_t *magnitude_rows;            /* 4 x 2 (half + 2) */
     drogue_slope *slope_rows;            /* 4 half */
-    uint8_t *code_rows; /* 4 half: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1 in the ring */
+    uint8_t *code_rows;                  /* 4 half: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1 */
 } drogue_workspace;
 
 /* Bytes that drogue_workspace_init() needs; equals DROGUE_WORKSPACE_BYTES. */
@@ -97,15 +100,23 @@ typedef struct drogue_frontend_config {
     int32_t canny_low;   /* L1 magnitude, 0 <= low <= high: a candidate's exceeds it */
     int32_t canny_high;  /* L1 magnitude: an edge has at least one pixel that exceeds it */
     int32_t smooth;      /* 0: no smoothing before the gradient */
-    int32_t use_ring;    /* 0: list the edge points of the whole region */
+    int32_t use_ring;    /* 0: candidates in the whole region, as cv::Canny */
     drogue_mask ring;    /* in region coordinates; used when use_ring is set */
     uint32_t min_arc_px; /* edge points an arc needs to enter the arc table, Th_length */
 } drogue_frontend_config;
+
+/* Part of a row, as src/frontend lays it out; empty where end <= begin. */
+typedef struct drogue_stretch {
+    uint16_t begin; /* px: its first */
+    uint16_t end;   /* px: behind its last */
+} drogue_stretch;
 
 /* A frame in progress; the members are the front end's own. */
 typedef struct drogue_frontend {
     drogue_workspace *workspace;   /* the caller's */
     drogue_frontend_config config; /* as given */
+    drogue_columns columns[8];     /* of the last rows fed, row y at y % 8: where candidates are */
+    drogue_stretch stretch[8];     /* and what holds them */
     int32_t width_px;              /* of the frame */
     int32_t height_px;             /* of the frame */
     int32_t rows_in;               /* fed so far */
@@ -152,7 +163,7 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row);
 drogue_status drogue_frontend_end(drogue_edge_list *list, drogue_frontend *frontend);
 
 /* Upper threshold that noise alone does not pass: twelve standard deviations of the noise, which the lower quartile of
- * the second differences along the rows gives.
+ * the second differences along every second row gives.
  *
  *  histogram  work area, 256 counts
  *  return     L1 Sobel magnitude, grey levels * 8; 0 where a quarter of the differences is 0

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Ring mask as integer inequalities on squared distances. */
+/* Ring mask as integer inequalities on squared distances: where the front end looks for edges. */
 #ifndef DROGUE_MASK_H
 #define DROGUE_MASK_H
 
@@ -62,6 +62,20 @@ static inline int drogue_mask_in_ring(const drogue_mask *mask, int32_t x, int32_
     drogue_ring_row row = drogue_mask_ring_row(mask, y);
     return drogue_ring_row_holds(&row, x);
 }
+
+/* Columns of a row: [begin[0], end[0]), then [begin[1], end[1]); of what is empty both are equal. */
+typedef struct drogue_columns {
+    uint16_t begin[2]; /* px: the first of each */
+    uint16_t end[2];   /* px: behind the last of each */
+} drogue_columns;
+
+/* Those of a valid mask's ring in row y, on both sides of its hole: exactly where drogue_mask_in_ring() holds.
+ *
+ *  out       in [0, width_px]
+ *  y         [0, DROGUE_MAX_SIDE)
+ *  width_px  [1, DROGUE_MAX_SIDE]
+ */
+void drogue_mask_columns(drogue_columns *out, const drogue_mask *mask, int32_t y, int32_t width_px);
 
 /* Mask of a region of its own coordinates, (0, 0) its top-left pixel. */
 static inline drogue_mask drogue_mask_of_size(int32_t width_px, int32_t height_px)

@@ -52,9 +52,11 @@ uint32_t drogue_rim_most(const drogue_search_disc *disc);
 
 /* Find circles, be they steps to brighter or to darker: those that at least 9 of 16 rays meet and that suit the disc.
  *
+ *  least   what a score must exceed
  *  return  how many there are
  */
-int32_t drogue_rim_find(drogue_rim rims[DROGUE_RIMS], const drogue_search_level *level, const drogue_search_disc *disc);
+int32_t drogue_rim_find(drogue_rim rims[DROGUE_RIMS], const drogue_search_level *level, const drogue_search_disc *disc,
+                        uint32_t least);
 
 #ifdef __cplusplus
 }

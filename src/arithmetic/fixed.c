@@ -67,9 +67,11 @@ uint32_t drogue_reciprocal_u32(uint32_t d)
 
 drogue_q16 drogue_q16_from_int(int32_t v) { return drogue_sat_s32((int64_t)v * DROGUE_Q16_ONE); }
 
+#if !DROGUE_SATURATING_INSTRUCTIONS
 drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b) { return drogue_sat_s32((int64_t)a + b); }
 
 drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b) { return drogue_sat_s32((int64_t)a - b); }
+#endif
 
 drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b)
 {

@@ -16,14 +16,13 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
     }
     frontend->workspace = workspace;
     frontend->config = *config;
-    if (!config->use_ring) {
-        frontend->config.ring = drogue_mask_of_size(width_px, height_px); /* rows of it are prepared all the same */
-    }
     frontend->width_px = width_px;
     frontend->height_px = height_px;
     frontend->rows_in = 0;
     frontend->edge_count = 0;
     frontend->edges_full = 0;
+    frontend->slope_count[0] = 0;
+    frontend->slope_count[1] = 0;
     drogue_labels_reset(&frontend->components, workspace->component_parent, workspace->capacity.labels);
     drogue_labels_reset(&frontend->arc_labels, workspace->arc_parent, workspace->capacity.labels);
     memset(workspace->component_strong, 0, workspace->capacity.labels * sizeof(uint32_t));
@@ -66,6 +65,36 @@ static void resolve_backward(uint32_t *parent, drogue_merge *first, drogue_merge
     drogue_labels_resolve(parent, first, count);
 }
 
+uint8_t drogue_rows_place(drogue_slope *at, const drogue_frontend *f, drogue_sector sector, int32_t before, int32_t m,
+                          int32_t after)
+{
+    const int32_t offset_q5 = drogue_canny_offset_q5(before, m, after);
+    const uint32_t strong = m > f->config.canny_high ? DROGUE_CODE_STRONG : 0u;
+    const uint32_t key = (drogue_direction_class(at->gx, at->gy) + 1u) << DROGUE_CODE_CLASS_SHIFT;
+    at->dx_q5 = (int8_t)(drogue_canny_step_x(sector) * offset_q5);
+    at->dy_q5 = (int8_t)(drogue_canny_step_y(sector) * offset_q5);
+    return (uint8_t)(DROGUE_CODE_CANDIDATE | strong | key);
+}
+
+/* What the candidates of the rows about row y lie in, so many up and down, and as much beside that. */
+static drogue_stretch stretch_about(const drogue_frontend *f, int32_t y, int32_t reach)
+{
+    const int32_t last = y + reach < f->height_px ? y + reach : f->height_px - 1;
+    const int32_t limit = drogue_rows_end(f);
+    drogue_stretch all;
+    int32_t begin = UINT16_MAX;
+    int32_t end = 0;
+    int32_t row;
+    for (row = y > reach ? y - reach : 0; row <= last; row++) {
+        const drogue_stretch s = f->stretch[row & 7];
+        begin = s.begin < begin ? s.begin : begin;
+        end = s.end > end ? s.end : end;
+    }
+    all.begin = (uint16_t)(begin > reach ? begin - reach : 0);
+    all.end = (uint16_t)(end + reach < limit ? end + reach : limit);
+    return all; /* where no row has any it begins far off and remains empty */
+}
+
 /* Suppress, threshold, label and list row y, whose magnitude is complete above and below. */
 static void canny_step(drogue_frontend *f, int32_t y)
 {
@@ -89,12 +118,10 @@ static void canny_step(drogue_frontend *f, int32_t y)
         for (; point < end; point++) {
             const int32_t x = point->x;
             const uint32_t component = drogue_label_pixel(&components, &f->components, code, code_above, x);
-            uint32_t arc = 0;
+            uint32_t arc;
             strong[component] |= code[x] & DROGUE_CODE_STRONG;
             if (component == 0) { /* refused: it belongs to no arc, so that an arc's points share one component */
                 code[x] &= (uint8_t)~DROGUE_CODE_CLASS_MASK;
-            }
-            if ((code[x] & DROGUE_CODE_CLASS_MASK) == 0) {
                 continue;
             }
             arc = drogue_label_pixel(&arcs, &f->arc_labels, code, code_above, x);
@@ -111,7 +138,10 @@ static void canny_step(drogue_frontend *f, int32_t y)
 /* Smoothed row y is there: the gradient of row y - 1 is complete above and below. */
 static void gradient_step(drogue_frontend *f, int32_t y)
 {
-    drogue_rows_gradient(f, y);
+    const drogue_stretch stretch = stretch_about(f, y, 1);
+    if (stretch.begin < stretch.end) {
+        drogue_rows_gradient(f, y, stretch);
+    }
     if (y > 0) {
         canny_step(f, y - 1);
     }
@@ -119,16 +149,34 @@ static void gradient_step(drogue_frontend *f, int32_t y)
 
 static void smooth_step(drogue_frontend *f, int32_t y)
 {
-    drogue_rows_smooth(f, y);
+    const drogue_stretch stretch = stretch_about(f, y, 2);
+    if (stretch.begin < stretch.end) {
+        drogue_rows_smooth(f, y, stretch);
+    }
     if (y > 0) {
         gradient_step(f, y - 1);
     }
 }
 
+/* Row y comes in: where its candidates will be. */
+static void begin_row(drogue_frontend *f, int32_t y)
+{
+    drogue_columns *columns = &f->columns[y & 7];
+    if (f->config.use_ring) {
+        drogue_mask_columns(columns, &f->config.ring, y, f->width_px);
+    } else {
+        columns->begin[0] = 0;
+        columns->begin[1] = (uint16_t)f->width_px;
+        columns->end[0] = (uint16_t)f->width_px;
+        columns->end[1] = (uint16_t)f->width_px;
+    }
+    f->stretch[y & 7] = drogue_rows_stretch(f, columns);
+}
+
 /* Row y of pixels comes in, kept for smoothing, its border reflected: pixels -2, -1, width_px, width_px + 1. */
 static void take_row(const drogue_frontend *f, int32_t y, const uint8_t *pixels)
 {
-    uint8_t *row = drogue_raw_row(f, y);
+    uint8_t *row = drogue_raw_row(f, y) + 2 + drogue_row_left(f);
     int32_t k;
     memcpy(row, pixels, (size_t)f->width_px);
     for (k = 1; k <= 2; k++) {
@@ -144,6 +192,7 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
         return;
     }
     frontend->rows_in++;
+    begin_row(frontend, y);
     if (frontend->config.smooth) {
         take_row(frontend, y, row);
         if (y >= 2) {

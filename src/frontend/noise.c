@@ -12,7 +12,7 @@ int32_t drogue_noise_threshold(uint32_t *histogram, const drogue_image *image)
     int32_t x;
     int32_t y;
     memset(histogram, 0, 256 * sizeof(uint32_t));
-    for (y = 0; y < image->height_px; y++) {
+    for (y = 0; y < image->height_px; y += 2) {
         const uint8_t *row = drogue_image_row(image, y);
         for (x = 1; x + 1 < image->width_px; x++) {
             const int32_t bend = row[x - 1] - 2 * row[x] + row[x + 1];

@@ -17,7 +17,10 @@ enum {
 };
 
 /* Half of a row, rounded up to four pixels: 2 * half - 7 <= width_px <= 2 * half. */
-static inline int32_t drogue_row_half(const drogue_frontend *f) { return (f->width_px + 7) / 8 * 4; }
+static inline int32_t drogue_row_half(const drogue_frontend *f)
+{
+    return (int32_t)(((uint32_t)f->width_px + 7u) / 8u * 4u);
+}
 
 /* Codes of row y; two rows are kept. */
 static inline uint8_t *drogue_code_row(const drogue_frontend *f, int32_t y)
@@ -25,50 +28,48 @@ static inline uint8_t *drogue_code_row(const drogue_frontend *f, int32_t y)
     return f->workspace->code_rows + (y & 1) * 2 * drogue_row_half(f);
 }
 
-/* Where the kernels leave the maxima of a part, ascending: gradient, offset where they are in the ring. */
+/* Where the kernels leave the maxima of a part, ascending: gradient, offset. */
 drogue_slope *drogue_rows_points(const drogue_frontend *f);
 
 /* Zero what is read before it is written. */
 void drogue_rows_begin(const drogue_frontend *f);
 
-/* Pixel 0 of row y as it came in; five rows are kept. */
+/* Places before the first pixel: with lanes it is as far from the row's middle as the last one. */
+static inline int32_t drogue_row_left(const drogue_frontend *f)
+{
+    return DROGUE_ROWS_PLAIN ? 0 : (int32_t)((uint32_t)(2 * drogue_row_half(f) - f->width_px) / 2u);
+}
+
+/* Row y as it came in, from two places before the first; five rows are kept. */
 static inline uint8_t *drogue_raw_row(const drogue_frontend *f, int32_t y)
 {
-    return f->workspace->raw_rows + (y % 5) * (2 * drogue_row_half(f) + 4) + 2;
+    return f->workspace->raw_rows + (int32_t)((uint32_t)y % 5u) * (2 * drogue_row_half(f) + 4);
 }
 
 /* Row y of pixels comes in as a smoothed one. */
 void drogue_rows_take_smoothed(const drogue_frontend *f, int32_t y, const uint8_t *pixels);
 
-/* Smooth row y; the five about it have been taken. */
-void drogue_rows_smooth(const drogue_frontend *f, int32_t y);
+/* The stretch of a row that holds columns, counted in columns or, with lanes, in words. */
+drogue_stretch drogue_rows_stretch(const drogue_frontend *f, const drogue_columns *columns);
 
-/* Gradient and magnitude of row y; the three smoothed rows about it are there. */
-void drogue_rows_gradient(drogue_frontend *f, int32_t y);
+/* That of a whole row ends here. */
+static inline int32_t drogue_rows_end(const drogue_frontend *f)
+{
+    return DROGUE_ROWS_PLAIN ? f->width_px : drogue_row_half(f);
+}
 
-/* List the maxima across the edge among the pixels of a part of row y that exceed the low threshold, and note their codes;
- * part 0 clears the row's. The gradient of rows y - 1 to y + 1 is there. Returns their number. */
+/* Smooth a stretch of row y that is not empty; the five rows about it have been taken. Beside it the row means nothing. */
+void drogue_rows_smooth(const drogue_frontend *f, int32_t y, drogue_stretch stretch);
+
+/* The same for gradient and magnitude; the three smoothed rows about it are there. */
+void drogue_rows_gradient(drogue_frontend *f, int32_t y, drogue_stretch stretch);
+
+/* List the maxima across the edge among the pixels of a part of row y that exceed the low threshold, in its columns alone, and
+ * note their codes; part 0 clears the row's. The gradient of rows y - 1 to y + 1 is there. Returns their number. */
 uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part);
 
-/* Code of a maximum; outside the ring it is in no arc and needs no offset. */
-static inline uint32_t drogue_rows_code(const drogue_frontend *f, int32_t m)
-{
-    return m > f->config.canny_high ? DROGUE_CODE_CANDIDATE | DROGUE_CODE_STRONG : DROGUE_CODE_CANDIDATE;
-}
-
-static inline int drogue_rows_in_ring(const drogue_frontend *f, const drogue_ring_row *ring, int32_t x)
-{
-    return !f->config.use_ring || drogue_ring_row_holds(ring, x);
-}
-
-/* Class of a maximum in the ring, as part of its code; its offset is put down. */
-static inline uint32_t drogue_rows_place(drogue_slope *at, drogue_sector sector, int32_t before, int32_t m,
-                                         int32_t after)
-{
-    const int32_t offset_q5 = drogue_canny_offset_q5(before, m, after);
-    at->dx_q5 = (int8_t)(drogue_canny_step_x(sector) * offset_q5);
-    at->dy_q5 = (int8_t)(drogue_canny_step_y(sector) * offset_q5);
-    return (drogue_direction_class(at->gx, at->gy) + 1u) << DROGUE_CODE_CLASS_SHIFT;
-}
+/* Code of a maximum whose gradient is put down; its offset is, too. */
+uint8_t drogue_rows_place(drogue_slope *at, const drogue_frontend *f, drogue_sector sector, int32_t before, int32_t m,
+                          int32_t after);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Row kernels on words of two 16-bit lanes: the lower lane has a pixel of the left half of the row, the upper one the
- * pixel as far into the right half, so that neighbours are in neighbouring words. */
+ * pixel as far from the row's end, so that neighbours are in neighbouring words and both sides of a ring in the same. */
 #include "rows.h"
 
 #if !DROGUE_ROWS_PLAIN
@@ -45,22 +45,21 @@ static inline uint32_t excess_of(uint32_t v, uint32_t low)
 
 /* Two pixels of which at least one may exceed the low threshold. */
 typedef struct lanes_record {
-    uint32_t place; /* of their magnitudes; an index would cost the gradient an instruction a word */
-    uint32_t dx;    /* derivatives in signed lanes */
+    int32_t word; /* where they are in their row */
+    uint32_t dx;  /* derivatives in signed lanes */
     uint32_t dy;
 } lanes_record;
 
 static uint32_t *smooth_row(const drogue_frontend *f, int32_t y)
 {
     uint32_t *rows = (uint32_t *)(void *)f->workspace->smooth_rows;
-    return rows + (y % 3) * (drogue_row_half(f) + 2) + 1;
+    return rows + (int32_t)((uint32_t)y % 3u) * (drogue_row_half(f) + 2) + 1;
 }
 
 static uint32_t *magnitude_row(const drogue_frontend *f, int32_t y)
 {
     uint32_t *rows = (uint32_t *)(void *)f->workspace->magnitude_rows;
-    const int32_t row = y >= 0 && y < f->height_px ? y % 3 : 3; /* the fourth stays 0 */
-    return rows + row * (drogue_row_half(f) + 2) + 1;
+    return rows + (int32_t)((uint32_t)y % 3u) * (drogue_row_half(f) + 2) + 1; /* a fourth stays 0 */
 }
 
 static lanes_record *record_row(const drogue_frontend *f, int32_t y)
@@ -78,72 +77,88 @@ void drogue_rows_begin(const drogue_frontend *f)
     const size_t half = (size_t)drogue_row_half(f);
     memset(f->workspace->raw_rows, 0, 5 * (2 * half + 4));
     memset(f->workspace->smooth_rows, 0, 3 * (half + 2) * sizeof(uint32_t));
-    memset(magnitude_row(f, -1) - 1, 0, (half + 2) * sizeof(uint32_t));
+    memset(f->workspace->magnitude_rows, 0, 4 * (half + 2) * sizeof(uint32_t));
 }
 
-/* Four words of a row from four pixels of each half. */
-static void pair_halves(uint32_t out[4], uint32_t even_left, uint32_t odd_left, uint32_t even_right, uint32_t odd_right)
-{
-    out[0] = drogue_lanes_lower(even_left, even_right);
-    out[1] = drogue_lanes_lower(odd_left, odd_right);
-    out[2] = drogue_lanes_upper(even_left, even_right);
-    out[3] = drogue_lanes_upper(odd_left, odd_right);
-}
+/* Word of a place in a row: of the places before its middle, and of those as far from its end. */
+static inline int32_t fold(int32_t place, int32_t half) { return place < half ? place : 2 * half - 1 - place; }
 
-/* What lies beside the halves: the border replicated or 0, and at the seam the other half's. */
-static void set_seams(uint32_t *row, int32_t half, uint32_t left_border, uint32_t right_border)
+/* From the word that is farthest from the row's middle to the nearest. */
+drogue_stretch drogue_rows_stretch(const drogue_frontend *f, const drogue_columns *columns)
 {
-    row[-1] = drogue_lanes_lower(left_border, row[half - 1]);
-    row[half] = (row[0] >> 16) | (right_border << 16);
-}
-
-/* Write pixel x in [0, 2 * half). */
-static void set_pixel(uint32_t *row, int32_t half, int32_t x, uint32_t value)
-{
-    if (x < half) {
-        row[x] = (row[x] & 0xFFFF0000u) | value;
-    } else {
-        row[x - half] = drogue_lanes_lower(row[x - half], value);
+    const int32_t half = drogue_row_half(f);
+    const int32_t left = drogue_row_left(f);
+    drogue_stretch s = {UINT16_MAX, 0};
+    int32_t k;
+    for (k = 0; k < 2; k++) {
+        const int32_t begin = columns->begin[k] + left;
+        const int32_t last = columns->end[k] + left - 1;
+        if (begin <= last) {
+            const int32_t near = begin >= half ? begin : last < half ? last : half;
+            const int32_t a = fold(begin, half);
+            const int32_t b = fold(last, half);
+            const int32_t far = a < b ? a : b;
+            s.begin = (uint16_t)(far < s.begin ? far : s.begin);
+            s.end = (uint16_t)(fold(near, half) < s.end ? s.end : fold(near, half) + 1);
+        }
     }
+    return s;
+}
+
+/* Four words of a row from four pixels of the left half, and four of the right half as far from the row's end. */
+static inline void pair_halves(uint32_t out[4], uint32_t even_left, uint32_t odd_left, uint32_t even_right,
+                               uint32_t odd_right)
+{
+    out[0] =
+        odd_right ^ ((odd_right ^ even_left) & 0xFFFFu); /* with the other's lower lane; a mask less than by 'or' */
+    out[1] = even_right ^ ((even_right ^ odd_left) & 0xFFFFu);
+    out[2] = (even_left >> 16) | (odd_right << 16);
+    out[3] = (odd_left >> 16) | (even_right << 16);
+}
+
+/* What lies beside a row's pixels, and where its halves meet. */
+static void set_borders(const drogue_frontend *f, uint32_t *row, uint32_t left, uint32_t right)
+{
+    const int32_t half = drogue_row_half(f);
+    uint32_t *before = row + drogue_row_left(f) - 1;
+    uint32_t *after = row + fold(drogue_row_left(f) + f->width_px, half);
+    *before = (*before & 0xFFFF0000u) | left;
+    *after = drogue_lanes_lower(*after, right);
+    row[half] = (row[half - 1] << 16) | (row[half - 1] >> 16);
 }
 
 /* Smoothed row y is complete but for its border. */
 static void replicate(const drogue_frontend *f, uint32_t *row)
 {
-    const int32_t half = drogue_row_half(f);
-    const int32_t last = f->width_px - 1;
-    const uint32_t border = last < half ? row[last] & 0xFFFFu : row[last - half] >> 16;
-    if (f->width_px < 2 * half) {
-        set_pixel(row, half, f->width_px, border);
-    }
-    set_seams(row, half, row[0], border);
+    const int32_t left = drogue_row_left(f);
+    const uint32_t first = row[left] & 0xFFFFu;
+    set_borders(f, row, first, f->width_px == 1 ? first : row[fold(left + f->width_px - 1, drogue_row_half(f))] >> 16);
 }
 
 void drogue_rows_take_smoothed(const drogue_frontend *f, int32_t y, const uint8_t *pixels)
 {
     const int32_t half = drogue_row_half(f);
-    const uint32_t *left = (const uint32_t *)(void *)f->workspace->raw_rows;
+    uint8_t *places = f->workspace->raw_rows;
     uint32_t *out = smooth_row(f, y);
     int32_t i;
-    memcpy(f->workspace->raw_rows, pixels, (size_t)f->width_px);
-    for (i = 0; i < half; i += 4) {
-        const uint32_t a = drogue_first_lowest(left[i / 4]);
-        const uint32_t b = drogue_first_lowest(left[(i + half) / 4]);
-        pair_halves(out + i, drogue_lanes_even(a), drogue_lanes_odd(a), drogue_lanes_even(b), drogue_lanes_odd(b));
+    memcpy(places + drogue_row_left(f), pixels, (size_t)f->width_px);
+    for (i = 0; i < half; i++) {
+        out[i] = drogue_lanes_lower(places[i], places[2 * half - 1 - i]);
     }
     replicate(f, out);
 }
 
-/* Column sums of four pixels, as even and odd lanes, with what rounds a sixteenth of them: 'fours' pairs of words. */
-static void sum_columns(uint32_t *out, const uint8_t *const rows[5], int32_t fours)
+/* Column sums of four pixels, as even and odd lanes, with what rounds a sixteenth of them: of the fours [begin, end). */
+static void sum_columns(uint32_t *sums, const uint8_t *const rows[5], int32_t begin, int32_t end)
 {
-    const uint32_t *r0 = (const uint32_t *)(const void *)rows[0];
-    const uint32_t *r1 = (const uint32_t *)(const void *)rows[1];
-    const uint32_t *r2 = (const uint32_t *)(const void *)rows[2];
-    const uint32_t *r3 = (const uint32_t *)(const void *)rows[3];
-    const uint32_t *r4 = (const uint32_t *)(const void *)rows[4];
-    const uint32_t *end = out + 2 * fours;
-    for (; out < end; out += 2) {
+    const uint32_t *r0 = (const uint32_t *)(const void *)rows[0] + begin;
+    const uint32_t *r1 = (const uint32_t *)(const void *)rows[1] + begin;
+    const uint32_t *r2 = (const uint32_t *)(const void *)rows[2] + begin;
+    const uint32_t *r3 = (const uint32_t *)(const void *)rows[3] + begin;
+    const uint32_t *r4 = (const uint32_t *)(const void *)rows[4] + begin;
+    uint32_t *out = sums + 2 * begin;
+    const uint32_t *last = sums + 2 * end;
+    for (; out < last; out += 2) {
         const uint32_t p0 = drogue_first_lowest(*r0++);
         const uint32_t p1 = drogue_first_lowest(*r1++);
         const uint32_t p2 = drogue_first_lowest(*r2++);
@@ -178,35 +193,37 @@ static inline uint32_t cascade_step(cascade *c, uint32_t next)
     return drogue_lanes_odd(all);
 }
 
-void drogue_rows_smooth(const drogue_frontend *f, int32_t y)
+void drogue_rows_smooth(const drogue_frontend *f, int32_t y, drogue_stretch stretch)
 {
     const int32_t half = drogue_row_half(f);
-    uint32_t *column = (uint32_t *)(void *)record_row(f, y - 1); /* the place of the records that come next */
-    uint32_t *out = smooth_row(f, y);
-    const uint32_t *left = column;
-    const uint32_t *right = column + half / 2;
-    const uint32_t *end = right;
+    const int32_t begin = stretch.begin / 4;
+    const int32_t end = (stretch.end + 3) / 4;
+    uint32_t *sums = (uint32_t *)(void *)record_row(f, y - 1); /* the place of the records that come next */
+    const uint32_t *const first = sums + 2 * begin;
+    const uint32_t *const last = sums + 2 * end;
+    const uint32_t *lower = first;
+    const uint32_t *upper = sums + half - 2 * begin;
+    uint32_t *out = smooth_row(f, y) + 4 * begin - 4;
     const uint8_t *rows[5];
     cascade c = {{0, 0, 0, 0}};
     int32_t k;
     for (k = 0; k < 5; k++) {
-        rows[k] = drogue_raw_row(f, drogue_reflect_101(y + k - 2, f->height_px)) - 2;
+        rows[k] = drogue_raw_row(f, drogue_reflect_101(y + k - 2, f->height_px));
     }
-    sum_columns(column, rows, half / 2 + 1);
-    for (out -= 4; left <= end; left += 2, right += 2, out += 4) { /* the first four only fill the cascade */
-        const uint32_t even_left = left[0];
-        const uint32_t odd_left = left[1];
-        const uint32_t even_right = right[0];
-        const uint32_t odd_right = right[1];
-        const uint32_t zeroth = cascade_step(&c, drogue_lanes_lower(even_left, even_right));
-        const uint32_t first = cascade_step(&c, drogue_lanes_lower(odd_left, odd_right));
-        const uint32_t second = cascade_step(&c, drogue_lanes_upper(even_left, even_right));
-        const uint32_t third = cascade_step(&c, drogue_lanes_upper(odd_left, odd_right));
-        if (left != column) {
-            out[0] = zeroth;
-            out[1] = first;
-            out[2] = second;
-            out[3] = third;
+    sum_columns(sums, rows, begin, end + 1);
+    sum_columns(sums, rows, half / 2 - end, half / 2 - begin + 1);
+    for (; lower <= last; lower += 2, upper -= 2, out += 4) { /* the first four only fill the cascade */
+        uint32_t next[4];
+        pair_halves(next, lower[0], lower[1], upper[0], upper[1]);
+        next[0] = cascade_step(&c, next[0]);
+        next[1] = cascade_step(&c, next[1]);
+        next[2] = cascade_step(&c, next[2]);
+        next[3] = cascade_step(&c, next[3]);
+        if (lower != first) {
+            out[0] = next[0];
+            out[1] = next[1];
+            out[2] = next[2];
+            out[3] = next[3];
         }
     }
     replicate(f, smooth_row(f, y));
@@ -229,19 +246,16 @@ static inline column column_of(uint32_t step_before, uint32_t above, uint32_t mi
     return c;
 }
 
-/* Place of a word in memory; the difference of two is the bytes between them. */
-static inline uint32_t place_of(const uint32_t *word) { return (uint32_t)(uintptr_t)word; }
-
 /* Magnitude of the pixels between two columns; 'right' comes after the one on them. Those that matter are recorded. */
-static inline lanes_record *gradient_word(lanes_record *next, uint32_t *magnitude, uint32_t left_sum,
+static inline lanes_record *gradient_word(lanes_record *next, uint32_t *magnitude, int32_t word, uint32_t left_sum,
                                           uint32_t left_steps, const column *right, uint32_t low)
 {
     const uint32_t dx = signed_difference(right->sum, left_sum);
     const uint32_t dy = signed_sum(left_steps, right->steps);
     const uint32_t m = l1_magnitude(dx, dy);
-    *magnitude = m;
+    magnitude[word] = m;
     if (excess_of(m, low) != 0) {
-        next->place = place_of(magnitude);
+        next->word = word;
         next->dx = dx;
         next->dy = dy;
         next++;
@@ -249,134 +263,144 @@ static inline lanes_record *gradient_word(lanes_record *next, uint32_t *magnitud
     return next;
 }
 
-void drogue_rows_gradient(drogue_frontend *f, int32_t y)
+void drogue_rows_gradient(drogue_frontend *f, int32_t y, drogue_stretch stretch)
 {
-    const int32_t half = drogue_row_half(f);
     const uint32_t low = DROGUE_LANES((uint32_t)(f->config.canny_low < 2040 ? f->config.canny_low : 2040));
     const int32_t below = y + 1 < f->height_px ? y + 1 : y;
-    const uint32_t *t = smooth_row(f, y > 0 ? y - 1 : 0) + 1;
-    const uint32_t *c = smooth_row(f, y) + 1;
-    const uint32_t *b = smooth_row(f, below) + 1;
+    const int32_t begin = stretch.begin / 2 * 2;
+    const uint32_t *t = smooth_row(f, y > 0 ? y - 1 : 0) + begin + 1;
+    const uint32_t *c = smooth_row(f, y) + begin + 1;
+    const uint32_t *b = smooth_row(f, below) + begin + 1;
     uint32_t *const magnitude = magnitude_row(f, y);
-    uint32_t *const end = magnitude + half;
-    uint32_t *at;
+    int32_t word;
     lanes_record *const first = record_row(f, y);
     lanes_record *next = first;
     column left = column_of(0, t[-2], c[-2], b[-2]);
     column middle = column_of(left.step, t[-1], c[-1], b[-1]);
-    for (at = magnitude; at < end; at += 2, t += 2, c += 2, b += 2) {
+    for (word = begin; word < stretch.end; word += 2, t += 2, c += 2, b += 2) {
         column right = column_of(middle.step, t[0], c[0], b[0]);
-        next = gradient_word(next, at, left.sum, middle.steps, &right, low);
+        next = gradient_word(next, magnitude, word, left.sum, middle.steps, &right, low);
         left = column_of(right.step, t[1], c[1], b[1]);
-        next = gradient_word(next, at + 1, middle.sum, right.steps, &left, low);
+        next = gradient_word(next, magnitude, word + 1, middle.sum, right.steps, &left, low);
         middle = left;
         left = right;
     }
-    if (f->width_px < 2 * half) {
-        set_pixel(magnitude, half, f->width_px, 0);
-    }
-    set_seams(magnitude, half, 0, 0);
+    set_borders(f, magnitude, 0, 0);
     f->slope_count[y & 1] = (uint32_t)(next - first);
 }
 
 /* A lane of a word; 'lane' is 0 or 16. */
 static inline int32_t lane_of(uint32_t word, uint32_t lane) { return (int32_t)((word >> lane) & 0xFFFFu); }
 
-/* The magnitudes of a row and those about it. */
+/* The magnitudes of a row and those about it; 0 above the first row and below the last. */
 typedef struct magnitudes {
     const uint32_t *row;
     ptrdiff_t above; /* from a word to the one above it */
     ptrdiff_t below;
+    int32_t low;   /* threshold */
+    int32_t first; /* column 0 is in the lower lane of this word */
+    int32_t last;  /* and this column in the upper one of word 0 */
 } magnitudes;
 
-/* Neighbours of a pixel across the edge, 'at' its word. */
-static inline void neighbours_of(int32_t *before, int32_t *after, const magnitudes *m, const uint32_t *at,
-                                 drogue_sector sector, uint32_t lane)
+static magnitudes magnitudes_about(const drogue_frontend *f, int32_t y)
 {
-    const uint32_t *a = at + m->above;
-    const uint32_t *b = at + m->below;
-    if (sector == DROGUE_SECTOR_HORIZONTAL) {
-        a = at - 1;
-        b = at + 1;
-    } else if (sector == DROGUE_SECTOR_DIAGONAL) {
-        a--;
-        b++;
-    } else if (sector == DROGUE_SECTOR_ANTIDIAGONAL) {
-        a++;
-        b--;
-    }
-    *before = lane_of(*a, lane);
-    *after = lane_of(*b, lane);
+    const int32_t words = drogue_row_half(f) + 2;
+    const int32_t row = (int32_t)((uint32_t)y % 3u);
+    const int32_t above = y > 0 ? (row > 0 ? row - 1 : 2) : 3;
+    const int32_t below = y + 1 < f->height_px ? (row < 2 ? row + 1 : 0) : 3;
+    magnitudes m;
+    m.row = magnitude_row(f, y);
+    m.above = (above - row) * words;
+    m.below = (below - row) * words;
+    m.low = f->config.canny_low;
+    m.first = drogue_row_left(f);
+    m.last = 2 * drogue_row_half(f) - 1 - m.first;
+    return m;
 }
 
-/* List the maxima in a lane, with their sector for an offset; 'begin' is the lane's first column. Returns the end. */
-static inline drogue_slope *maxima_of(drogue_slope *next, const lanes_record *r, const lanes_record *end,
-                                      const magnitudes *rows, int32_t low, uint32_t begin, uint32_t lane)
+/* Put down what a record has in a lane, if that is a maximum that exceeds the threshold. Returns where the next one goes. */
+static inline drogue_slope *take_maximum(drogue_slope *next, uint8_t *code, const drogue_frontend *f,
+                                         const magnitudes *rows, const lanes_record *record, uint32_t lane)
 {
-    const uint32_t place = place_of(rows->row);
-    for (; r < end; r++) {
-        const uint32_t bytes = r->place - place;
-        const uint32_t *at = rows->row + bytes / 4;
-        const int32_t m = lane_of(*at, lane);
-        drogue_sector sector;
-        int32_t before;
-        int32_t after;
-        if (m <= low) {
-            continue;
-        }
-        next->gx = signed_lane(r->dx, lane);
-        next->gy = signed_lane(r->dy, lane);
-        sector = drogue_canny_sector(next->gx, next->gy);
-        neighbours_of(&before, &after, rows, at, sector, lane);
-        if (drogue_canny_is_maximum(sector, before, m, after)) {
-            next->x = (uint16_t)(begin + bytes / 4);
-            next->dx_q5 = (int8_t)sector;
-            next++;
-        }
+    const ptrdiff_t right = lane == 0 ? 1 : -1;
+    const int32_t word = record->word;
+    const uint32_t *at = rows->row + word;
+    const int32_t m = lane_of(*at, lane);
+    const int32_t gx = lane == 0 ? signed_lane(record->dx, lane) : -signed_lane(record->dx, lane);
+    const int32_t gy = signed_lane(record->dy, lane);
+    const uint32_t ax = (uint32_t)(gx < 0 ? -gx : gx);
+    const uint32_t *a = at + rows->above;
+    const uint32_t *b = at + rows->below;
+    drogue_sector sector;
+    int32_t before;
+    int32_t after;
+    if (m <= rows->low) {
+        return next;
+    }
+    sector = drogue_canny_sector_of(ax, (uint32_t)m - ax, ax * (uint32_t)DROGUE_CANNY_TG22); /* |gx| + |gy| = m */
+    if (sector == DROGUE_SECTOR_HORIZONTAL) {
+        a = at - right;
+        b = at + right;
+    } else if (sector == DROGUE_SECTOR_DIAGONAL) {
+        const ptrdiff_t aside = (gx ^ gy) < 0 ? right : -right;
+        sector = (gx ^ gy) < 0 ? DROGUE_SECTOR_ANTIDIAGONAL : DROGUE_SECTOR_DIAGONAL;
+        a += aside;
+        b -= aside;
+    }
+    before = lane_of(*a, lane);
+    after = lane_of(*b, lane);
+    if (drogue_canny_is_maximum(sector, before, m, after)) {
+        next->x = (uint16_t)(lane == 0 ? word - rows->first : rows->last - word);
+        next->gx = (int16_t)gx;
+        next->gy = (int16_t)gy;
+        code[next->x] = drogue_rows_place(next, f, sector, before, m, after);
+        next++;
     }
     return next;
 }
 
 uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part)
 {
-    const drogue_ring_row ring = drogue_mask_ring_row(&f->config.ring, y);
-    const uint32_t half = (uint32_t)drogue_row_half(f);
-    const uint32_t begin = part != 0 ? half : 0;
-    const uint32_t lane = part != 0 ? 16 : 0;
-    const int32_t low = f->config.canny_low;
-    const lanes_record *first = record_row(f, y);
-    const lanes_record *end = first + f->slope_count[y & 1];
-    drogue_slope *points = drogue_rows_points(f);
-    drogue_slope *last;
-    drogue_slope *p;
+    const drogue_columns *columns = &f->columns[y & 7];
+    const int32_t left = drogue_row_left(f);
+    const int32_t half = drogue_row_half(f);
+    const lanes_record *const first = record_row(f, y);
+    const lanes_record *const end = first + f->slope_count[y & 1];
+    drogue_slope *const points = drogue_rows_points(f);
+    drogue_slope *next = points;
     uint8_t *code = drogue_code_row(f, y);
-    magnitudes rows;
-    rows.row = magnitude_row(f, y);
-    rows.above = magnitude_row(f, y - 1) - rows.row;
-    rows.below = magnitude_row(f, y + 1) - rows.row;
+    const magnitudes rows = magnitudes_about(f, y);
+    int32_t k;
     if (part == 0) {
         memset(code, 0, (size_t)f->width_px);
-        last = maxima_of(points, first, end, &rows, low, 0, 0);
-    } else {
-        last = maxima_of(points, first, end, &rows, low, half, 16);
     }
-    while (last > points && last[-1].x >= f->width_px) { /* beyond the last column */
-        last--;
-    }
-    for (p = points; p < last; p++) {
-        const uint32_t *at = rows.row + p->x - begin;
-        const drogue_sector sector = (drogue_sector)p->dx_q5;
-        const int32_t m = lane_of(*at, lane);
-        uint32_t c = drogue_rows_code(f, m);
-        if (drogue_rows_in_ring(f, &ring, p->x)) {
-            int32_t before;
-            int32_t after;
-            neighbours_of(&before, &after, &rows, at, sector, lane);
-            c |= drogue_rows_place(p, sector, before, m, after);
+    for (k = 0; k < 2; k++) {
+        /* The columns' words in this lane, and their records, which ascend. */
+        const int32_t from = part == 0 ? left + columns->begin[k] : 2 * half - left - columns->end[k];
+        const int32_t to = part == 0 ? left + columns->end[k] : 2 * half - left - columns->begin[k];
+        const lanes_record *r = first;
+        const lanes_record *last = end;
+        if (from >= to || from >= half) {
+            continue;
         }
-        code[p->x] = (uint8_t)c;
+        while (r < last && r->word < from) {
+            r++;
+        }
+        while (r < last && last[-1].word >= to) {
+            last--;
+        }
+        if (part == 0) {
+            for (; r < last; r++) {
+                next = take_maximum(next, code, f, &rows, r, 0);
+            }
+        } else {
+            while (r < last) { /* the columns of the upper lane descend */
+                last--;
+                next = take_maximum(next, code, f, &rows, last, 16);
+            }
+        }
     }
-    return (uint32_t)(last - points);
+    return (uint32_t)(next - points);
 }
 
 #endif

@@ -9,6 +9,22 @@
 
 static int32_t padded(const drogue_frontend *f) { return 2 * drogue_row_half(f); }
 
+drogue_stretch drogue_rows_stretch(const drogue_frontend *f, const drogue_columns *columns)
+{
+    drogue_stretch s;
+    (void)f;
+    s.begin = columns->begin[0] < columns->end[0] ? columns->begin[0] : columns->begin[1];
+    s.end = columns->begin[1] < columns->end[1] ? columns->end[1] : columns->end[0];
+    if (s.begin >= s.end) {
+        s.begin = UINT16_MAX;
+        s.end = 0;
+    }
+    return s;
+}
+
+static int32_t eights_down(int32_t x) { return x / 8 * 8; }
+static int32_t eights_up(int32_t x) { return (x + 7) / 8 * 8; }
+
 static uint8_t *smooth_row(const drogue_frontend *f, int32_t y)
 {
     return f->workspace->smooth_rows + (y % 3) * (padded(f) + 8) + 4;
@@ -33,7 +49,7 @@ void drogue_rows_begin(const drogue_frontend *f)
     const size_t width = (size_t)padded(f);
     memset(f->workspace->raw_rows, 0, 5 * (width + 4));
     memset(f->workspace->smooth_rows, 0, 3 * (width + 8));
-    memset(magnitude_row(f, -1) - 2, 0, (width + 4) * sizeof(uint16_t));
+    memset(f->workspace->magnitude_rows, 0, 4 * (width + 4) * sizeof(uint16_t));
 }
 
 static void replicate(uint8_t *row, int32_t width_px)
@@ -67,17 +83,19 @@ static void sum_rows(uint8_t *restrict out, const uint16_t *restrict c, int32_t 
     }
 }
 
-void drogue_rows_smooth(const drogue_frontend *f, int32_t y)
+void drogue_rows_smooth(const drogue_frontend *f, int32_t y, drogue_stretch stretch)
 {
     uint16_t *column = (uint16_t *)(void *)drogue_rows_points(f); /* the list is free until the next maxima */
     uint8_t *out = smooth_row(f, y);
+    const int32_t begin = eights_down(stretch.begin);
+    const int32_t count = eights_up(stretch.end) - begin;
     const uint8_t *rows[5];
     int32_t k;
     for (k = 0; k < 5; k++) {
-        rows[k] = drogue_raw_row(f, drogue_reflect_101(y + k - 2, f->height_px)) - 2;
+        rows[k] = drogue_raw_row(f, drogue_reflect_101(y + k - 2, f->height_px)) + begin;
     }
-    sum_columns(column, rows[0], rows[1], rows[2], rows[3], rows[4], padded(f) + 4);
-    sum_rows(out, column, padded(f));
+    sum_columns(column, rows[0], rows[1], rows[2], rows[3], rows[4], count + 4);
+    sum_rows(out + begin, column, count);
     replicate(out, f->width_px);
 }
 
@@ -107,17 +125,19 @@ static void sobel_rows(int16_t *restrict gx, int16_t *restrict gy, uint16_t *res
     }
 }
 
-void drogue_rows_gradient(drogue_frontend *f, int32_t y)
+void drogue_rows_gradient(drogue_frontend *f, int32_t y, drogue_stretch stretch)
 {
     const int32_t width = padded(f);
     const int32_t below = y + 1 < f->height_px ? y + 1 : y;
+    const int32_t begin = eights_down(stretch.begin);
+    const int32_t count = eights_up(stretch.end) - begin;
     int16_t *sum = (int16_t *)(void *)drogue_rows_points(f);
     int16_t *step = sum + width + 2;
     int16_t *gx = derivative_row(f, y);
     uint16_t *magnitude = magnitude_row(f, y);
-    sobel_columns(sum, step, smooth_row(f, y > 0 ? y - 1 : 0) - 1, smooth_row(f, y) - 1, smooth_row(f, below) - 1,
-                  width + 2);
-    sobel_rows(gx, gx + width, magnitude, sum, step, width);
+    sobel_columns(sum, step, smooth_row(f, y > 0 ? y - 1 : 0) + begin - 1, smooth_row(f, y) + begin - 1,
+                  smooth_row(f, below) + begin - 1, count + 2);
+    sobel_rows(gx + begin, gx + width + begin, magnitude + begin, sum, step, count);
     magnitude[-1] = 0;
     magnitude[f->width_px] = 0;
 }
@@ -168,15 +188,15 @@ static int any_exceeds(const int16_t *magnitude, int16_t low, int32_t count)
 
 /* The same for a row, piece by piece: most pieces of most images hold nothing. */
 static void mark_row(uint8_t *mark, const int16_t *gx, const int16_t *gy, const uint16_t *const magnitude[3],
-                     int16_t low, int32_t count)
+                     int16_t low, int32_t begin, int32_t end)
 {
     enum { PIECE = 32 };
     const int16_t *above = (const int16_t *)magnitude[0];
     const int16_t *middle = (const int16_t *)magnitude[1];
     const int16_t *below = (const int16_t *)magnitude[2];
     int32_t x;
-    for (x = 0; x < count; x += PIECE) {
-        const int32_t length = count - x < PIECE ? count - x : PIECE;
+    for (x = begin; x < end; x += PIECE) {
+        const int32_t length = end - x < PIECE ? end - x : PIECE;
         if (any_exceeds(middle + x, low, length)) {
             mark_maxima(mark + x, gx + x, gy + x, above + x, middle + x, below + x, low, length);
         } else {
@@ -208,7 +228,7 @@ static uint32_t list_marked(drogue_slope *points, const uint8_t *mark, int32_t c
 
 uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part)
 {
-    const drogue_ring_row ring = drogue_mask_ring_row(&f->config.ring, y);
+    const drogue_columns *columns = &f->columns[y & 7];
     const int16_t *gx = derivative_row(f, y);
     const int16_t *gy = gx + padded(f);
     const int32_t low = f->config.canny_low < 2040 ? f->config.canny_low : 2040;
@@ -222,23 +242,24 @@ uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part)
     for (k = 0; k < 3; k++) {
         magnitude[k] = magnitude_row(f, y + k - 1);
     }
-    mark_row(code, gx, gy, magnitude, (int16_t)low, padded(f));
-    memset(code + f->width_px, 0, (size_t)(padded(f) - f->width_px));
+    for (k = 0; k < 2; k++) {
+        if (columns->begin[k] < columns->end[k]) {
+            mark_row(code, gx, gy, magnitude, (int16_t)low, eights_down(columns->begin[k]), eights_up(columns->end[k]));
+        }
+    }
+    memset(code, 0, columns->begin[0]);
+    memset(code + columns->end[0], 0, (size_t)(columns->begin[1] - columns->end[0]));
+    memset(code + columns->end[1], 0, (size_t)(padded(f) - columns->end[1]));
     count = list_marked(points, code, padded(f));
     for (i = 0; i < count; i++) {
         drogue_slope *p = &points[i];
         const drogue_sector sector = (drogue_sector)(code[p->x] >> 1);
-        const int32_t m = magnitude[1][p->x];
-        uint32_t c = drogue_rows_code(f, m);
+        int32_t before;
+        int32_t after;
         p->gx = gx[p->x];
         p->gy = gy[p->x];
-        if (drogue_rows_in_ring(f, &ring, p->x)) {
-            int32_t before;
-            int32_t after;
-            drogue_canny_padded_neighbours(&before, &after, sector, magnitude, p->x);
-            c |= drogue_rows_place(p, sector, before, m, after);
-        }
-        code[p->x] = (uint8_t)c;
+        drogue_canny_padded_neighbours(&before, &after, sector, magnitude, p->x);
+        code[p->x] = drogue_rows_place(p, f, sector, before, magnitude[1][p->x], after);
     }
     return count;
 }

@@ -7,6 +7,7 @@
 #include "shade.h"
 
 #define APART DROGUE_Q16(3, 4)     /* px */
+#define SMALL DROGUE_Q16(20, 1)    /* px: every second ray will do to find a disc of less */
 #define INWARD DROGUE_Q16(45, 100) /* px: a quarter of a blurred step is this far within its middle */
 
 /* Squared residuals of the bins over their weights; the number of bins that hold rays. */
@@ -38,12 +39,19 @@ static int settle(drogue_ray_sums *s, drogue_q16 v_px_q16[3], const drogue_ray r
     drogue_q16 within = gate_px_q16;
     int round;
     for (round = 0; round < 10; round++) {
+        const drogue_q16 x = v_px_q16[0];
+        const drogue_q16 y = v_px_q16[1];
+        const drogue_q16 grown = v_px_q16[2];
+        const drogue_q16 before = within;
         memset(s, 0, sizeof *s);
         drogue_ray_sums_add_edges(s, NULL, rays, v_px_q16, within);
         if (!drogue_ray_sums_solve(v_px_q16, normal, s, size && round > 1)) {
             return 0;
         }
         within = larger(within / 4 * 3, last_px_q16);
+        if (round > 1 && within == before && v_px_q16[0] == x && v_px_q16[1] == y && v_px_q16[2] == grown) {
+            break; /* and so it stays */
+        }
     }
     return 1;
 }
@@ -88,8 +96,8 @@ static void keep_beyond(drogue_ray rays[RAYS], const drogue_q16 first_px_q16[3])
 }
 
 /* Where the steepest edge is of another size than expected, as a collar's about the disc, one of the size that lies
- * beyond it takes its place: a quarter of the rays see it apart, elsewhere both may be one. */
-static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS])
+ * beyond it takes its place: so many rays see it apart, elsewhere both may be one. */
+static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], uint32_t least)
 {
     drogue_q16 v[3];
     drogue_ray_sums s;
@@ -97,7 +105,7 @@ static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS])
     v[1] = v_px_q16[1];
     v[2] = 0;
     keep_beyond(rays, v_px_q16);
-    if (settle(&s, v, rays, drogue_q16_add(magnitude(v_px_q16[2]), DROGUE_Q16(1, 1)), APART, 0) && s.rays >= RAYS / 4) {
+    if (settle(&s, v, rays, drogue_q16_add(magnitude(v_px_q16[2]), DROGUE_Q16(1, 1)), APART, 0) && s.rays >= least) {
         memcpy(v_px_q16, v, sizeof v);
     }
 }
@@ -121,7 +129,7 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     int32_t filled;
     int32_t k;
     phases = drogue_clamp_s32(phases, 1, 8);
-    drogue_rays_cast(rays, image, e, 0, 4, least);
+    drogue_rays_cast(rays, image, e, 0, 4, 1, least);
     if (!narrow(&s, v, &within, rays) || !drogue_inner_shade_find(&grey, rays, image, v, within)) {
         return DROGUE_E_NO_INNER_PART;
     }
@@ -138,8 +146,10 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     memset(&bins, 0, sizeof bins);
     for (k = 0; k < phases; k++) {
         const drogue_q16 about[3] = {v[0], v[1], size};
-        drogue_rays_aim(rays, e, (8 * k + 4) / phases % 8);
-        drogue_inner_shade_cross(rays, image, &grey, about);
+        if (phases > 1) { /* or they have been cast */
+            drogue_rays_aim(rays, e, (8 * k + 4) / phases % 8);
+            drogue_inner_shade_cross(rays, image, &grey, about);
+        }
         drogue_ray_sums_add_edges(&s, &bins, rays, v, within);
     }
     filled = scatter_of(&scatter, &bins);
@@ -186,7 +196,7 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
     const drogue_q16 gate_px_q16 =
         drogue_q16_add(config->inner_gate_px_q16, drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16));
     drogue_q16 best[3] = {0, 0, 0};
-    int64_t steepest = 0;
+    int32_t steepest = 0;
     uint32_t which = 0;
     uint32_t i;
     drogue_ellipse at;
@@ -195,18 +205,23 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
     for (i = 0; i < expected->count; i++) { /* bound: 2 */
         const drogue_ellipse *e = &expected->disc[i];
         const drogue_q16 reach = drogue_q16_add(gate_px_q16, drogue_q16_add(e->a_px_q16 / 16, DROGUE_Q16(2, 1)));
+        const int32_t every = e->a_px_q16 < SMALL ? 2 : 1;
         drogue_q16 v[3] = {0, 0, 0};
         drogue_ray_sums s;
-        drogue_rays_cast(rays, image, e, reach, 4, config->min_inner_contrast);
+        drogue_rays_cast(rays, image, e, reach, 4, every, config->min_inner_contrast);
         if (settle(&s, v, rays, drogue_q16_add(gate_px_q16, DROGUE_Q16(1, 1)), larger(DROGUE_Q16(3, 2), reach / 16),
                    1) &&
             s.slopes_q8 > steepest) {
             steepest = s.slopes_q8;
             if (magnitude(v[2]) > drogue_q16_add(e->a_px_q16 / 64, DROGUE_Q16(1, 2))) {
-                prefer_size(v, rays);
+                prefer_size(v, rays, RAYS / 4 / (uint32_t)every);
             }
             memcpy(best, v, sizeof best);
             which = i;
+            if (every == 1 && 4 * s.rays >= 3 * RAYS &&
+                drogue_square_sum(v[0], v[1]) <= drogue_square_sum(gate_px_q16, 0)) {
+                break; /* seen in its place: the other pose's need not be sought */
+            }
         }
     }
     if (steepest == 0) {

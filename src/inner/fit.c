@@ -4,8 +4,8 @@
 
 drogue_q16 drogue_ray_along(const drogue_ray *r, const drogue_q16 v_px_q16[3])
 {
-    const int64_t shift = (int64_t)r->nx_q14 * v_px_q16[0] + (int64_t)r->ny_q14 * v_px_q16[1];
-    return drogue_q16_add(v_px_q16[2], drogue_sat_s32(drogue_shr_round_s64(shift, 14)));
+    const int64_t shift = drogue_product(r->nx_q14, v_px_q16[0]) + drogue_product(r->ny_q14, v_px_q16[1]);
+    return drogue_clamp_s64(v_px_q16[2] + drogue_shr_round_s64(shift, 14));
 }
 
 int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogue_q16 within_px_q16)
@@ -13,10 +13,10 @@ int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogu
     int32_t best = -1;
     int64_t most = 0;
     uint32_t i;
-    for (i = 0; i < r->count; i++) {
-        const int64_t off = (int64_t)r->edges[i].at_px_q16 - expected_px_q16;
-        const int64_t room = within_px_q16 - (off < 0 ? -off : off);
-        const int64_t merit = room > 0 ? (int64_t)(int32_t)room * r->edges[i].slope_q8 : 0;
+    for (i = 0; i < r->count; i++) {                                 /* bound: DROGUE_RAY_EDGES */
+        const int32_t off = r->edges[i].at_px_q16 - expected_px_q16; /* < 2^26 + 2^30 */
+        const int32_t room = within_px_q16 - (off < 0 ? -off : off);
+        const int64_t merit = room > 0 ? drogue_product(room, r->edges[i].slope_q8) : 0;
         if (merit > most) {
             most = merit;
             best = (int32_t)i;
@@ -25,41 +25,57 @@ int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogu
     return best;
 }
 
-void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int32_t weight, int64_t off_q16)
+void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, const int32_t weight[2], const int32_t off_q16[2])
 {
-    const int32_t row[3] = {r->nx_q14, r->ny_q14, 1 << 14};
-    int i;
-    int j;
-    for (i = 0; i < 3; i++) {
-        const int32_t weighted = row[i] * weight; /* < 2^30 + 2^16 */
-        s->right[i] += weighted * off_q16;
-        for (j = 0; j <= i; j++) {
-            s->normal[DROGUE_PACKED(i, j)] += (int64_t)weighted * row[j];
-        }
-    }
-    s->squares_q16 += drogue_shr_round_s64(off_q16 * off_q16, 16);
-    s->rays++;
+    const int32_t both = weight[0] + weight[1];
+    const int32_t apart = weight[0] - weight[1];
+    const int64_t one = drogue_product(weight[0], off_q16[0]);
+    const int64_t other = drogue_product(weight[1], off_q16[1]);
+    const int32_t x = r->nx_q14 * both; /* < 2^31 */
+    const int32_t y = r->ny_q14 * both;
+    s->normal[0] += drogue_product(x, r->nx_q14);
+    s->normal[1] += drogue_product(y, r->nx_q14);
+    s->normal[2] += drogue_product(y, r->ny_q14);
+    s->normal[3] += r->nx_q14 * apart;
+    s->normal[4] += r->ny_q14 * apart;
+    s->normal[5] += both;
+    s->right[0] += r->nx_q14 * (one - other);
+    s->right[1] += r->ny_q14 * (one - other);
+    s->right[2] += one + other;
+    s->squares_q16 += drogue_shr_round_s64(drogue_product(off_q16[0], off_q16[0]), 16) +
+                      drogue_shr_round_s64(drogue_product(off_q16[1], off_q16[1]), 16);
+    s->rays += (uint32_t)(weight[0] > 0) + (uint32_t)(weight[1] > 0);
 }
 
 void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const drogue_ray rays[RAYS],
                                const drogue_q16 v_px_q16[3], drogue_q16 within_px_q16)
 {
     int32_t k;
-    for (k = 0; k < RAYS; k++) {
-        const drogue_q16 expected = drogue_ray_along(&rays[k], v_px_q16);
-        const int32_t which = drogue_ray_chosen(&rays[k], expected, within_px_q16);
-        if (which >= 0) {
-            const drogue_ray_edge *e = &rays[k].edges[which];
-            const int64_t off = (int64_t)e->at_px_q16 - expected;
-            const int32_t grey = drogue_clamp_s32(e->slope_q8 / (DROGUE_RAY_WEIGHT * 256), 0, 254) + 1;
-            const int32_t weight = bins != NULL ? grey * grey : 1;
-            drogue_ray_sums_add(s, &rays[k], weight, off);
-            s->slopes_q8 += e->slope_q8;
-            s->levels_q8 += e->level_q8;
-            if (bins != NULL) {
-                bins->off_q16[k / 4] += weight * off;
-                bins->weight[k / 4] += weight;
+    for (k = 0; k < RAYS / 2; k++) {
+        int32_t weight[2] = {0, 0};
+        int32_t off_q16[2] = {0, 0};
+        int32_t side;
+        for (side = 0; side < 2; side++) {
+            const drogue_ray *r = &rays[k + side * (RAYS / 2)];
+            const drogue_q16 expected = r->count > 0 ? drogue_ray_along(r, v_px_q16) : 0;
+            const int32_t which = drogue_ray_chosen(r, expected, within_px_q16);
+            if (which >= 0) {
+                const drogue_ray_edge *e = &r->edges[which];
+                weight[side] = 1;
+                off_q16[side] = e->at_px_q16 - expected;
+                s->slopes_q8 += e->slope_q8;
+                s->levels_q8 += e->level_q8;
+                if (bins != NULL) {
+                    const int32_t bin = (k + side * (RAYS / 2)) / (RAYS / BINS);
+                    const int32_t grey = drogue_clamp_s32(e->slope_q8 / (DROGUE_RAY_WEIGHT * 256), 0, 254) + 1;
+                    weight[side] = grey * grey;
+                    bins->off_q16[bin] += drogue_product(weight[side], off_q16[side]);
+                    bins->weight[bin] += weight[side];
+                }
             }
+        }
+        if (weight[0] + weight[1] > 0) {
+            drogue_ray_sums_add(s, &rays[k], weight, off_q16);
         }
     }
 }
@@ -72,10 +88,10 @@ int drogue_ray_sums_solve(drogue_q16 v_px_q16[3], drogue_real normal[6], const d
         return 0;
     }
     for (i = 0; i < 6; i++) {
-        drogue_real_set(&normal[i], s->normal[i], -28);
+        drogue_real_set(&normal[i], s->normal[i], i < 3 ? -28 : i < 5 ? -14 : 0);
     }
     for (i = 0; i < 3; i++) {
-        drogue_real_set(&down[i], s->right[i], -30);
+        drogue_real_set(&down[i], s->right[i], i < 2 ? -30 : -16);
     }
     if (drogue_cholesky_factor(normal, size ? 3 : 2) != DROGUE_OK) {
         return 0;

@@ -12,11 +12,11 @@
 
 /* Sums of least squares over rays, each weighted by its squared slope, as noise asks for. */
 typedef struct drogue_ray_sums {
-    int64_t normal[6];   /* Q28 */
-    int64_t right[3];    /* Q30 */
+    int64_t normal[6];   /* of the normals' components Q28, of one and 1 Q14, of 1 and 1 whole */
+    int64_t right[3];    /* Q30, Q30, Q16 */
     int64_t squares_q16; /* of the residuals, not weighted */
-    int64_t slopes_q8;
-    int64_t levels_q8;
+    int32_t slopes_q8;   /* of 512 rays, each below 2^20 */
+    int32_t levels_q8;
     uint32_t rays;
 } drogue_ray_sums;
 
@@ -26,15 +26,16 @@ typedef struct drogue_ray_bins {
     int64_t weight[BINS];
 } drogue_ray_bins;
 
-/* Where an offset puts the edge on a ray. */
+/* Where an offset puts the edge on a ray, within 2^14 px. */
 drogue_q16 drogue_ray_along(const drogue_ray *r, const drogue_q16 v_px_q16[3]);
 
 /* Index of the edge that an offset is about: the steeper and the nearer the better; -1 when none is within the
  * tolerance. */
 int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogue_q16 within_px_q16);
 
-/* Add what a ray says, 'off' from what is known; its weight is at most 255^2. */
-void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int32_t weight, int64_t off_q16);
+/* Add what a ray and the one across, whose normal is the opposite, say: 'off' from what is known. Weights are at most
+ * 255^2; one that says nothing has a weight and an offset of 0. */
+void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, const int32_t weight[2], const int32_t off_q16[2]);
 
 /* Add the edges that agree with an offset: weighted by their slopes, and to bins, where there are bins; all alike where
  * 'bins' is NULL. */

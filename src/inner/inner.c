@@ -141,6 +141,14 @@ static void describe(drogue_inner_part *part, const drogue_inner_edge *edge, con
     part->contrast = edge->contrast;
 }
 
+/* By which share the disc is not of its size, beyond what blur and what touches it move its edge by. */
+static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *expected)
+{
+    const drogue_q16 off_px_q16 = edge->grown_px_q16 < 0 ? -edge->grown_px_q16 : edge->grown_px_q16;
+    const drogue_q16 beyond = drogue_q16_sub(off_px_q16, DROGUE_INNER_SEEN_TO_PX_Q16);
+    return beyond > 0 ? drogue_q16_div(beyond, expected->a_px_q16) : 0;
+}
+
 void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge *edge, const drogue_region *region,
                         const drogue_inner_expected *expected, const drogue_ellipse *outline,
                         const drogue_pose poses[2], const drogue_setup *setup)
@@ -162,6 +170,7 @@ void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge
         evidence->too_large = 0; /* too small, beyond the lens model, or behind the camera for one of the poses */
         choice.index = 0;
     }
+    evidence->doubt_q16 = doubt_of(edge, disc);
     evidence->nearer = choice.index;
     evidence->ambiguity_q16 = weighed->std_px_q16 > 0 ? choice.ambiguity_q16 : DROGUE_Q16_ONE;
     if (weighed->std_px_q16 == 0) { /* what is dark orders the poses, but is not to be believed */

@@ -229,6 +229,16 @@ static void keep_longest(leaders *l, uint32_t arc, uint32_t points, int64_t dist
     }
 }
 
+/* Is an arc no longer than those that all quadrants have? */
+static int too_short(const leaders lead[4], uint32_t points)
+{
+    int k = 0;
+    while (k < 4 && points <= lead[k].points[LONGEST - 1]) {
+        k++;
+    }
+    return k == 4;
+}
+
 /* The farthest of those with at least half the longest's points, then the longest of the others. */
 static void choose_arcs(uint32_t chosen[DROGUE_ARC_CHOICES], const leaders *l)
 {
@@ -260,6 +270,9 @@ drogue_status drogue_select_arcs(drogue_arc_choices *out, drogue_point *hull, co
     }
     for (i = 0; i < arc_count; i++) {
         drogue_arc_verdict v;
+        if (too_short(lead, arcs[i].count)) {
+            continue;
+        }
         drogue_judge_arc(&v, hull, edges, &arcs[i], mask, min_short_px_q16);
         if (v.quadrant >= 0 && (polarity == DROGUE_POLARITY_BOTH || v.polarity == polarity)) {
             keep_longest(&lead[v.quadrant], i, arcs[i].count, v.distance2_q32);

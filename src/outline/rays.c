@@ -4,18 +4,11 @@
 
 #include "drogue/fixed.h"
 
-#define REACH 4    /* samples on either side that a slope is made of */
+#define REACH 4    /* samples on either side that a slope is made of, and between the sums */
 #define SAMPLES 65 /* most slopes along a ray */
 #define HALF DROGUE_Q16(1, 2)
 #define NEAREST DROGUE_Q16(2, 1) /* px: reach */
 #define FARTHEST DROGUE_Q16(512, 1)
-
-/* A place as far out as 2^14 px, where every image has ended. */
-static int32_t placed(int64_t v_px_q16)
-{
-    const int64_t most = 1 << 30;
-    return (int32_t)(v_px_q16 > most ? most : v_px_q16 < -most ? -most : v_px_q16);
-}
 
 /* Grey between a pixel, the one to the right and those below, Q8. */
 static inline int32_t between_q8(const uint8_t *at, int32_t right, int32_t stride, int32_t x_px_q16, int32_t y_px_q16)
@@ -23,9 +16,9 @@ static inline int32_t between_q8(const uint8_t *at, int32_t right, int32_t strid
     const int32_t fx = (x_px_q16 >> 8) & 255;
     const int32_t fy = (y_px_q16 >> 8) & 255;
     const uint8_t *below = at + stride;
-    const int32_t upper = at[0] * 256 + (at[right] - at[0]) * fx;
-    const int32_t lower = below[0] * 256 + (below[right] - below[0]) * fx;
-    return (upper * 256 + (lower - upper) * fy + 128) >> 8;
+    const int32_t upper = at[0] * (256 - fx) + at[right] * fx;
+    const int32_t lower = below[0] * (256 - fx) + below[right] * fx;
+    return upper + (((lower - upper) * fy + 128) >> 8);
 }
 
 static inline const uint8_t *pixel(const drogue_image *image, int32_t x_px_q16, int32_t y_px_q16)
@@ -69,16 +62,20 @@ static int within(const drogue_image *image, int32_t x_px_q16, int32_t y_px_q16)
 void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_image *image, drogue_q16 from_px_q16,
                      int32_t count)
 {
-    const int32_t dx = (int32_t)drogue_shr_round_s64((int64_t)r->nx_q14 * r->step_px_q16, 14);
-    const int32_t dy = (int32_t)drogue_shr_round_s64((int64_t)r->ny_q14 * r->step_px_q16, 14);
-    int32_t x = r->x_px_q16 + (int32_t)drogue_shr_round_s64((int64_t)r->nx_q14 * from_px_q16, 14);
-    int32_t y = r->y_px_q16 + (int32_t)drogue_shr_round_s64((int64_t)r->ny_q14 * from_px_q16, 14);
-    const int inner = within(image, x, y) && within(image, x + (count - 1) * dx, y + (count - 1) * dy);
-    int32_t i;
-    for (i = 0; i < count; i++) {
-        grey_q8_out[i] = inner ? between_q8(pixel(image, x, y), 1, image->stride, x, y) : grey_q8(image, x, y);
-        x += dx;
-        y += dy;
+    const int32_t dx = (int32_t)drogue_shr_round_s64(drogue_product(r->nx_q14, r->step_px_q16), 14);
+    const int32_t dy = (int32_t)drogue_shr_round_s64(drogue_product(r->ny_q14, r->step_px_q16), 14);
+    int32_t x = r->x_px_q16 + (int32_t)drogue_shr_round_s64(drogue_product(r->nx_q14, from_px_q16), 14);
+    int32_t y = r->y_px_q16 + (int32_t)drogue_shr_round_s64(drogue_product(r->ny_q14, from_px_q16), 14);
+    const drogue_image own = *image; /* which what is written cannot alias */
+    int32_t *const end = grey_q8_out + count;
+    if (within(&own, x, y) && within(&own, x + (count - 1) * dx, y + (count - 1) * dy)) {
+        for (; grey_q8_out < end; grey_q8_out++, x += dx, y += dy) { /* bound: SAMPLES + 2 REACH, 73 */
+            *grey_q8_out = between_q8(pixel(&own, x, y), 1, own.stride, x, y);
+        }
+    } else {
+        for (; grey_q8_out < end; grey_q8_out++, x += dx, y += dy) { /* bound: the same */
+            *grey_q8_out = grey_q8(&own, x, y);
+        }
     }
 }
 
@@ -89,29 +86,32 @@ int32_t drogue_ray_peak_q16(int32_t before, int32_t at, int32_t after)
 }
 
 /* Slopes along a ray by a derivative of Gaussian of two samples, and their peaks to a share of a sample: 'out' samples to
- * either side. */
+ * either side. Its taps -2, -3, -4, -3, 0, 3, 4, 3, 2 are the difference of two sums of five samples. */
 static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, int32_t least_q8)
 {
-    static const int32_t taps[REACH] = {3, 4, 3, 2};
     int32_t grey[SAMPLES + 2 * REACH];
-    int32_t slope[SAMPLES];
+    int32_t sum[SAMPLES + REACH];
     const int32_t slopes = 2 * out + 1;
+    int32_t before;
+    int32_t at;
+    int32_t after;
     int32_t i;
-    int32_t k;
     drogue_ray_read(grey, r, image, -(out + REACH) * r->step_px_q16, slopes + 2 * REACH);
-    for (i = 0; i < slopes; i++) {
-        slope[i] = 0;
-        for (k = 0; k < REACH; k++) {
-            slope[i] += taps[k] * (grey[i + REACH + 1 + k] - grey[i + REACH - 1 - k]);
-        }
+    for (i = 0; i < slopes + REACH; i++) {
+        sum[i] = 2 * (grey[i] + grey[i + 4]) + 3 * (grey[i + 1] + grey[i + 3]) + 4 * grey[i + 2];
     }
     r->count = 0;
+    at = sum[REACH] - sum[0];
+    after = sum[REACH + 1] - sum[1];
     for (i = 1; i + 1 < slopes; i++) {
-        if (slope[i] >= least_q8 && slope[i] > slope[i - 1] && slope[i] >= slope[i + 1]) {
-            const int64_t part_q16 = drogue_ray_peak_q16(slope[i - 1], slope[i], slope[i + 1]);
+        before = at;
+        at = after;
+        after = sum[i + 1 + REACH] - sum[i + 1];
+        if (at >= least_q8 && at > before && at >= after) {
+            const int64_t part_q16 = drogue_ray_peak_q16(before, at, after);
             drogue_ray_edge e;
             e.at_px_q16 = (i - out) * r->step_px_q16 + (int32_t)drogue_shr_round_s64(part_q16 * r->step_px_q16, 16);
-            e.slope_q8 = slope[i];
+            e.slope_q8 = at;
             e.level_q8 = grey[i + REACH];
             keep(r, &e);
         }
@@ -122,59 +122,74 @@ static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, in
 static void place(drogue_ray *r, const drogue_ellipse *e, int64_t x_px_q16, int64_t y_px_q16, int32_t nx_q14,
                   int32_t ny_q14)
 {
-    r->x_px_q16 = placed(e->xc_px_q16 + x_px_q16);
-    r->y_px_q16 = placed(e->yc_px_q16 + y_px_q16);
+    r->x_px_q16 = drogue_clamp_s64(e->xc_px_q16 + x_px_q16); /* beyond 2^14 px every image has ended */
+    r->y_px_q16 = drogue_clamp_s64(e->yc_px_q16 + y_px_q16);
     r->nx_q14 = nx_q14;
     r->ny_q14 = ny_q14;
     r->step_px_q16 = HALF;
     r->count = 0;
 }
 
-void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase)
+static inline int32_t scaled(drogue_q16 length_px_q16, int32_t by_q30)
+{
+    return (int32_t)drogue_shr_round_s64(drogue_product(length_px_q16, by_q30), 30);
+}
+
+/* Every so many-th ray, with the one across. */
+static void aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase, int32_t every)
 {
     const int64_t turn_q29 = 52707179; /* 2 pi / 64 */
     int32_t sin_q30;
     int32_t cos_q30;
     int32_t k;
     drogue_sincos_q30(&sin_q30, &cos_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
-    for (k = 0; k < DROGUE_RAYS / 2; k++) { /* and the one across */
+    for (k = 0; k < DROGUE_RAYS / 2; k += every) { /* bound: 32 */
         int32_t s_q30;
         int32_t c_q30;
-        int64_t u; /* offset from the centre along the axes, px Q16, then the normal along them */
-        int64_t v;
+        int32_t u; /* offset from the centre along the axes, px Q16, then the normal along them */
+        int32_t v;
         int64_t x;
         int64_t y;
-        int64_t length;
+        uint32_t length;
+        int shift;
+        int32_t inverse;
         int32_t nx_q14;
         int32_t ny_q14;
         drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shr_round_s64((8 * k + phase) * turn_q29, 3));
-        u = drogue_shr_round_s64((int64_t)e->a_px_q16 * c_q30, 30);
-        v = drogue_shr_round_s64((int64_t)e->b_px_q16 * s_q30, 30);
-        x = drogue_shr_round_s64(u * cos_q30 - v * sin_q30, 30);
-        y = drogue_shr_round_s64(u * sin_q30 + v * cos_q30, 30);
-        u = drogue_shr_round_s64((int64_t)e->b_px_q16 * c_q30, 30);
-        v = drogue_shr_round_s64((int64_t)e->a_px_q16 * s_q30, 30);
-        length = (int64_t)drogue_isqrt_u64((uint64_t)(u * u) + (uint64_t)(v * v)) + 1;
-        u = drogue_div_round_s64(u * (1 << 14), length);
-        v = drogue_div_round_s64(v * (1 << 14), length);
-        nx_q14 = (int32_t)drogue_shr_round_s64(u * cos_q30 - v * sin_q30, 30);
-        ny_q14 = (int32_t)drogue_shr_round_s64(u * sin_q30 + v * cos_q30, 30);
+        u = scaled(e->a_px_q16, c_q30);
+        v = scaled(e->b_px_q16, s_q30);
+        x = drogue_shr_round_s64(drogue_product(u, cos_q30) - drogue_product(v, sin_q30), 30);
+        y = drogue_shr_round_s64(drogue_product(u, sin_q30) + drogue_product(v, cos_q30), 30);
+        u = scaled(e->b_px_q16, c_q30);
+        v = scaled(e->a_px_q16, s_q30);
+        length = drogue_isqrt_u64(drogue_square_sum(u, v)) | 1u; /* below 2^31 */
+        shift = drogue_clz_u32(length) - 1;
+        inverse = (int32_t)(drogue_reciprocal_u32(length << shift) >> 1); /* 2^61 over it */
+        u = (int32_t)drogue_shr_round_s64(drogue_product(u, inverse), 47 - shift);
+        v = (int32_t)drogue_shr_round_s64(drogue_product(v, inverse), 47 - shift);
+        nx_q14 = (int32_t)drogue_shr_round_s64(drogue_product(u, cos_q30) - drogue_product(v, sin_q30), 30);
+        ny_q14 = (int32_t)drogue_shr_round_s64(drogue_product(u, sin_q30) + drogue_product(v, cos_q30), 30);
         place(&rays[k], e, x, y, nx_q14, ny_q14);
         place(&rays[k + DROGUE_RAYS / 2], e, -x, -y, -nx_q14, -ny_q14);
     }
 }
 
+void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase) { aim(rays, e, phase, 1); }
+
 void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *e,
-                      drogue_q16 reach_px_q16, int32_t phase, int32_t least)
+                      drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least)
 {
     const drogue_q16 reach = drogue_clamp_s32(reach_px_q16, NEAREST, FARTHEST);
     const drogue_q16 least_step = reach / (SAMPLES / 2);
     const drogue_q16 step = HALF < least_step ? least_step : HALF;
     const int32_t out = drogue_clamp_s32(reach / step + 1, 1, SAMPLES / 2);
     int32_t k;
-    drogue_rays_aim(rays, e, phase);
+    aim(rays, e, phase, every);
     for (k = 0; k < DROGUE_RAYS; k++) {
-        rays[k].step_px_q16 = step;
-        find_edges(&rays[k], image, out, least * DROGUE_RAY_WEIGHT * 128); /* blur may halve a slope */
+        rays[k].count = 0;
+        if (k % every == 0) {
+            rays[k].step_px_q16 = step;
+            find_edges(&rays[k], image, out, least * DROGUE_RAY_WEIGHT * 128); /* blur may halve a slope */
+        }
     }
 }

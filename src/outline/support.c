@@ -121,6 +121,9 @@ void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16)
     int64_t s2_q30;
     int64_t c2_q30;
     int64_t turned[2];
+    if (wave[0] == 0 && wave[1] == 0) {
+        return; /* as the smear of most frames */
+    }
     drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(by_rad_q16, 13));
     c2_q30 = drogue_shr_round_s64((int64_t)c_q30 * c_q30 - (int64_t)s_q30 * s_q30, 30);
     s2_q30 = drogue_shr_round_s64((int64_t)s_q30 * c_q30, 29);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Choice between the two poses by outline and inner part together. */
 #include "drogue/decide.h"
+#include "joint_model.h"
 
 #include <string.h>
 
@@ -94,8 +95,8 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
     return drogue_real_order(&best->chi2, &limit) <= 0;
 }
 
-/* Add the square of a vector, Q16, times 2^-shift. */
-static void add_square(drogue_joint *joint, const int64_t v_q16[5], int32_t shift)
+/* Add half the square of a vector times 2^exponent. */
+static void add_half_square(drogue_joint *joint, const int64_t v[5], int32_t exponent)
 {
     int i;
     int j;
@@ -104,8 +105,8 @@ static void add_square(drogue_joint *joint, const int64_t v_q16[5], int32_t shif
             drogue_real *sum = &joint->covariance[DROGUE_PACKED(i, j)];
             drogue_real t;
             drogue_real factor;
-            drogue_real_set(&t, v_q16[i], -16);
-            drogue_real_set(&factor, v_q16[j], -16 - shift);
+            drogue_real_set(&t, v[i], exponent);
+            drogue_real_set(&factor, v[j], exponent - 1);
             drogue_real_product(&t, &t, &factor);
             drogue_real_sum(sum, sum, &t);
         }
@@ -123,25 +124,47 @@ static void add_spread(drogue_joint *joint, const drogue_pose *other)
     }
     apart_q16[3] = (int64_t)other->yaw_rad_q16 - p->yaw_rad_q16;
     apart_q16[4] = (int64_t)other->pitch_rad_q16 - p->pitch_rad_q16;
-    add_square(joint, apart_q16, 1);
+    add_half_square(joint, apart_q16, -16);
 }
 
-/* An outline that no inner part agrees with may be another edge than the rim: 1.1 % of the distance, 2^-13 of its square. */
-static void add_doubt(drogue_joint *joint)
+#define CONTRADICTED_Q16 DROGUE_Q16(1, 32) /* of its size: as if an inner part that contradicts were so far off */
+
+/* An inner part that is not of its size may be that of a larger outline: as likely as not, the distance is off by half as
+ * much. */
+static void add_doubt(drogue_joint *joint, drogue_q16 share_q16)
 {
-    const drogue_q16 *at = joint->pose.position_m_q16;
-    const int64_t position_q16[5] = {at[0], at[1], at[2], 0, 0};
-    add_square(joint, position_q16, 13);
+    int64_t doubt_q33[5] = {0, 0, 0, 0, 0};
+    int i;
+    for (i = 0; i < 3; i++) {
+        doubt_q33[i] = drogue_product(joint->pose.position_m_q16[i], share_q16);
+    }
+    add_half_square(joint, doubt_q33, -33);
 }
 
-/* Outline and inner part that are apart by more than their standard deviations have larger ones. */
-static void widen(drogue_joint *joint, const drogue_real *chi2)
+/* What outline and inner part disagree by, beyond what is usual, is in both: chi2 times their covariance. */
+static void widen(drogue_joint *joint, drogue_real chi2)
 {
     const drogue_real one = {1 << 30, -30};
     int i;
-    for (i = 0; i < DROGUE_PACKED_MAX && drogue_real_order(chi2, &one) > 0; i++) {
-        drogue_real_product(&joint->covariance[i], &joint->covariance[i], chi2);
+    if (drogue_real_order(&chi2, &one) <= 0) {
+        return;
     }
+    for (i = 0; i < DROGUE_PACKED_MAX; i++) {
+        drogue_real_product(&joint->covariance[i], &joint->covariance[i], &chi2);
+    }
+}
+
+/* An outline within which no inner part is seen may be another edge than the rim, or the rim on one side and another edge on
+ * the other: 1.1 % of a semi-axis in every parameter. */
+static void doubt_outline(drogue_joint_outline *outline)
+{
+    const drogue_real doubt = {1 << 30, -43}; /* 2^-13 is the square of 1.1 % */
+    int i;
+    for (i = 0; i < DROGUE_JOINT_FIT; i++) {
+        drogue_real *own = &outline->covariance[DROGUE_PACKED(i, i)];
+        drogue_real_sum(own, own, &doubt);
+    }
+    (void)drogue_joint_outline_weigh(outline); /* as positive definite as it was */
 }
 
 drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup)
@@ -151,32 +174,37 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
     drogue_joint joint;
     uint32_t index = evidence->nearer;
     int32_t resolved = 0;
+    const int seen = evidence->inner.std_px_q16 > 0;
     int agree = 0;
-    drogue_real chi2;
     memset(&joint, 0, sizeof joint);
     outline.ellipse = evidence->ideal;
     if (drogue_joint_outline_covariance(&outline, evidence->support, setup->config->outline_shading_q16,
                                         setup->config->optics_blur_std_px2_q16) != DROGUE_OK) {
         return DROGUE_E_DOMAIN;
     }
-    drogue_real_set(&chi2, 0, 0);
-    if (evidence->inner.std_px_q16 > 0) {
+    if (seen) {
         agree = solve_together(&joint, &index, &resolved, &outline, evidence, setup);
-        drogue_real_set_q16(&chi2, setup->config->max_chi2_q16);
     }
-    if (agree) {
-        chi2 = joint.chi2;
-    } else {
+    if (!agree) {
         resolved = 0;
         index = evidence->nearer;
+        if (setup->model->inner_radius_m_q16 > 0 && !seen) {
+            doubt_outline(&outline);
+        }
         if (drogue_joint_solve(&joint, &evidence->poses[index], &outline, &none, setup->camera, setup->model, 0) !=
             DROGUE_OK) {
             return DROGUE_E_DOMAIN;
         }
     }
-    widen(&joint, &chi2);
-    if (!agree && setup->model->inner_radius_m_q16 > 0) {
-        add_doubt(&joint);
+    if (seen) {
+        drogue_real chi2 = joint.chi2;
+        drogue_q16 doubt_q16 = evidence->doubt_q16;
+        if (!agree) {
+            drogue_real_set_q16(&chi2, setup->config->max_chi2_q16);
+            doubt_q16 = CONTRADICTED_Q16;
+        }
+        widen(&joint, chi2);
+        add_doubt(&joint, doubt_q16);
     }
     out->orientation_resolved = resolved;
     out->pose = joint.pose;

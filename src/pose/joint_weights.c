@@ -102,11 +102,11 @@ static void add_smear(real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *
     real share;
     real t;
     int i;
-    if (wave[0] == 0 && wave[1] == 0) {
-        return; /* as most frames are */
-    }
     drogue_turn_wave(wave, drogue_q16_sub(0, e->angle_rad_q16));
     square = drogue_square_sum(wave[0], wave[1]);
+    if (square == 0) {
+        return; /* as most frames are */
+    }
     factor[0] = (int32_t)drogue_isqrt_u64(square);
     factor[0] += (uint64_t)((int64_t)factor[0] * factor[0]) < square; /* rounded up: what is added stays positive */
     factor[1] = wave[0];

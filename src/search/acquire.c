@@ -71,7 +71,7 @@ static int32_t worth(const drogue_result *r, const drogue_model *model)
         return 1 + r->cover_q16;
     }
     if (!sizes(&expected, &off, r, model)) {
-        return 2 * DROGUE_Q16_ONE + r->cover_q16;
+        return SURE + r->cover_q16;
     }
     off = drogue_div_round_s64(off * DROGUE_Q16_ONE, expected > 0 ? expected : 1);
     return (r->orientation_resolved ? 5 * DROGUE_Q16_ONE : 3 * DROGUE_Q16_ONE) + r->cover_q16 -
@@ -199,7 +199,9 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
             continue;
         }
         (void)drogue_measure(out, workspace, setup, image, &search->best[i].region);
-        settled = (keep_better(&best, out, i, setup->model) && settles(out, setup->model)) || settled;
+        if (keep_better(&best, out, i, setup->model) && settles(out, setup->model)) {
+            settled = 1;
+        }
         last = i;
     }
     if (best.worth <= SURE && measures_whole(&part, setup->model)) {

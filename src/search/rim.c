@@ -43,7 +43,8 @@ static int32_t quotient(int64_t num, int64_t den)
     return drogue_real_to_s32(t, 0);
 }
 
-/* A circle by least squares (Kasa 1976): x^2 + y^2 = 2 a x + 2 b y + c, of LEAST_RAYS points; 0 when they do not determine one.
+/* A circle by least squares (Kasa 1976): x^2 + y^2 = 2 a x + 2 b y + c. 0 when the points, at least LEAST_RAYS, do not
+ * determine one.
  * Coordinates stay within 2^9, so sums within 2^31; about the mean, those of second order within 2^26, of third within 2^37. */
 static int fit_circle(drogue_rim *out, const rays *r)
 {
@@ -243,9 +244,11 @@ static int32_t keep_near(rays *r, const drogue_rim *c, int32_t tolerance_q8)
     return count;
 }
 
+static inline int32_t counted(int32_t step) { return step > MOST_STEP ? MOST_STEP : step; }
+
 static uint32_t score_of(int32_t count, int32_t step, const drogue_search_disc *disc)
 {
-    return (uint32_t)(count * count * (step + (disc->contrast > MOST_STEP ? MOST_STEP : disc->contrast)));
+    return (uint32_t)(count * count * (step + counted(disc->contrast)));
 }
 
 /* Circle through the steps taken: its score, 0 when there is none. */
@@ -270,14 +273,28 @@ static uint32_t find_circle(drogue_rim *rim, rays *r, const drogue_search_disc *
         return 0;
     }
     for (i = 0; i < RAYS; i++) {
-        step += r->used[i] * (r->step[i] > MOST_STEP ? MOST_STEP : r->step[i]);
+        step += r->used[i] * counted(r->step[i]);
     }
     return score_of(count, step / count, disc);
 }
 
 uint32_t drogue_rim_most(const drogue_search_disc *disc) { return score_of(RAYS, MOST_STEP, disc); }
 
-int32_t drogue_rim_find(drogue_rim rims[DROGUE_RIMS], const drogue_search_level *level, const drogue_search_disc *disc)
+/* What no circle through steps of this sign can exceed: all rays with their largest steps, which are those taken. */
+static uint32_t most_of(const rays *r, const drogue_search_disc *disc)
+{
+    int32_t count = 0;
+    int32_t steps = 0;
+    int i;
+    for (i = 0; i < RAYS; i++) {
+        count += r->used[i];
+        steps += counted(r->step[i]);
+    }
+    return count < LEAST_RAYS ? 0 : (uint32_t)(count * (steps + count * counted(disc->contrast)));
+}
+
+int32_t drogue_rim_find(drogue_rim rims[DROGUE_RIMS], const drogue_search_level *level, const drogue_search_disc *disc,
+                        uint32_t least)
 {
     static const choice choices[DROGUE_RIMS / 2] = {LARGEST, OUTERMOST, INNERMOST};
     rays r;
@@ -292,11 +309,15 @@ int32_t drogue_rim_find(drogue_rim rims[DROGUE_RIMS], const drogue_search_level 
         }
         for (k = 0; k < DROGUE_RIMS / 2; k++) {
             drogue_rim *rim = &rims[count];
-            if (take_steps(&r, choices[k]) < DIFFERENT_RAYS) {
+            const int32_t differ = take_steps(&r, choices[k]);
+            if (k == 0 && most_of(&r, disc) <= least) {
+                break;
+            }
+            if (differ < DIFFERENT_RAYS) {
                 continue;
             }
             rim->score = find_circle(rim, &r, disc);
-            count += rim->score > 0;
+            count += rim->score > least;
         }
     }
     return count;

@@ -106,29 +106,28 @@ static void sort_sightings(drogue_search *search)
     }
 }
 
-/* Can a disc not be among the best, whatever its circles are? */
-static int beaten(const drogue_search *search, const drogue_search_disc *disc)
+/* The score that a sighting must exceed to be among the best. */
+static uint32_t score_to_beat(const drogue_search *search)
 {
-    const uint32_t most = drogue_rim_most(disc);
+    uint32_t lowest = UINT32_MAX;
     int32_t i;
     for (i = 0; i < search->count; i++) {
-        if (search->best[i].score < most) {
-            return 0;
-        }
+        lowest = search->best[i].score < lowest ? search->best[i].score : lowest;
     }
-    return search->count == DROGUE_SEARCH_MAX;
+    return search->count == DROGUE_SEARCH_MAX ? lowest : 0;
 }
 
 static void judge_disc(drogue_search *search, int k, const drogue_search_disc *disc)
 {
     const int32_t cell_px = 2 << k;
+    const uint32_t least = score_to_beat(search);
     drogue_rim rims[DROGUE_RIMS];
     int32_t count;
     int32_t i;
-    if (beaten(search, disc)) {
+    if (drogue_rim_most(disc) <= least) {
         return;
     }
-    count = drogue_rim_find(rims, &search->levels[k], disc);
+    count = drogue_rim_find(rims, &search->levels[k], disc, least);
     for (i = 0; i < count; i++) {
         const drogue_rim *rim = &rims[i];
         drogue_sighting c;

@@ -116,7 +116,11 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
         drogue_ray rays[DROGUE_RAYS];
         drogue_inner_edge edge;
         if (drogue_inner_edge_find(&edge, rays, &view, &expected, &ellipse, &edges.config) == DROGUE_OK) {
-            inner.std_px_q16 = drogue_inner_std(&edge, &expected.disc[edge.which], &ellipse, &edges.config);
+            const drogue_region region = {edges.origin_px.x, edges.origin_px.y, view.width_px, view.height_px};
+            drogue_inner_evidence weighed;
+            drogue_inner_weigh(&weighed, &edge, &region, &expected, &ellipse, evidence.poses, &setup);
+            inner.std_px_q16 = weighed.weighed.std_px_q16;
+            evidence.doubt_q16 = weighed.doubt_q16;
         }
     }
     if (result.has_inner != 0) {

@@ -99,16 +99,26 @@ void write_sheet(const std::string &path, const std::vector<cv::Mat> &pictures)
     }
 }
 
+/* The inner disc's radius over the one that the measured pose expects, less 1, in percent. */
+double disc_size_percent(const Trial &t, const Measurement &m)
+{
+    const Drogue &d = t.scene.drogue;
+    const Ellipse expected = project_circle(t.scene.camera, m.pose, d.inner_radius_m, d.inner_depth_m);
+    return 100 * (std::sqrt(m.raw.inner.area_px / (CV_PI * expected.a_px * expected.b_px)) - 1);
+}
+
 void print_trial(const Trial &t, const Measurement &m, const Outcome &o)
 {
     std::printf("  %3d a %6.2f tilt %4.1f %-10s", t.index, t.rim.a_px,
                 angle_between_deg(t.pose.axis, cv::normalize(t.pose.position_m)), drogue_status_name(m.raw.status));
     if (m.ok) {
-        std::printf(" rim %.3f a %+.3f disc %.3f z %+.3f%% axis %.3f other %.2f cover %.2f nees %.1f%s%s%s%s%s",
-                    o.ellipse_px, m.ideal.a_px - t.rim.a_px, o.centroid_px, 100 * o.position_m[2] / o.distance_m,
-                    o.axis_deg, angle_between_deg(m.alternative.axis, t.pose.axis), from_q16(m.raw.cover_q16),
-                    o.nees / 5, o.verdict == Verdict::wrong ? " WRONG" : "", o.inner ? "" : " NO-INNER",
-                    bad_inner(t, o) ? " BAD-INNER" : "", o.resolved ? "" : " OPEN", o.twin ? " TWIN" : "");
+        std::printf(
+            " rim %.3f a %+.3f disc %.3f size %+.1f%% z %+.3f%% axis %.3f other %.2f cover %.2f nees %.1f%s%s%s%s%s",
+            o.ellipse_px, m.ideal.a_px - t.rim.a_px, o.centroid_px, disc_size_percent(t, m),
+            100 * o.position_m[2] / o.distance_m, o.axis_deg, angle_between_deg(m.alternative.axis, t.pose.axis),
+            from_q16(m.raw.cover_q16), o.nees / 5, o.verdict == Verdict::wrong ? " WRONG" : "",
+            o.inner ? "" : " NO-INNER", bad_inner(t, o) ? " BAD-INNER" : "", o.resolved ? "" : " OPEN",
+            o.twin ? " TWIN" : "");
     }
     std::printf("\n");
 }

@@ -61,7 +61,7 @@ int stage_rim(stage_run *r)
     disc.y = p[1];
     disc.ring_q4 = p[2];
     disc.contrast = p[3];
-    *out = drogue_rim_find(rims, &level, &disc);
+    *out = drogue_rim_find(rims, &level, &disc, 0);
     for (i = 0; i < *out; i++) {
         out[1 + 4 * i] = rims[i].x_q4;
         out[2 + 4 * i] = rims[i].y_q4;
@@ -161,13 +161,14 @@ int stage_decide(stage_run *r)
     evidence.inner.x_px_q16 = p[20];
     evidence.inner.y_px_q16 = p[21];
     evidence.inner.std_px_q16 = p[22];
+    evidence.doubt_q16 = p[28];
     evidence.support = &support;
     config.outline_shading_q16 = p[23];
     config.optics_blur_std_px2_q16 = p[24];
     config.max_chi2_q16 = p[25];
     config.min_chi2_gap_q16 = p[26];
     if (!drogue_config_valid(&config) || !stage_support_of_words(&support, stage_input32(r, 2), p[27]) || p[22] < 0 ||
-        camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 || p[0] <= 0 || p[1] < 0 ||
+        p[28] < 0 || camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 || p[0] <= 0 || p[1] < 0 ||
         !stage_angle_valid(&evidence.ideal) || evidence.ideal.b_px_q16 < DROGUE_Q16_ONE ||
         evidence.ideal.a_px_q16 < evidence.ideal.b_px_q16) {
         return CONF_E_MALFORMED;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Arcs: the partition of the edge points of each direction class in the ring into connected components, and their
- * order. */
+/* Arcs: the edge points of candidates in the ring, their partition by direction class into connected components, and the
+ * order of those. */
 #include "golden.hpp"
 #include "reference.hpp"
 #include "workspace.h"
@@ -21,7 +21,7 @@ double partition_difference(const cv::Mat &image, const drogue_frontend_config &
     }
     const cv::Mat ring =
         reference::ring(image.cols, image.rows, config.ring.centre2_x, config.ring.centre2_y, config.ring.longest_px);
-    const cv::Mat edges = reference::canny(image, config.canny_low, config.canny_high, config.smooth != 0) & ring;
+    const cv::Mat edges = reference::canny_within(image, config.canny_low, config.canny_high, config.smooth != 0, ring);
     reference::gradient(config.smooth ? reference::smooth(image) : image, gx, gy);
     const std::vector<reference::Arc> expected = reference::arcs(edges, gx, gy);
     for (std::uint32_t i = 0; i < list.edge_count; i++) {

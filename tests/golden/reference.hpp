@@ -30,6 +30,9 @@ cv::Mat canny(const cv::Mat &image, int low, int high, bool smoothed); /* cv::Ca
 
 /* Ring mask by the inequality on squared distances: 0 and 255. */
 cv::Mat ring(int width, int height, int centre2_x, int centre2_y, int longest);
+/* Canny's edges of which every candidate lies in a mask: the components of what cv::Canny finds above the low threshold
+ * there that hold something above the high one. */
+cv::Mat canny_within(const cv::Mat &image, int low, int high, bool smoothed, const cv::Mat &mask);
 
 struct Arc {
     int direction;                 /* class 0..3 */

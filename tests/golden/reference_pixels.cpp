@@ -49,6 +49,21 @@ cv::Mat canny(const cv::Mat &image, int low, int high, bool smoothed)
     return edges;
 }
 
+cv::Mat canny_within(const cv::Mat &image, int low, int high, bool smoothed, const cv::Mat &mask)
+{
+    const cv::Mat candidates = canny(image, low, low, smoothed) & mask; /* all are strong, so all are kept */
+    const cv::Mat strong = canny(image, high, high, smoothed) & mask;
+    cv::Mat edges = cv::Mat::zeros(image.size(), CV_8U);
+    for (const std::vector<cv::Point> &pixels : components(candidates)) {
+        const bool kept =
+            std::any_of(pixels.begin(), pixels.end(), [&](cv::Point p) { return strong.at<uint8_t>(p) != 0; });
+        for (const cv::Point p : pixels) {
+            edges.at<uint8_t>(p) = kept ? 255 : 0;
+        }
+    }
+    return edges;
+}
+
 cv::Mat ring(int width, int height, int centre2_x, int centre2_y, int longest)
 {
     cv::Mat mask(height, width, CV_8U);

@@ -3,6 +3,8 @@
 #include <functional>
 #include <stdexcept>
 
+#include <opencv2/imgproc.hpp>
+
 #include "images.hpp"
 #include "reference.hpp"
 #include "stages.h"
@@ -49,11 +51,12 @@ std::vector<int> arc_lengths(const cv::Mat &image, const Front &f)
 {
     const cv::Mat smoothed = f.smooth ? reference::smooth(image) : image;
     cv::Mat gx, gy;
-    cv::Mat edges = reference::canny(image, f.low, f.high, f.smooth != 0);
+    const cv::Mat edges =
+        f.use_ring
+            ? reference::canny_within(image, f.low, f.high, f.smooth != 0,
+                                      reference::ring(image.cols, image.rows, f.centre2_x, f.centre2_y, f.longest))
+            : reference::canny(image, f.low, f.high, f.smooth != 0);
     reference::gradient(smoothed, gx, gy);
-    if (f.use_ring) {
-        edges &= reference::ring(image.cols, image.rows, f.centre2_x, f.centre2_y, f.longest);
-    }
     std::vector<int> lengths;
     for (const reference::Arc &a : reference::arcs(edges, gx, gy)) {
         lengths.push_back(static_cast<int>(a.pixels.size()));
@@ -203,6 +206,20 @@ void add_arcs(Set &set)
     off.centre2_x = -64;
     off.longest = 120;
     add_front(set, "ring-beside-image", Tier::boundary, {"border"}, dark, off);
+
+    /* A strip across the ring, faint in it but for what is beside it; then it is strong in the ring, too. */
+    for (const int within : {0, 1}) {
+        const Front f = with_ring(dark, thresholds(60, 300, 0, 1));
+        cv::Mat mask; /* with what the gradient sees beside it */
+        cv::dilate(reference::ring(64, 64, f.centre2_x, f.centre2_y, f.longest), mask, cv::Mat::ones(5, 5, CV_8U));
+        add_front(set, within ? "ring-strong-within" : "ring-strong-without", Tier::boundary, {"long-weak-chain"},
+                  image_from(64, 64,
+                             [&](int x, int y) {
+                                 const bool bright = mask.at<uint8_t>(y, x) == 0 || (within && x < 8);
+                                 return y / 8 == 4 ? (bright ? 180 : 130) : 100;
+                             }),
+                  f);
+    }
 
     /* gx = 0 or gy = 0 all along a side; corners where the class changes */
     cv::Mat square = constant(40, 40, 60);

@@ -277,7 +277,8 @@ struct Evidence {
     int nearer = 0;
     double off_px = 0; /* of the inner part, to the right */
     double max_chi2 = 16, gap = 9;
-    int behind = -1; /* pose whose z is negative */
+    double doubt = 0; /* share by which the inner part is not of its size */
+    int behind = -1;  /* pose whose z is negative */
     bool inner = true;
 };
 
@@ -300,7 +301,7 @@ void add_evidence(Set &set, const std::string &name, Tier tier, const Flags &fla
     params.push_back(w.params[8] + q16(e.off_px));
     params.push_back(w.params[9]);
     params.push_back(e.inner ? w.params[10] : 0);
-    params.insert(params.end(), {w.params[11], w.params[12], q16(e.max_chi2), q16(e.gap), w.params[13]});
+    params.insert(params.end(), {w.params[11], w.params[12], q16(e.max_chi2), q16(e.gap), w.params[13], q16(e.doubt)});
     set.add(name, tier, flags,
             {word_array("ellipse", 32, 16, w.ellipse), word_array("camera", 32, 16, w.camera),
              word_array("bins", 32, 16, w.bins), word_array("params", 32, 16, params)});
@@ -346,6 +347,19 @@ void add_decide(Set &set)
     e.off_px = 4;
     e.max_chi2 = 10000;
     add_evidence(set, "contradiction-allowed", Tier::stress, {"twin-pose"}, j, e);
+    e = Evidence();
+    for (const double doubt : {0.03, 0.1, 1.0}) {
+        e.doubt = doubt;
+        for (const double off : {0.0, 60.0}) { /* agrees, contradicts the outline */
+            e.off_px = off;
+            add_evidence(
+                set, "doubt-percent-" + std::to_string(std::lround(100 * doubt)) + (off > 0 ? "-contradiction" : ""),
+                Tier::stress, {"twin-pose"}, j, e);
+        }
+    }
+    e.off_px = 0;
+    e.inner = false;
+    add_evidence(set, "doubt-of-nothing", Tier::stress, {"inner-missing"}, j, e);
     e = Evidence();
     e.gap = 30000;
     add_evidence(set, "gap-never", Tier::boundary, {"threshold-met"}, j, e);

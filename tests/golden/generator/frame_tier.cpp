@@ -194,6 +194,10 @@ void poses_more(std::vector<Real> &more, const mirror::Task &task, const mirror:
         s.move([](mirror::Features &g, Real by) { g.inner.at.y += by; }, 2 / 65536.0L);
         s.move([](mirror::Features &g, Real by) { g.inner.std += by; }, 3 / 65536.0L);
     }
+    if (f.doubt > 0) { /* the disc's size is off by 0.0005 px: a ray more or less steep by a grey level */
+        s.move([](mirror::Features &g, Real by) { g.doubt += by; },
+               32 / 65536.0L / std::sqrt(r.area / std::acos(Real(-1))));
+    }
     const Words own = words_of(r);
     for (size_t i = POSE; i < RESOLVED; i++) {
         more[i] = s.at(i);

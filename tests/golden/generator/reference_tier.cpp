@@ -108,15 +108,13 @@ Tiers arcs_tier(const Arrays &in, const Arrays &exact)
     if (p[0] < 0 || p[1] < p[0] || (p[3] != 0 && !valid_mask(&p[4]))) {
         return {{like(exact[0], {DROGUE_E_ARGUMENT, 0, 0}), {}}, {like(exact[1], {}), {}}};
     }
-    cv::Mat candidates = reference::canny(image, as_int(p[0]), as_int(p[0]), p[2] != 0);
-    cv::Mat edges = canny(in[0], in[1]);
+    const cv::Mat mask = p[3] != 0 ? reference::ring(image.cols, image.rows, as_int(p[4]), as_int(p[5]), as_int(p[6]))
+                                   : cv::Mat(image.size(), CV_8U, cv::Scalar(255));
+    const cv::Mat candidates = reference::canny(image, as_int(p[0]), as_int(p[0]), p[2] != 0) & mask;
+    const cv::Mat edges =
+        p[3] != 0 ? reference::canny_within(image, as_int(p[0]), as_int(p[1]), p[2] != 0, mask) : canny(in[0], in[1]);
     cv::Mat gx, gy;
     reference::gradient(p[2] != 0 ? reference::smooth(image) : image, gx, gy);
-    if (p[3] != 0) {
-        const cv::Mat ring = reference::ring(image.cols, image.rows, as_int(p[4]), as_int(p[5]), as_int(p[6]));
-        candidates &= ring;
-        edges &= ring;
-    }
     const std::vector<reference::Arc> arcs = reference::arcs(edges, gx, gy);
     std::map<std::pair<int, int>, int> rest_class;
     Words points;

@@ -104,7 +104,7 @@ bool settle(Sums &s, Offset &v, const Rays &rays, Real within, Real last, bool s
 }
 
 /* An edge of the size expected for one that is not: among the edges that lie beyond the first on that side. */
-void prefer_size(Offset &first, Rays rays)
+void prefer_size(Offset &first, Rays rays, int least)
 {
     Offset v = {first[0], first[1], 0};
     Sums s;
@@ -116,15 +116,15 @@ void prefer_size(Offset &first, Rays rays)
         });
         r.count = static_cast<uint32_t>(end - r.edges);
     }
-    if (settle(s, v, rays, std::fabs(first[2]) + 1, 0.75L, false) && s.rays >= DROGUE_RAYS / 4) {
+    if (settle(s, v, rays, std::fabs(first[2]) + 1, 0.75L, false) && s.rays >= least) {
         first = v;
     }
 }
 
-Rays cast(const drogue_image &view, const drogue_ellipse &e, drogue_q16 reach, int phase, int least)
+Rays cast(const drogue_image &view, const drogue_ellipse &e, drogue_q16 reach, int every, int least)
 {
     Rays rays;
-    drogue_rays_cast(rays.data(), &view, &e, reach, phase, least);
+    drogue_rays_cast(rays.data(), &view, &e, reach, 4, every, least);
     return rays;
 }
 
@@ -231,44 +231,27 @@ void cross(Rays &rays, const drogue_image &view, const Shade &shade, const Offse
     }
 }
 
-} // namespace
+/* A first place, by which expected disc, in 1/256 px: in such rays read the image. */
+struct Place {
+    int which;
+    std::array<int, 3> at; /* x, y, size */
+};
 
-Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected, const drogue_ellipse &outline,
-                const drogue_config &config)
+/* Measure about a first place. */
+Disc about(const drogue_image &view, const drogue_inner_expected &expected, const Place &place, int least)
 {
-    const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * real(outline.a_px_q16);
-    const int least = config.min_inner_contrast;
     Disc out;
-    Offset first = {0, 0, 0};
-    Real steepest = 0;
-    for (uint32_t i = 0; i < expected.count; i++) {
-        const Real reach = gate + real(expected.disc[i].a_px_q16) / 16 + 2;
-        const Rays rays = cast(view, expected.disc[i], reference::q16(reach), 4, least);
-        Offset v = {0, 0, 0};
-        Sums s;
-        if (settle(s, v, rays, gate + 1, std::max<Real>(1.5, reach / 16), true) && s.slopes > steepest) {
-            steepest = s.slopes;
-            if (std::fabs(v[2]) > real(expected.disc[i].a_px_q16) / 64 + 0.5L) {
-                prefer_size(v, rays);
-            }
-            first = v;
-            out.which = static_cast<int>(i);
-        }
-    }
-    if (steepest == 0) {
-        return out;
-    }
-    const auto whole = [](Real v) { return static_cast<drogue_q16>(std::floor(256 * v + 0.5L)) * 256; };
-    drogue_ellipse at = expected.disc[out.which];
-    at.xc_px_q16 = whole(real(at.xc_px_q16) + first[0]);
-    at.yc_px_q16 = whole(real(at.yc_px_q16) + first[1]);
-    at.a_px_q16 += whole(first[2]);
-    at.b_px_q16 += whole(first[2]);
+    drogue_ellipse at = expected.disc[place.which];
+    at.xc_px_q16 = 256 * place.at[0];
+    at.yc_px_q16 = 256 * place.at[1];
+    at.a_px_q16 += 256 * place.at[2];
+    at.b_px_q16 += 256 * place.at[2];
+    out.which = place.which;
     if (at.b_px_q16 < 65536) {
         return out;
     }
     const int phases = std::min(std::max(at.a_px_q16 / (10 * 65536), 1), 8);
-    Rays rays = cast(view, at, 0, 4, least);
+    Rays rays = cast(view, at, 0, 1, least);
     Offset v = {0, 0, 0};
     Shade shade;
     Sums s;
@@ -289,8 +272,10 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     }
     s = Sums();
     for (int k = 0; k < phases; k++) {
-        drogue_rays_aim(rays.data(), &at, (8 * k + 4) / phases % 8);
-        cross(rays, view, shade, {v[0], v[1], size});
+        if (phases > 1) {
+            drogue_rays_aim(rays.data(), &at, (8 * k + 4) / phases % 8);
+            cross(rays, view, shade, {v[0], v[1], size});
+        }
         add_rays(s, rays, v, within, true);
     }
     Real scatter = 0;
@@ -310,7 +295,7 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     out.rms = rms_of(s);
     out.x = real(at.xc_px_q16) + v[0];
     out.y = real(at.yc_px_q16) + v[1];
-    out.grown = real(whole(first[2])) + v[2] + 0.45L;
+    out.grown = place.at[2] / 256.0L + v[2] + 0.45L;
     const auto away = [&](const drogue_ellipse &e) {
         return std::hypot(out.x - real(e.xc_px_q16), out.y - real(e.yc_px_q16));
     };
@@ -321,6 +306,64 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     }
     out.rays = (s.rays + phases / 2) / phases;
     return out;
+}
+
+} // namespace
+
+Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected, const drogue_ellipse &outline,
+                const drogue_config &config, const drogue_inner_edge *library)
+{
+    const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * real(outline.a_px_q16);
+    const int least = config.min_inner_contrast;
+    Offset first = {0, 0, 0};
+    Place place = {0, {0, 0, 0}};
+    Real steepest = 0;
+    for (uint32_t i = 0; i < expected.count; i++) {
+        const Real reach = gate + real(expected.disc[i].a_px_q16) / 16 + 2;
+        const int every = expected.disc[i].a_px_q16 < 20 * 65536 ? 2 : 1;
+        const Rays rays = cast(view, expected.disc[i], reference::q16(reach), every, least);
+        Offset v = {0, 0, 0};
+        Sums s;
+        if (settle(s, v, rays, gate + 1, std::max<Real>(1.5, reach / 16), true) && s.slopes > steepest) {
+            steepest = s.slopes;
+            if (std::fabs(v[2]) > real(expected.disc[i].a_px_q16) / 64 + 0.5L) {
+                prefer_size(v, rays, DROGUE_RAYS / 4 / every);
+            }
+            first = v;
+            place.which = static_cast<int>(i);
+            if (every == 1 && 4 * s.rays >= 3 * DROGUE_RAYS && std::hypot(v[0], v[1]) <= gate) {
+                break;
+            }
+        }
+    }
+    if (steepest == 0) {
+        return {};
+    }
+    const drogue_ellipse &e = expected.disc[place.which];
+    const Real exact[3] = {256 * (real(e.xc_px_q16) + first[0]), 256 * (real(e.yc_px_q16) + first[1]), 256 * first[2]};
+    Disc best;
+    Real nearest = -1;
+    for (int way = 0; way < 8; way++) { /* near the middle between two places, that of the library's disc is taken */
+        bool open = true;
+        for (size_t k = 0; k < 3; k++) {
+            const Real up = std::floor(exact[k] + 0.5L), other = up + (exact[k] < up ? -1 : 1);
+            const bool turn = way >> k & 1;
+            open = open && (!turn || (library != nullptr && std::fabs(std::fabs(exact[k] - up) - 0.5L) < 8 / 256.0L));
+            place.at[k] = static_cast<int>(turn ? other : up);
+        }
+        if (open) {
+            const Disc d = about(view, expected, place, least);
+            const Real off = library == nullptr
+                                 ? 0
+                                 : std::fabs(d.x - real(library->x_px_q16)) + std::fabs(d.y - real(library->y_px_q16)) +
+                                       std::fabs(d.grown - real(library->grown_px_q16));
+            if (nearest < 0 || off < nearest) {
+                nearest = off;
+                best = d;
+            }
+        }
+    }
+    return best;
 }
 
 } // namespace mirror

@@ -21,8 +21,9 @@ struct Disc {
     Real x = 0, y = 0, grown = 0, std = 0, rms = 0;
 };
 
-/* 'expected' as the library rounds it; 'outline' likewise. */
+/* 'expected' as the library rounds it; 'outline' likewise. 'library': its own result, to round the first place as it did
+ * where that lies near the middle between two; NULL: all decisions are the mirror's own. */
 Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected, const drogue_ellipse &outline,
-                const drogue_config &config);
+                const drogue_config &config, const drogue_inner_edge *library);
 
 } // namespace mirror

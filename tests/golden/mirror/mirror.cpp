@@ -170,7 +170,11 @@ void find_inner(Result &out, Ellipse &expected, const Frame &f, const std::array
     const drogue_ellipse rim = f.follow.library != nullptr ? f.decided.ellipse : rounded_ellipse(out.outline.ellipse);
     const drogue_inner_expected discs = expect(out, f, pair, task, rim);
     const drogue_image view = {f.view.data, f.view.cols, f.view.rows, static_cast<int32_t>(f.view.step)};
-    out.part = inner_edge(view, discs, rim, task.config);
+    std::array<drogue_ray, DROGUE_RAYS> rays;
+    drogue_inner_edge edge;
+    const bool known = f.follow.library != nullptr &&
+                       drogue_inner_edge_find(&edge, rays.data(), &view, &discs, &rim, &task.config) == DROGUE_OK;
+    out.part = inner_edge(view, discs, rim, task.config, known ? &edge : nullptr);
     out.has_inner = out.part.found;
     if (out.has_inner) {
         const drogue_ellipse &e = discs.disc[out.part.which];
@@ -287,6 +291,9 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
         t = solve_together(pair, nearer, f, outline, task, library);
     }
     if (!t.agree) {
+        if (task.model.inner_radius > 0 && !out.has_inner) { /* it may be another edge than the rim, or partly */
+            outline += 0x1p-13 * reference::Covariance::eye();
+        }
         t = {reference::solve_joint(pair[nearer], f.ideal, outline, {{0, 0}, 0}, task.camera, task.model, 0), nearer,
              false, false};
     }
@@ -301,11 +308,12 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
     if (out.has_inner) {
         out.covariance *= std::max(1.0, t.agree ? t.joint.chi2 : static_cast<double>(real(config.max_chi2_q16)));
     }
-    for (int i = 0; i < 3 && !t.agree && task.model.inner_radius > 0; i++) { /* it may be another edge than the rim */
+    const Real share = (t.agree ? f.doubt : 1 / 32.0L) / 2; /* that of a larger outline? */
+    for (int i = 0; i < 3 && out.has_inner; i++) {
         for (int j = 0; j < 3; j++) {
             out.covariance(i, j) += static_cast<double>(out.pose.position[static_cast<size_t>(i)] *
-                                                        out.pose.position[static_cast<size_t>(j)]) *
-                                    0x1p-13;
+                                                        out.pose.position[static_cast<size_t>(j)] * share * share) /
+                                    2;
         }
     }
     if (!t.resolved) { /* the truth is as likely the other pose */
@@ -352,7 +360,7 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
         out.status = out.ideal.ok ? DROGUE_E_DOMAIN : DROGUE_E_NO_ELLIPSE;
         return DOUBTED;
     }
-    from = {out.ideal, out.outline.support, {{0, 0}, 0}, false, false};
+    from = {out.ideal, out.outline.support, {{0, 0}, 0}, false, false, 0};
     if (task.model.inner_radius > 0) {
         Ellipse expected = {0, 0, 0, 0, 0, false};
         find_inner(out, expected, f, pair, task);
@@ -365,6 +373,7 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
             out.too_large = from.trusted && out.part.grown > room_of(expected, task.config);
             from.trusted = from.trusted && !out.too_large;
         }
+        from.doubt = from.trusted ? std::max<Real>(std::fabs(out.part.grown) - 0.5L, 0) / expected.a : 0;
         doubt = !from.trusted ? 1 : std::fabs(out.part.grown) <= 0.5L ? 0 : std::fabs(out.part.grown) / expected.a;
     }
     finish(out, task, from, library);

@@ -50,6 +50,7 @@ struct Features {
     reference::Inner inner; /* undistorted */
     bool trusted;           /* in its place and of its size */
     bool placed;            /* there, and its lens undone */
+    Real doubt;             /* share by which it is not of its size, where it is trusted */
 };
 
 /* Follows the library's documented method from edge points to the pose.

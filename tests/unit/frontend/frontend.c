@@ -379,6 +379,70 @@ START_TEST(endless_weak_chain)
 }
 END_TEST
 
-SUITE_MAIN("frontend", every_small_size, random_images, one_workspace_for_many_sizes, edge_table_overfilled_by_one,
-           arc_table_overfilled_by_one, label_table_overfilled_by_one, workspace_arguments, begin_arguments,
-           missing_rows, a_frame_ends_once, endless_weak_chain, merges_fill_no_more_than_a_row, the_form_asked_for)
+/* Rings off the middle, cut by the image, larger and smaller than it, over every width; nothing is left from a frame before. */
+START_TEST(rings_anywhere)
+{
+    test_workspace t = test_workspace_ample(100, 100);
+    int seed;
+    for (seed = 1; seed <= 1500; seed++) {
+        uint64_t rng = (uint64_t)seed + 11000u;
+        const int32_t width = 1 + seed % 100, height = rng_range(&rng, 1, 100);
+        const int32_t side = width > height ? width : height;
+        uint8_t *pixels = malloc((size_t)width * (size_t)height);
+        drogue_frontend_config config = random_config(width, height, &rng);
+        drogue_edge_list list;
+        model m;
+        config.use_ring = 1;
+        config.ring.centre2_x = rng_range(&rng, -side, 2 * width + side);
+        config.ring.centre2_y = rng_range(&rng, -side, 2 * height + side);
+        config.ring.longest_px = rng_range(&rng, 1, 3 * side);
+        image_fill(pixels, width, height, seed % 3 == 0 ? IMAGE_RINGS : IMAGE_NOISE, &rng);
+        m = model_of(pixels, width, height, &config);
+        ck_assert_int_eq(frontend_run(&list, &t.workspace, &config, pixels, width, height), DROGUE_OK);
+        compare(&m, &t.workspace, &list, seed);
+        ck_assert(guarded_intact(&t.memory));
+        model_free(&m);
+        free(pixels);
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* A horizontal edge through the ring, weak within it: strong parts outside do not keep it, one within keeps that side whole. */
+START_TEST(strength_counts_within_the_ring)
+{
+    enum { SIDE = 60 };
+    uint8_t pixels[SIDE * SIDE];
+    test_workspace t = test_workspace_ample(SIDE, SIDE);
+    drogue_frontend_config c = {60, 300, 0, 1, {SIDE - 1, SIDE - 1, SIDE}, 1};
+    drogue_edge_list list;
+    int32_t i, within;
+    for (within = 0; within <= 1; within++) {
+        for (i = 0; i < SIDE * SIDE; i++) {
+            const int32_t x = i % SIDE, y = i / SIDE;
+            const int near = drogue_mask_in_ring(&c.ring, x - 2, y) || drogue_mask_in_ring(&c.ring, x + 2, y);
+            const int strong = !near || (within && x == 4);
+            pixels[i] = (uint8_t)(y < SIDE / 2 ? 100 : strong ? 200 : 130);
+        }
+        c.use_ring = 0;
+        ck_assert_int_eq(frontend_run(&list, &t.workspace, &c, pixels, SIDE, SIDE), DROGUE_OK);
+        ck_assert_uint_ge(list.edge_count, SIDE);
+        c.use_ring = 1;
+        ck_assert_int_eq(frontend_run(&list, &t.workspace, &c, pixels, SIDE, SIDE), DROGUE_OK);
+        for (i = 0; i < (int32_t)list.edge_count; i++) {
+            ck_assert_int_lt(drogue_edge_x_px(&t.workspace.edges[i]), SIDE / 2);
+        }
+        if (within) {
+            ck_assert_uint_ge(list.edge_count, SIDE / 6);
+        } else {
+            ck_assert_uint_eq(list.edge_count, 0);
+        }
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+SUITE_MAIN("frontend", every_small_size, random_images, rings_anywhere, strength_counts_within_the_ring,
+           one_workspace_for_many_sizes, edge_table_overfilled_by_one, arc_table_overfilled_by_one,
+           label_table_overfilled_by_one, workspace_arguments, begin_arguments, missing_rows, a_frame_ends_once,
+           endless_weak_chain, merges_fill_no_more_than_a_row, the_form_asked_for)

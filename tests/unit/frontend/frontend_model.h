@@ -13,9 +13,9 @@ enum { VERDICT_NONE = 0, VERDICT_WEAK = 1, VERDICT_STRONG = 2 };
 /* What two passes over a stored image give. */
 typedef struct model {
     int32_t width, height;
-    uint8_t *verdict;    /* of suppression and thresholds, a pixel */
+    uint8_t *verdict;    /* of suppression, thresholds and ring, a pixel */
     uint8_t *alive;      /* connected to a strong candidate */
-    uint8_t *key;        /* direction class + 1 of candidates in the ring, else 0 */
+    uint8_t *key;        /* direction class + 1 of candidates, else 0 */
     uint32_t *arc;       /* component of equal key, 1 ... in raster order of the first pixel */
     drogue_edge *edge;   /* by pixel */
     uint32_t arcs;       /* components that are alive or not */
@@ -73,7 +73,8 @@ static inline void model_verdicts(model *m, const uint8_t *pixels, const drogue_
             int32_t at = y * m->width + x, before, after, offset;
             drogue_sector sector = drogue_canny_sector(gx[at], gy[at]);
             drogue_canny_neighbours(&before, &after, sector, rows, x, m->width);
-            if (rows[1][x] > config->canny_low && drogue_canny_is_maximum(sector, before, rows[1][x], after)) {
+            if (rows[1][x] > config->canny_low && drogue_canny_is_maximum(sector, before, rows[1][x], after) &&
+                (!config->use_ring || drogue_mask_in_ring(&config->ring, x, y))) {
                 m->verdict[at] = rows[1][x] > config->canny_high ? VERDICT_STRONG : VERDICT_WEAK;
             }
             offset = drogue_canny_offset_q5(before, rows[1][x], after);
@@ -82,10 +83,8 @@ static inline void model_verdicts(model *m, const uint8_t *pixels, const drogue_
             if (m->verdict[at] != VERDICT_NONE) {
                 m->edge[at].x_q5 = (uint16_t)(32 * x + drogue_canny_step_x(sector) * offset);
                 m->edge[at].y_q5 = (uint16_t)(32 * y + drogue_canny_step_y(sector) * offset);
-                if (!config->use_ring || drogue_mask_in_ring(&config->ring, x, y)) {
-                    m->key[at] = (uint8_t)(1u + drogue_direction_class(gx[at], gy[at]));
-                    m->candidates++;
-                }
+                m->key[at] = (uint8_t)(1u + drogue_direction_class(gx[at], gy[at]));
+                m->candidates++;
             }
         }
     }

@@ -67,4 +67,52 @@ START_TEST(whole_region_of_one_pixel)
 }
 END_TEST
 
-SUITE_MAIN("mask", every_pixel_of_small_regions, large_regions, borders_belong_to_the_mask, whole_region_of_one_pixel)
+/* The columns of a row are those that are in the ring one by one; a stretch that is empty has no length. */
+static void check_columns(const drogue_mask *mask, int32_t y, int32_t width_px)
+{
+    drogue_columns c;
+    int32_t x;
+    drogue_mask_columns(&c, mask, y, width_px);
+    MUST(c.begin[0] <= c.end[0] && c.end[0] <= c.begin[1] && c.begin[1] <= c.end[1] && c.end[1] <= width_px,
+         "ring of %d, row %d: %d %d %d %d", mask->longest_px, y, c.begin[0], c.end[0], c.begin[1], c.end[1]);
+    for (x = 0; x < width_px; x++) {
+        const int within = (x >= c.begin[0] && x < c.end[0]) || (x >= c.begin[1] && x < c.end[1]);
+        MUST(within == !!drogue_mask_in_ring(mask, x, y), "ring of %d about %d %d at %d %d", mask->longest_px,
+             mask->centre2_x, mask->centre2_y, x, y);
+    }
+}
+
+START_TEST(columns_of_small_rings)
+{
+    drogue_mask mask;
+    int32_t y;
+    for (mask.longest_px = 1; mask.longest_px <= 40; mask.longest_px++) {
+        for (mask.centre2_x = -50; mask.centre2_x <= 70; mask.centre2_x++) {
+            for (mask.centre2_y = -45; mask.centre2_y <= 46; mask.centre2_y += 13) {
+                for (y = 0; y < 25; y++) {
+                    check_columns(&mask, y, 1 + (mask.longest_px + mask.centre2_x + y + 50) % 27);
+                }
+            }
+        }
+    }
+}
+END_TEST
+
+START_TEST(columns_of_large_rings)
+{
+    static const int32_t ends[4] = {-(1 << 15), 0, 1, 1 << 15};
+    uint64_t rng = 1;
+    int32_t i;
+    for (i = 0; i < 20000; i++) {
+        drogue_mask mask;
+        const int32_t width_px = rng_range(&rng, 1, DROGUE_MAX_SIDE);
+        mask.longest_px = rng_range(&rng, 1, 1 << (1 + i % 20));
+        mask.centre2_x = i % 5 == 0 ? ends[rng_range(&rng, 0, 3)] : rng_range(&rng, -(1 << 13), 1 << 13);
+        mask.centre2_y = i % 7 == 0 ? ends[rng_range(&rng, 0, 3)] : rng_range(&rng, -(1 << 13), 1 << 13);
+        check_columns(&mask, rng_range(&rng, 0, DROGUE_MAX_SIDE - 1), width_px);
+    }
+}
+END_TEST
+
+SUITE_MAIN("mask", every_pixel_of_small_regions, large_regions, borders_belong_to_the_mask, whole_region_of_one_pixel,
+           columns_of_small_rings, columns_of_large_rings)

@@ -20,7 +20,7 @@ START_TEST(an_image_of_little_noise)
             }
         }
         threshold = drogue_noise_threshold(histogram, &strip);
-        MUST((threshold == 0) == (4 * histogram[0] >= 3000), "%d %%: %u of 3000 are 0, threshold %d", flat,
+        MUST((threshold == 0) == (4 * histogram[0] >= 2000), "%d %%: %u of 2000 are 0, threshold %d", flat,
              (unsigned)histogram[0], threshold);
     }
 }
