@@ -21,8 +21,8 @@
 #define NEAR DROGUE_SLOPE_NEAR
 #define FAR DROGUE_Q16(12, 5) /* slopes: so far from there, 1.2 px, lies the sharpened one */
 #define TAPS 7
-#define SMEARED_Q16 DROGUE_Q16(5, 2) /* px^2: an edge that is not is narrower */
-#define MOST_Q24 (1 << 21)           /* semi-axes, of a harmonic */
+#define SMEARED_Q32 (1u << 28) /* px^4: square of a smear of 1/4 px^2; of less an edge has a steepest place */
+#define MOST_Q24 (1 << 21)     /* semi-axes, of a harmonic */
 
 /* As the front end blurs: variance 1.33 px^2, 1 of its smoothing and 1/3 of Sobel's operator. */
 static int32_t blurred(const int32_t slope[SLOPES], int32_t i)
@@ -76,20 +76,21 @@ static int32_t moved_q16(const int32_t slope[SLOPES], const int32_t seen[SLOPES]
     return find_peak(&is_q16, curve, from, to) ? seen_q16 - is_q16 : 0;
 }
 
-/* The slopes of a group's rays where the outline has points, rising from bright to dark or the other way as its bin. */
-static void add_slopes(int32_t slope[SLOPES], const drogue_ray rays[DROGUE_RAYS], int32_t group,
-                       const drogue_image *view, const drogue_support *support)
+/* Slopes along a group's rays where the outline has points, 'middle' of them within it, rising from bright to dark or the
+ * other way as its bin. */
+static void add_slopes(int32_t slope[], int32_t slopes, int32_t middle, const drogue_ray rays[DROGUE_RAYS],
+                       int32_t group, const drogue_image *view, const drogue_support *support)
 {
-    int32_t grey[SLOPES + 2];
+    int32_t grey[DROGUE_SMEARED_SLOPES + 2];
     int32_t i;
     int32_t k;
-    memset(slope, 0, SLOPES * sizeof *slope);
+    memset(slope, 0, (size_t)slopes * sizeof *slope);
     for (k = group * GROUP; k < (group + 1) * GROUP; k++) {
         const int32_t bin = k * DROGUE_SUPPORT_BINS / DROGUE_RAYS;
         const uint32_t bright = support->bright_bins >> bin & 1u;
         if (support->bin[bin].count[bright] > 0) {
-            drogue_ray_read(grey, &rays[k], view, -(MIDDLE + 1) * rays[k].step_px_q16, SLOPES + 2);
-            for (i = 0; i < SLOPES; i++) {
+            drogue_ray_read(grey, &rays[k], view, -(middle + 1) * rays[k].step_px_q16, slopes + 2);
+            for (i = 0; i < slopes; i++) { /* bound: DROGUE_SMEARED_SLOPES */
                 slope[i] += bright ? grey[i] - grey[i + 2] : grey[i + 2] - grey[i];
             }
         }
@@ -159,14 +160,16 @@ static uint64_t squares_left(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], cons
 }
 
 /* Variance of a wave, px^2 Q48: a quarter of what it is of a group's mean, which the three degrees of freedom show that
- * the harmonics leave (of the mean over all groups it is half that: shrunk more); and a quarter of the mean square of the points' offsets, as measured. */
+ * the harmonics leave (of the mean over all groups it is half that: shrunk more); and a quarter of the mean square of the
+ * points' offsets, as measured. Nothing where motion blurs them: the points lie anywhere on an edge then, and what the
+ * harmonics leave is the motion's own. */
 static uint64_t variance_of(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t c_px_q24[5],
-                            const drogue_outline *outline)
+                            const drogue_outline *outline, int smeared)
 {
     const drogue_support *s = &outline->support;
     const int64_t rms_q24 = drogue_isqrt_u64(((uint64_t)s->squares_q32 << 16) / s->points);
     const uint64_t rms_px_q24 = (uint64_t)drogue_shr_round_s64(rms_q24 * outline->fitted.b_px_q16, 16);
-    return squares_left(off_px_q24, c_px_q24) / (12 * BINS * BINS) + rms_px_q24 * rms_px_q24 / 4;
+    return smeared ? 0 : squares_left(off_px_q24, c_px_q24) / (12 * BINS * BINS) + rms_px_q24 * rms_px_q24 / 4;
 }
 
 /* Less what noise makes of it: c (1 - variance / c^2), or nothing. */
@@ -181,16 +184,18 @@ static int32_t shrunk(int32_t c_px_q24, uint64_t variance_q48)
     return c_px_q24 < 0 ? -kept : kept;
 }
 
-/* An edge that motion blurs has no steepest place: what it says of one is chance. */
-static void leave_smeared(int32_t moved[GROUPS], const int32_t smear_px2_q16[2], const int32_t variance_px2_q16[GROUPS])
+/* An edge that motion blurs has no steepest place: it is where its lobe says. */
+static void find_smeared(int32_t moved[GROUPS], const drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
+                         const drogue_support *support)
 {
-    const uint64_t least_q32 = UINT64_C(1) << 32; /* a smear of 1 px^2 */
+    drogue_lobe lobe[GROUPS];
     int32_t i;
-    if (drogue_square_sum(smear_px2_q16[0], smear_px2_q16[1]) > least_q32) {
-        for (i = 0; i < GROUPS; i++) {
-            moved[i] = variance_px2_q16[i] > SMEARED_Q16 ? 0 : moved[i];
-        }
+    for (i = 0; i < GROUPS; i++) {
+        int32_t slope[DROGUE_SMEARED_SLOPES];
+        add_slopes(slope, DROGUE_SMEARED_SLOPES, DROGUE_SMEARED_MIDDLE, rays, i, view, support);
+        drogue_find_lobe(&lobe[i], slope);
     }
+    drogue_find_smeared(moved, lobe);
 }
 
 static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view)
@@ -200,13 +205,14 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
     int32_t off_px_q24[DROGUE_SUPPORT_BINS];
     int32_t c_px_q24[5];
     uint64_t variance_q48;
+    int smeared;
     int32_t i;
     drogue_rays_aim(rays, &outline->fitted, 4);
     for (i = 0; i < GROUPS; i++) {
         int32_t slope[SLOPES];
         int32_t seen[SLOPES];
         int32_t k;
-        add_slopes(slope, rays, i, view, &outline->support);
+        add_slopes(slope, SLOPES, MIDDLE, rays, i, view, &outline->support);
         seen[0] = 0; /* what a peak is to be higher than */
         for (k = DROGUE_SLOPE_FIRST; k <= DROGUE_SLOPE_LAST; k++) {
             seen[k] = blurred(slope, k);
@@ -215,11 +221,14 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
         variance_px2_q16[i] = drogue_edge_variance(slope, seen);
     }
     drogue_find_smear(outline->support.smear_px2_q16, variance_px2_q16);
-    leave_smeared(moved, outline->support.smear_px2_q16, variance_px2_q16);
+    smeared = drogue_square_sum(outline->support.smear_px2_q16[0], outline->support.smear_px2_q16[1]) > SMEARED_Q32;
+    if (smeared) {
+        find_smeared(moved, rays, view, &outline->support);
+    }
     drogue_turn_wave(outline->support.smear_px2_q16, outline->fitted.angle_rad_q16);
     spread(off_px_q24, moved, &outline->fitted);
     find_harmonics(c_px_q24, off_px_q24);
-    variance_q48 = variance_of(off_px_q24, c_px_q24, outline);
+    variance_q48 = variance_of(off_px_q24, c_px_q24, outline, smeared);
     for (i = 0; i < 5; i++) {
         const int64_t c_px_q40 = shrunk(c_px_q24[i], variance_q48) * (int64_t)DROGUE_Q16_ONE;
         const int64_t c_q24 = drogue_div_round_s64(c_px_q40, outline->fitted.b_px_q16);

@@ -16,20 +16,22 @@ using reference::Support;
 namespace {
 
 enum { GROUPS = 8, GROUP = DROGUE_RAYS / GROUPS, BINS = reference::SUPPORT_BINS / GROUPS, SLOPES = 23, MIDDLE = 11 };
+enum { LONG_SLOPES = 64, LONG_MIDDLE = 48 };
 
 using Curve = std::array<Real, SLOPES>;
 
-/* Slopes along a group's rays, half a pixel apart. */
-Curve slopes(const Support &s, const drogue_ray *rays, int group, const drogue_image &view)
+/* Slopes along a group's rays, half a pixel apart, 'middle' of them within the ellipse. */
+template <size_t N>
+std::array<Real, N> slopes(const Support &s, const drogue_ray *rays, int group, const drogue_image &view, int middle)
 {
-    Curve sum = {};
+    std::array<Real, N> sum = {};
     for (int k = group * GROUP; k < (group + 1) * GROUP; k++) {
         const auto bin = static_cast<size_t>(k * reference::SUPPORT_BINS / DROGUE_RAYS);
         const uint32_t bright = s.bright >> bin & 1;
         if (s.count[bin][bright] > 0) {
-            std::array<int32_t, SLOPES + 2> grey;
-            drogue_ray_read(grey.data(), &rays[k], &view, -(MIDDLE + 1) * 32768, SLOPES + 2);
-            for (size_t i = 0; i < SLOPES; i++) {
+            std::array<int32_t, N + 2> grey;
+            drogue_ray_read(grey.data(), &rays[k], &view, -(middle + 1) * 32768, N + 2);
+            for (size_t i = 0; i < N; i++) {
                 sum[i] += static_cast<Real>(bright ? grey[i] - grey[i + 2] : grey[i + 2] - grey[i]);
             }
         }
@@ -125,14 +127,99 @@ Real moved(const Curve &slope, const Curve &blurry)
     return is < 0 ? 0 : (seen - is) / 2;
 }
 
+/* An edge that motion blurs: middle and width at half its height, how far inwards the band's other edge is; half pixels. */
+struct Lobe {
+    Real at = 0, width = 0, farther = 0;
+};
+
+using Long = std::array<Real, LONG_SLOPES>;
+
+/* Where a curve falls below half of a peak, going one way; negative where it does not. */
+Real half_way(const Long &c, size_t peak, int step)
+{
+    for (auto i = static_cast<int>(peak); i + step >= 0 && i + step < LONG_SLOPES; i += step) {
+        const Real here = c[static_cast<size_t>(i)], next = c[static_cast<size_t>(i + step)];
+        if (2 * next < c[peak]) {
+            return i + step * (here - c[peak] / 2) / (here - next);
+        }
+    }
+    return -1;
+}
+
+Lobe lobe_of(const Long &slope)
+{
+    static const int tap[] = {1, 2, 3, 2, 1};
+    Long curve = {}, under = {};
+    Lobe lobe;
+    for (size_t i = 2; i + 2 < LONG_SLOPES; i++) {
+        for (size_t k = 0; k < 5; k++) {
+            curve[i] += tap[k] * slope[i + k - 2];
+        }
+        under[i] = -curve[i];
+    }
+    const auto top = std::max_element(curve.begin() + LONG_MIDDLE - 6, curve.begin() + LONG_MIDDLE + 7);
+    const auto peak = static_cast<size_t>(top - curve.begin());
+    const Real inner = half_way(curve, peak, -1), outer = half_way(curve, peak, 1);
+    if (!(*top > 0) || inner < 0 || outer < 0) {
+        return lobe;
+    }
+    lobe.at = (inner + outer) / 2 - LONG_MIDDLE;
+    lobe.width = outer - inner;
+    auto farthest = static_cast<size_t>(inner);
+    const int from = static_cast<int>(inner);
+    for (int i = from - 1; i > from - 36 && i >= 2; i--) {
+        farthest = under[static_cast<size_t>(i)] > under[farthest] ? static_cast<size_t>(i) : farthest;
+    }
+    const Real far_inner = half_way(under, farthest, -1), far_outer = half_way(under, farthest, 1);
+    if (3 * under[farthest] > *top && far_inner >= 0 && far_outer >= 0) {
+        const Real between = (inner + outer - far_inner - far_outer) / 2;
+        lobe.farther = between < 30 ? between : 0;
+    }
+    return lobe;
+}
+
+/* Motion of length l across a band of width w: lobes min(l, w) wide, max(l, w) apart; both too far out by half of what l
+ * is longer. Which of the two is which, such that opposite groups agree, and with the band where it is sharpest. */
+std::array<Real, GROUPS> smeared_offsets(const std::array<Lobe, GROUPS> &lobe)
+{
+    std::array<Real, GROUPS> off;
+    Real band = 0, sharpest = 1000;
+    for (size_t k = 0; k < GROUPS / 2; k++) {
+        const Lobe &p = lobe[k], &q = lobe[k + GROUPS / 2];
+        if (p.farther > 0 && q.farther > 0 && p.width + q.width < sharpest) {
+            sharpest = p.width + q.width;
+            band = (p.farther + q.farther) / 2;
+        }
+    }
+    for (size_t k = 0; k < GROUPS / 2; k++) {
+        const Lobe &p = lobe[k], &q = lobe[k + GROUPS / 2];
+        Real least = 6, more[2] = {0, 0};
+        for (int i = 0; i < 4 && p.farther > 0 && q.farther > 0; i++) {
+            const bool first = (i & 1) != 0, second = (i & 2) != 0;
+            const Real one = first ? p.farther : p.width, two = second ? q.farther : q.width;
+            const Real bands = ((first ? p.width : p.farther) + (second ? q.width : q.farther)) / 2;
+            const Real off_by = std::abs(one - two) + std::abs(bands - band) + (i > 0 ? 1 : 0);
+            if (off_by < least) {
+                const Real length = (one + two) / 2;
+                least = off_by;
+                more[0] = first ? std::max<Real>(length - p.width, 0) / 2 : 0;
+                more[1] = second ? std::max<Real>(length - q.width, 0) / 2 : 0;
+            }
+        }
+        off[k] = (more[0] - p.at) / 2; /* half pixels */
+        off[k + GROUPS / 2] = (more[1] - q.at) / 2;
+    }
+    return off;
+}
+
 std::array<Real, 5> basis(int k)
 {
     const Real t = (k + 0.5L) * 2 * std::acos(Real(-1)) / reference::SUPPORT_BINS;
     return {1, std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)};
 }
 
-/* Harmonics of the groups' offsets, in semi-axes, each shrunk by what noise makes of it. */
-std::array<Real, 5> harmonics(const std::array<Real, GROUPS> &off, const Outline &o)
+/* Harmonics of the groups' offsets, in semi-axes, each shrunk by what noise makes of it where motion blurs nothing. */
+std::array<Real, 5> harmonics(const std::array<Real, GROUPS> &off, const Outline &o, bool smeared)
 {
     const Ellipse &e = o.fitted;
     std::array<Real, reference::SUPPORT_BINS> radial;
@@ -157,9 +244,9 @@ std::array<Real, 5> harmonics(const std::array<Real, GROUPS> &off, const Outline
         }
         left += mean * mean;
     }
-    const Real variance = left / 12 + o.support.squares / o.support.points / 4;
+    const Real variance = smeared ? 0 : left / 12 + o.support.squares / o.support.points / 4;
     for (Real &v : c) {
-        v = v * v <= variance ? 0 : std::clamp<Real>(v - variance / v, -0.125L, 0.125L);
+        v = v * v <= variance ? Real(0) : std::clamp<Real>(v - variance / v, -0.125L, 0.125L);
     }
     return c;
 }
@@ -207,17 +294,23 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
     if (o.support.points > 0) {
         drogue_rays_aim(rays.data(), &aim, 4);
         for (int g = 0; g < GROUPS; g++) {
-            const Curve slope = slopes(o.support, rays.data(), g, view), seen = blurred(slope);
+            const Curve slope = slopes<SLOPES>(o.support, rays.data(), g, view, MIDDLE), seen = blurred(slope);
             off[static_cast<size_t>(g)] = moved(slope, seen);
             variance[static_cast<size_t>(g)] = edge_variance(slope, seen);
         }
         o.support.smear = smear_of(variance);
-        for (size_t g = 0; g < GROUPS && std::hypot(o.support.smear[0], o.support.smear[1]) > 1; g++) {
-            off[g] = variance[g] > 2.5L ? 0 : off[g];
+        const bool smeared = std::hypot(o.support.smear[0], o.support.smear[1]) > 0.25L;
+        if (smeared) {
+            std::array<Lobe, GROUPS> lobe;
+            for (int g = 0; g < GROUPS; g++) {
+                lobe[static_cast<size_t>(g)] =
+                    lobe_of(slopes<LONG_SLOPES>(o.support, rays.data(), g, view, LONG_MIDDLE));
+            }
+            off = smeared_offsets(lobe);
         }
         const Real c2 = std::cos(2 * o.fitted.angle), s2 = std::sin(2 * o.fitted.angle), c = o.support.smear[0];
         o.support.smear = {c * c2 - o.support.smear[1] * s2, o.support.smear[1] * c2 + c * s2}; /* from +x */
-        o.support.pull = harmonics(off, o);
+        o.support.pull = harmonics(off, o, smeared);
         put_back(o.ellipse, o.support.pull);
     }
     undo_blur(o.ellipse, config);
