@@ -25,15 +25,22 @@ static void clear(drogue_result *out)
 }
 
 /* What may be tried, in this order: the configured thresholds of Canny or those of the region's own noise, and of either
- * the outline found or a larger one about it. */
-enum { FIRST, FIRST_LARGER, LOWER, LOWER_LARGER, TRIES };
+ * the outline found or a larger one about it; then, where the inner disc is too large for the best of them, one along
+ * rays. */
+enum { FIRST, FIRST_LARGER, LOWER, LOWER_LARGER, BEYOND };
+
+static void begin_try(drogue_frame *f, int what)
+{
+    f->doubt_q16 = DROGUE_Q16_MAX;
+    f->tried = what;
+    f->too_large = 0;
+    f->larger_q16 = 0;
+}
 
 static drogue_status try_out(drogue_frame *f, const drogue_region *region, int what, int looked)
 {
     drogue_status status = DROGUE_OK;
-    f->doubt_q16 = DROGUE_Q16_MAX;
-    f->tried = what;
-    f->too_large = 0;
+    begin_try(f, what);
     if (!looked) {
         clear(f->out);
         status = drogue_frame_outline(f, region);
@@ -88,6 +95,7 @@ typedef struct best_try {
     drogue_status status;
     drogue_second_look second_look;
     int32_t too_large;
+    drogue_q16 larger_q16;
     drogue_region region; /* where its edges were looked for */
     drogue_result result;
 } best_try;
@@ -99,6 +107,7 @@ static void keep_try(best_try *best, const drogue_frame *f, int what, drogue_sta
     best->status = status;
     best->second_look = f->second_look;
     best->too_large = f->too_large;
+    best->larger_q16 = f->larger_q16;
     best->region = f->asked;
     best->result = *f->out;
 }
@@ -109,9 +118,11 @@ static void return_to(const best_try *best, drogue_frame *f, const drogue_region
     const drogue_config *config = f->setup->config;
     const int found = best->result.ellipse.a_px_q16 > 0; /* its arcs are in the list of that outline, pose or not */
     drogue_edge_list list;
-    if (found && best->what < LOWER && last >= LOWER) {
-        f->canny_low = config->canny_low;
-        f->canny_high = config->canny_high;
+    if (found && (last == BEYOND || (best->what < LOWER && last >= LOWER))) {
+        if (best->what < LOWER) {
+            f->canny_low = config->canny_low;
+            f->canny_high = config->canny_high;
+        }
         (void)drogue_frame_edges(f, &best->region);
     } else if (!found && f->others) {
         (void)drogue_frame_edges(f, region);
@@ -134,6 +145,30 @@ static drogue_second_look short_of_room(const drogue_frame *f, drogue_status sta
     }
 }
 
+/* The inner disc is too large for the best outline: look for the one that it is of the size for. Returns what was tried
+ * last. */
+static int try_beyond(best_try *best, drogue_frame *f, int last)
+{
+    const drogue_ellipse was = best->result.ellipse;
+    const drogue_region region = best->region;
+    drogue_status status;
+    if (best->status != DROGUE_OK || best->larger_q16 <= SURE_Q16) {
+        return last;
+    }
+    begin_try(f, BEYOND);
+    clear(f->out);
+    status = drogue_frame_beyond(f, &region, &was, best->larger_q16);
+    if (status == DROGUE_OK) {
+        f->outline.quality = best->result.quality; /* of the arcs that it was found from */
+        f->outline.cluster_members = best->result.cluster_members;
+        status = drogue_frame_judge(f);
+    }
+    if (f->doubt_q16 < best->least_q16 - CLEARLY_Q16) {
+        keep_try(best, f, BEYOND, status);
+    }
+    return BEYOND;
+}
+
 /* Measure; while the inner disc is not seen or not of its size, try what else the outline may be. What has the disc
  * nearest to its size stands. */
 static drogue_status measure(drogue_frame *f, const drogue_region *region)
@@ -147,7 +182,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     best.least_q16 = DROGUE_Q16_MAX;
     f->canny_low = config->canny_low;
     f->canny_high = config->canny_high;
-    for (what = FIRST; what < TRIES && best.least_q16 > SURE_Q16; what++) {
+    for (what = FIRST; what < BEYOND && best.least_q16 > SURE_Q16; what++) {
         const int larger = what == FIRST_LARGER || what == LOWER_LARGER;
         if (larger && status != DROGUE_OK) {
             continue;
@@ -168,6 +203,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
             room = short_of_room(f, status);
         }
     }
+    last = best.least_q16 > SURE_Q16 ? try_beyond(&best, f, last) : last;
     if (best.what != last || f->others) {
         return_to(&best, f, region, last);
     }

@@ -2,7 +2,10 @@
 /* Region, front end, outline; and the second look at an outline that the ring cuts. */
 #include "look.h"
 
+#include <string.h>
+
 #include "drogue/frontend.h"
+#include "drogue/inner.h"
 
 /* Clip the region to the image; the mask stays that of the region asked for, in the clipped one's coordinates. */
 static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, const drogue_image *image,
@@ -171,4 +174,35 @@ drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region)
     f->others = 1;
     (void)place_view(f, region);
     return first;
+}
+
+drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
+                                  drogue_q16 larger_q16)
+{
+    drogue_outline *outline = &f->outline;
+    drogue_result *out = f->out;
+    const drogue_q16 by_px_q16 = drogue_q16_mul(was->a_px_q16, larger_q16);
+    drogue_ellipse about = *was;
+    const drogue_status status = place_view(f, region);
+    int k;
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    f->asked = *region;
+    f->others = 0;
+    f->second_look = DROGUE_SECOND_NONE;
+    memset(outline, 0, sizeof *outline);
+    for (k = 0; k < 4; k++) {
+        outline->arcs[k] = DROGUE_NO_ARC;
+    }
+    about.xc_px_q16 = drogue_q16_sub(was->xc_px_q16, drogue_q16_from_int(out->region.x_px));
+    about.yc_px_q16 = drogue_q16_sub(was->yc_px_q16, drogue_q16_from_int(out->region.y_px));
+    outline->fitted = about;
+    about.a_px_q16 = drogue_q16_add(about.a_px_q16, by_px_q16);
+    about.b_px_q16 = drogue_q16_add(about.b_px_q16, by_px_q16);
+    out->list.edge_count = drogue_inner_beyond(f->workspace, &f->view, &about, by_px_q16);
+    return out->list.edge_count > 0 &&
+                   drogue_outline_enlarge(outline, f->workspace, &out->list, &f->mask, f->setup->config)
+               ? DROGUE_OK
+               : DROGUE_E_NO_ELLIPSE;
 }

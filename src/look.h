@@ -18,10 +18,11 @@ typedef struct drogue_frame {
     int32_t canny_low;
     int32_t canny_high;
     int32_t tried;
-    drogue_region asked;  /* where edges were looked for last */
-    int32_t others;       /* the workspace holds edges of another region than the view */
-    int32_t too_large;    /* the inner disc is seen, but too large for the outline */
-    drogue_q16 doubt_q16; /* by what share the inner disc's size is off; 1 and more: not seen, or no outline */
+    drogue_region asked;   /* where edges were looked for last */
+    int32_t others;        /* the workspace holds edges of another region than the view */
+    int32_t too_large;     /* the inner disc is seen, but too large for the outline */
+    drogue_q16 larger_q16; /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
+    drogue_q16 doubt_q16;  /* by what share the inner disc's size is off; 1 and more: not seen, or no outline */
 } drogue_frame;
 
 /* Find the edges of a region with the frame's thresholds; the view becomes the region's pixels. */
@@ -30,6 +31,11 @@ drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region);
 /* An outline that the ring mask cuts is looked for once more; unless that is better, what was found first stands, and where
  * that is an outline its edges are found again. */
 drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region);
+
+/* Look along rays for an outline that is larger by a share than one in a region asked for, px of the whole image: where the
+ * inner disc says that it is. The workspace's edge points become those of the rays, without arcs. */
+drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
+                                  drogue_q16 larger_q16);
 
 /* From the outline to the pose. Apart from the rest for its stack: that of the looks is not below it. */
 drogue_status drogue_frame_judge(drogue_frame *f);

@@ -52,16 +52,17 @@ void drogue_ray_read(int32_t *grey_q8, const drogue_ray *ray, const drogue_image
  * after: by the parabola through the three, samples Q16, within half a sample. */
 int32_t drogue_ray_peak_q16(int32_t before, int32_t at, int32_t after);
 
-/* Place rays and find where the grey rises outwards along them.
+/* Place rays and find where the grey rises outwards along them, or changes either way.
  *
  *  reach   how far from the ellipse edges are looked for, [2, 512] px and limited to that; samples are half a pixel apart
  *          or, beyond 16 px, 32 to the reach
  *  every   1 or 2: of the rays each, or every second one and no edges on the others
  *  least   least step of grey, grey levels
+ *  either  1: falling grey, too, its slope taken as positive
  *  image, ellipse, phase  as above
  */
 void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *ellipse,
-                      drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least);
+                      drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least, int either);
 
 #ifdef __cplusplus
 }

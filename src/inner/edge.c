@@ -31,31 +31,6 @@ static int32_t scatter_of(drogue_real *scatter, const drogue_ray_bins *b)
     return bins;
 }
 
-/* From all edges within the gate to those about one place: place alone, then, where 'size' says so, with its size. */
-static int settle(drogue_ray_sums *s, drogue_q16 v_px_q16[3], const drogue_ray rays[RAYS], drogue_q16 gate_px_q16,
-                  drogue_q16 last_px_q16, int size)
-{
-    drogue_real normal[6];
-    drogue_q16 within = gate_px_q16;
-    int round;
-    for (round = 0; round < 10; round++) {
-        const drogue_q16 x = v_px_q16[0];
-        const drogue_q16 y = v_px_q16[1];
-        const drogue_q16 grown = v_px_q16[2];
-        const drogue_q16 before = within;
-        memset(s, 0, sizeof *s);
-        drogue_ray_sums_add_edges(s, NULL, rays, v_px_q16, within);
-        if (!drogue_ray_sums_solve(v_px_q16, normal, s, size && round > 1)) {
-            return 0;
-        }
-        within = larger(within / 4 * 3, last_px_q16);
-        if (round > 1 && within == before && v_px_q16[0] == x && v_px_q16[1] == y && v_px_q16[2] == grown) {
-            break; /* and so it stays */
-        }
-    }
-    return 1;
-}
-
 /* The band narrows to what agrees. */
 static int narrow(drogue_ray_sums *s, drogue_q16 v_px_q16[3], drogue_q16 *within_px_q16, const drogue_ray rays[RAYS])
 {
@@ -105,7 +80,8 @@ static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], uint32_t 
     v[1] = v_px_q16[1];
     v[2] = 0;
     keep_beyond(rays, v_px_q16);
-    if (settle(&s, v, rays, drogue_q16_add(magnitude(v_px_q16[2]), DROGUE_Q16(1, 1)), APART, 0) && s.rays >= least) {
+    if (drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(magnitude(v_px_q16[2]), DROGUE_Q16(1, 1)), APART, 0) &&
+        s.rays >= least) {
         memcpy(v_px_q16, v, sizeof v);
     }
 }
@@ -129,7 +105,7 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     int32_t filled;
     int32_t k;
     phases = drogue_clamp_s32(phases, 1, 8);
-    drogue_rays_cast(rays, image, e, 0, 4, 1, least);
+    drogue_rays_cast(rays, image, e, 0, 4, 1, least, 0);
     if (!narrow(&s, v, &within, rays) || !drogue_inner_shade_find(&grey, rays, image, v, within)) {
         return DROGUE_E_NO_INNER_PART;
     }
@@ -208,9 +184,9 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
         const int32_t every = e->a_px_q16 < SMALL ? 2 : 1;
         drogue_q16 v[3] = {0, 0, 0};
         drogue_ray_sums s;
-        drogue_rays_cast(rays, image, e, reach, 4, every, config->min_inner_contrast);
-        if (settle(&s, v, rays, drogue_q16_add(gate_px_q16, DROGUE_Q16(1, 1)), larger(DROGUE_Q16(3, 2), reach / 16),
-                   1) &&
+        drogue_rays_cast(rays, image, e, reach, 4, every, config->min_inner_contrast, 0);
+        if (drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(gate_px_q16, DROGUE_Q16(1, 1)),
+                                   larger(DROGUE_Q16(3, 2), reach / 16), 1) &&
             s.slopes_q8 > steepest) {
             steepest = s.slopes_q8;
             if (magnitude(v[2]) > drogue_q16_add(e->a_px_q16 / 64, DROGUE_Q16(1, 2))) {

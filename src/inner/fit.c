@@ -2,6 +2,8 @@
 /* Least squares over rays. */
 #include "fit.h"
 
+#include <string.h>
+
 drogue_q16 drogue_ray_along(const drogue_ray *r, const drogue_q16 v_px_q16[3])
 {
     const int64_t shift = drogue_product(r->nx_q14, v_px_q16[0]) + drogue_product(r->ny_q14, v_px_q16[1]);
@@ -99,6 +101,30 @@ int drogue_ray_sums_solve(drogue_q16 v_px_q16[3], drogue_real normal[6], const d
     drogue_cholesky_solve(down, normal, size ? 3 : 2);
     for (i = 0; i < (size ? 3 : 2); i++) {
         v_px_q16[i] = drogue_q16_add(v_px_q16[i], drogue_real_to_q16(down[i]));
+    }
+    return 1;
+}
+
+int drogue_ray_sums_settle(drogue_ray_sums *s, drogue_q16 v_px_q16[3], const drogue_ray rays[RAYS],
+                           drogue_q16 gate_px_q16, drogue_q16 last_px_q16, int size)
+{
+    drogue_real normal[6];
+    drogue_q16 within = gate_px_q16;
+    int round;
+    for (round = 0; round < 10; round++) {
+        const drogue_q16 x = v_px_q16[0];
+        const drogue_q16 y = v_px_q16[1];
+        const drogue_q16 grown = v_px_q16[2];
+        const drogue_q16 before = within;
+        memset(s, 0, sizeof *s);
+        drogue_ray_sums_add_edges(s, NULL, rays, v_px_q16, within);
+        if (!drogue_ray_sums_solve(v_px_q16, normal, s, size && round > 1)) {
+            return 0;
+        }
+        within = larger(within / 4 * 3, last_px_q16);
+        if (round > 1 && within == before && v_px_q16[0] == x && v_px_q16[1] == y && v_px_q16[2] == grown) {
+            break; /* and so it stays */
+        }
     }
     return 1;
 }

@@ -46,6 +46,11 @@ void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const 
  * are too few rays. */
 int drogue_ray_sums_solve(drogue_q16 v_px_q16[3], drogue_real normal[6], const drogue_ray_sums *s, int size);
 
+/* From all edges within the gate to those about one place: place alone, then, where 'size' says so, with its size. 0 where
+ * too few are left. */
+int drogue_ray_sums_settle(drogue_ray_sums *s, drogue_q16 v_px_q16[3], const drogue_ray rays[RAYS],
+                           drogue_q16 gate_px_q16, drogue_q16 last_px_q16, int size);
+
 /* Root mean square of the residuals. */
 drogue_q16 drogue_ray_sums_rms(const drogue_ray_sums *s);
 

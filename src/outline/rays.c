@@ -85,9 +85,15 @@ int32_t drogue_ray_peak_q16(int32_t before, int32_t at, int32_t after)
     return (int32_t)drogue_div_round_s64(((int64_t)after - before) * HALF, bend);
 }
 
+static inline int32_t slope_of(const int32_t *sum, int32_t i, int either)
+{
+    const int32_t slope = sum[i + REACH] - sum[i];
+    return either && slope < 0 ? -slope : slope;
+}
+
 /* Slopes along a ray by a derivative of Gaussian of two samples, and their peaks to a share of a sample: 'out' samples to
  * either side. Its taps -2, -3, -4, -3, 0, 3, 4, 3, 2 are the difference of two sums of five samples. */
-static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, int32_t least_q8)
+static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, int32_t least_q8, int either)
 {
     int32_t grey[SAMPLES + 2 * REACH];
     int32_t sum[SAMPLES + REACH];
@@ -101,12 +107,12 @@ static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, in
         sum[i] = 2 * (grey[i] + grey[i + 4]) + 3 * (grey[i + 1] + grey[i + 3]) + 4 * grey[i + 2];
     }
     r->count = 0;
-    at = sum[REACH] - sum[0];
-    after = sum[REACH + 1] - sum[1];
+    at = slope_of(sum, 0, either);
+    after = slope_of(sum, 1, either);
     for (i = 1; i + 1 < slopes; i++) {
         before = at;
         at = after;
-        after = sum[i + 1 + REACH] - sum[i + 1];
+        after = slope_of(sum, i + 1, either);
         if (at >= least_q8 && at > before && at >= after) {
             const int64_t part_q16 = drogue_ray_peak_q16(before, at, after);
             drogue_ray_edge e;
@@ -177,7 +183,7 @@ static void aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t p
 void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase) { aim(rays, e, phase, 1); }
 
 void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *e,
-                      drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least)
+                      drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least, int either)
 {
     const drogue_q16 reach = drogue_clamp_s32(reach_px_q16, NEAREST, FARTHEST);
     const drogue_q16 least_step = reach / (SAMPLES / 2);
@@ -189,7 +195,7 @@ void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, c
         rays[k].count = 0;
         if (k % every == 0) {
             rays[k].step_px_q16 = step;
-            find_edges(&rays[k], image, out, least * DROGUE_RAY_WEIGHT * 128); /* blur may halve a slope */
+            find_edges(&rays[k], image, out, least * DROGUE_RAY_WEIGHT * 128, either); /* blur may halve a slope */
         }
     }
 }

@@ -4,6 +4,7 @@
 
 #include "images.hpp"
 #include "scene.hpp"
+#include "varied.hpp"
 
 namespace vectors {
 
@@ -291,6 +292,26 @@ void add_look(Set &set)
     }
     l = {{x - 20, y - 49, 97, 97}}; /* past the image's right border */
     add_one(set, "past-the-border", Tier::boundary, {"border", "arc"}, p, l);
+    p.inner_radius = 0.12;
+    p.camera = {600, 600, 63.5, 63.5};
+    for (const int rim : {205, 208, 211, 214, 217, 223}) { /* before 205: along rays, and where it is an edge at once */
+        p.image = image_from(128, 128, [rim](int x, int y) {
+            const double d = std::hypot(x - 62.3, y - 64.6);
+            const auto within = [d](double radius) { return std::clamp(radius - d + 0.5, 0.0, 1.0); };
+            const double grey = 205 + (rim - 205) * within(48) + (90 - rim) * within(42) - 78 * within(16.2);
+            return static_cast<int>(grey + 0.5) + (x * 7 + y * 5) % 3;
+        });
+        l = {{0, 0, 128, 128}};
+        add_one(set, "rim-" + std::to_string(rim), Tier::stress, {}, p, l);
+    }
+    const accuracy::Trial faint = accuracy::varied_trial(41, accuracy::Variety::bright, 12, false);
+    p.image = accuracy::render(faint.scene, faint.region);
+    p.camera = faint.scene.camera.cropped(faint.region.tl());
+    p.radius = faint.scene.drogue.rim_radius_m;
+    p.inner_radius = faint.scene.drogue.inner_radius_m;
+    p.depth = faint.scene.drogue.inner_depth_m;
+    l = {{0, 0, faint.region.width, faint.region.height}};
+    add_one(set, "along-rays", Tier::stress, {}, p, l);
     p.image = constant(100, 100, 80);
     l = {{0, 0, 100, 100}};
     add_one(set, "nothing", Tier::must_reject, {"degenerate"}, p, l);

@@ -9,6 +9,7 @@
 #include "conditions.hpp"
 #include "images.hpp"
 #include "scene.hpp"
+#include "varied.hpp"
 
 namespace vectors {
 
@@ -262,6 +263,54 @@ void add_regions(Set &set)
     add_frame(set, "inner-behind-camera", Tier::stress, {"behind-camera", "inner-missing"}, f);
 }
 
+/* What only many pixels together show: a rim hardly brighter than the ground behind it about a dark wall, whose edge is
+ * found first; a rim narrower than the motion that blurs it. */
+void add_faint_rims(Set &set)
+{
+    int k = 0;
+    static const struct {
+        uint64_t seed;
+        int index;
+    } faint[] = {{1, 7}, {1, 21}, {41, 3}, {41, 12}, {1, 21}}; /* the last through a lens */
+    for (const auto &chosen : faint) {
+        accuracy::Trial t = accuracy::varied_trial(chosen.seed, accuracy::Variety::bright, chosen.index, false);
+        cv::Rect region = t.region;
+        if (k == 4) {
+            t.scene.camera.k1 = -0.2;
+            region = region_of(t.scene);
+        }
+        Frame f = photograph(t.scene, region, 0);
+        f.radius = t.model.rim_radius_m_q16 / 65536.0;
+        f.inner_radius = t.model.inner_radius_m_q16 / 65536.0;
+        f.depth = t.model.inner_depth_m_q16 / 65536.0;
+        add_frame(set, "faint-rim-" + std::to_string(k++), Tier::stress, {}, f);
+    }
+    /* a drogue as faint, whose inner disc is larger than the model's: nothing is beyond its rim */
+    accuracy::Scene larger = scene_at(69, 0.3, 0.2, 10, 8, -6);
+    larger.drogue.coupling_radius_m = 0.121;
+    larger.look.canopy_grey = 214;
+    larger.look.ambient = 1;
+    larger.look.rib_gain = 1;
+    larger.background = {205, 205, 1, 256, 3};
+    Frame disc = photograph(larger, region_of(larger), 0);
+    disc.inner_radius = 0.115;
+    add_frame(set, "faint-rim-larger-inner", Tier::stress, {"inner-missing"}, disc);
+    for (k = 0; k < 6; k++) {
+        accuracy::Scene s = scene_at(static_cast<uint64_t>(70 + k), 0.2, 0.1 * k, 7.5 + k, 12 - 5 * k, 3 * k - 8);
+        s.drogue.wall_share = 0.84 + 0.02 * k;
+        s.background = accuracy::Background::ground();
+        s.look = accuracy::Look::bright();
+        s.look.wall_grey = 70;
+        s.sensor.motion_length_px = 5 + k;
+        s.sensor.motion_angle_rad = 0.5 * k;
+        if (k == 4) {
+            s.camera = {1400, 1410, 1023.5, 1023.5, 0.1, 0.02, 0, 0, 0};
+        }
+        add_frame(set, "motion-blur-narrow-" + std::to_string(k), Tier::stress, {"motion-blur"},
+                  photograph(s, region_of(s), 0));
+    }
+}
+
 /* A scene of each condition of the accuracy study, at a distance that makes it small. */
 void add_conditions(Set &set)
 {
@@ -388,6 +437,7 @@ void add_frame(Set &set, const std::string &scenes_folder)
     add_disturbed_scenes(set);
     add_regions(set);
     add_conditions(set);
+    add_faint_rims(set);
     add_drawings(set);
 }
 

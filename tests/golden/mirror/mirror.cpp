@@ -42,7 +42,8 @@ struct Frame {
     cv::Mat view;
     drogue_mask mask;
     std::unique_ptr<FrontEnd> front;
-    drogue_outline decided; /* the library's */
+    std::array<int64_t, 4> asked; /* the region, before it is clipped */
+    drogue_outline decided;       /* the library's */
     Follow follow;
     cv::Rect region; /* of the last outline looked for, and that */
     Outline outline;
@@ -55,6 +56,7 @@ drogue_status outline_in(Result &out, Frame &f, const Task &task, const std::arr
         return DROGUE_E_REGION;
     }
     drogue_capacity capacity = task.capacity;
+    f.asked = region;
     if (static_cast<uint32_t>(out.region.width) > capacity.width_px) {
         return DROGUE_E_WORKSPACE;
     }
@@ -180,6 +182,8 @@ void find_inner(Result &out, Ellipse &expected, const Frame &f, const std::array
         const drogue_ellipse &e = discs.disc[out.part.which];
         expected = {real(e.xc_px_q16), real(e.yc_px_q16), real(e.a_px_q16), real(e.b_px_q16), 0, true};
         out.area = std::acos(Real(-1)) * (expected.a + out.part.grown) * (expected.b + out.part.grown);
+        const drogue_q16 grown = known ? edge.grown_px_q16 : reference::q16(out.part.grown);
+        out.larger_q16 = grown > DROGUE_INNER_SEEN_TO_PX_Q16 ? drogue_q16_div(grown, e.a_px_q16) : 0;
     }
 }
 
@@ -373,11 +377,42 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
             out.too_large = from.trusted && out.part.grown > room_of(expected, task.config);
             from.trusted = from.trusted && !out.too_large;
         }
+        out.larger_q16 = from.trusted || out.too_large ? out.larger_q16 : 0;
         from.doubt = from.trusted ? std::max<Real>(std::fabs(out.part.grown) - 0.5L, 0) / expected.a : 0;
         doubt = !from.trusted ? 1 : std::fabs(out.part.grown) <= 0.5L ? 0 : std::fabs(out.part.grown) / expected.a;
     }
     finish(out, task, from, library);
     return doubt;
+}
+
+/* A larger outline along rays about the best one. */
+bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &decided,
+            const std::array<int64_t, 4> &region, const Task &task)
+{
+    const bool follow = f.follow.library != nullptr;
+    Ellipse was = best.seen;
+    out.status = DROGUE_OK;
+    out.tried = 4;
+    place(out.region, f.mask, task.image, region);
+    f.view = task.image(out.region).clone();
+    was.xc -= out.region.x;
+    was.yc -= out.region.y;
+    const drogue_ellipse known = follow ? decided.ellipse : rounded_ellipse(was);
+    const drogue_q16 by = drogue_q16_mul(known.a_px_q16, best.larger_q16);
+    drogue_ellipse about = known;
+    about.a_px_q16 += by;
+    about.b_px_q16 += by;
+    look_beyond(*f.front, f.view, about, by);
+    out.outline.arcs.fill(DROGUE_NO_ARC);
+    out.outline.fitted = was;
+    out.outline.quality = best.outline.quality;
+    out.outline.members = best.outline.members;
+    if (follow) {
+        f.decided = {};
+        f.decided.fitted = known;
+        (void)drogue_outline_enlarge(&f.decided, &f.front->workspace, &f.front->list, &f.mask, &task.config);
+    }
+    return f.front->list.edge_count > 0 && enlarge(out.outline, *f.front, f.mask, task.config, f.follow);
 }
 
 } // namespace
@@ -395,6 +430,8 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         best.status = DROGUE_E_ARGUMENT;
         return best;
     }
+    drogue_outline decided = {}; /* the library's, of the best */
+    std::array<int64_t, 4> asked_for = {};
     drogue_status status = DROGUE_OK;
     drogue_second_look room = DROGUE_SECOND_NONE; /* of any try that had too little of it */
     for (int what = 0; what < 4 && least > SURE; what++) {
@@ -453,6 +490,18 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         }
         if (doubt < least - 1 / 256.0L) {
             least = doubt;
+            best = out;
+            decided = f.decided;
+            asked_for = f.asked;
+            if (features != nullptr) {
+                *features = from;
+            }
+        }
+    }
+    if (best.status == DROGUE_OK && least > SURE && real(best.larger_q16) > SURE) {
+        Result out;
+        Features from = {};
+        if (beyond(out, f, best, decided, asked_for, task) && judge(out, from, f, task, library) < least - 1 / 256.0L) {
             best = out;
             if (features != nullptr) {
                 *features = from;

@@ -35,7 +35,8 @@ struct Result {
     Real area = 0;                   /* of the disc, px^2 */
     reference::Point inner = {0, 0}; /* as seen, px of the whole image */
     Real ambiguity = 1;
-    bool too_large = false; /* a disc is seen that would be believed but for its size */
+    drogue_q16 larger_q16 = 0; /* by what share the disc seen is larger than of its size, where that tells */
+    bool too_large = false;    /* a disc is seen that would be believed but for its size */
     bool resolved = false;
     reference::Pose pose = {}, alternative = {};
     reference::Covariance covariance = {};

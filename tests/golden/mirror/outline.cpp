@@ -3,6 +3,8 @@
  * is exact; from there on every number is unrounded, and every threshold is the configuration's. */
 #include "outline.hpp"
 
+#include "drogue/inner.h"
+
 #include "../../band_points.h"
 
 #include <algorithm>
@@ -410,6 +412,18 @@ drogue_status Finder::find(Outline &out)
 
 } // namespace
 
+/* The list's edge points as numbers. */
+static void number(FrontEnd &front)
+{
+    front.edges.clear();
+    for (uint32_t i = 0; i < front.list.edge_count; i++) {
+        const drogue_edge &e = front.workspace.edges[i];
+        front.edges.push_back({{static_cast<Real>(e.x_q5) / 32, static_cast<Real>(e.y_q5) / 32},
+                               static_cast<Real>(e.gx),
+                               static_cast<Real>(e.gy)});
+    }
+}
+
 std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &mask, const drogue_config &config,
                                         const drogue_capacity &capacity)
 {
@@ -432,13 +446,15 @@ std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &
         drogue_frontend_row(&frontend, view.ptr<uint8_t>(y));
     }
     out->status = drogue_frontend_end(&out->list, &frontend);
-    for (uint32_t i = 0; i < out->list.edge_count; i++) {
-        const drogue_edge &e = out->workspace.edges[i];
-        out->edges.push_back({{static_cast<Real>(e.x_q5) / 32, static_cast<Real>(e.y_q5) / 32},
-                              static_cast<Real>(e.gx),
-                              static_cast<Real>(e.gy)});
-    }
+    number(*out);
     return out;
+}
+
+void look_beyond(FrontEnd &front, const cv::Mat &view, const drogue_ellipse &about, drogue_q16 beyond_px_q16)
+{
+    const drogue_image image = {view.data, view.cols, view.rows, static_cast<int32_t>(view.step)};
+    front.list = {drogue_inner_beyond(&front.workspace, &image, &about, beyond_px_q16), 0};
+    number(front);
 }
 
 drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,

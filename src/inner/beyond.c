@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* A larger outline along rays, where its step is too low for the edge detector: so many pixels together show it. */
+#include "drogue/inner.h"
+
+#include "fit.h"
+
+#define LEAST 10                /* grey levels, of which blur may halve the slope */
+#define WITHIN DROGUE_Q16(3, 4) /* px: what agrees */
+#define ENOUGH (2 * RAYS / 5)   /* rays that agree */
+#define PARTS 8                 /* of the outline, of which all but two must have some */
+#define HALF DROGUE_Q16(1, 2)   /* px between samples */
+#define STEEP_Q2 7              /* the front end's gradient over the grey 1/2 and 1 px to either side, their sum */
+
+static drogue_q16 reach_of(drogue_q16 beyond_px_q16) { return drogue_q16_add(beyond_px_q16 / 8 * 5, DROGUE_Q16_ONE); }
+
+/* Do the rays that agree lie all about? */
+static int all_about(const drogue_ray rays[RAYS], const drogue_q16 v_px_q16[3])
+{
+    uint32_t seen = 0;
+    uint32_t parts = 0;
+    int32_t k;
+    for (k = 0; k < RAYS; k++) {
+        if (drogue_ray_chosen(&rays[k], drogue_ray_along(&rays[k], v_px_q16), WITHIN) >= 0) {
+            seen |= 1u << (k / (RAYS / PARTS));
+        }
+    }
+    for (k = 0; k < PARTS; k++) {
+        parts += seen >> k & 1u;
+    }
+    return parts >= PARTS - 2;
+}
+
+static inline int16_t gradient_of(int32_t n_q14, int32_t grey_q8)
+{
+    return (int16_t)drogue_shr_round_s64(drogue_product(n_q14, grey_q8 * STEEP_Q2), 24);
+}
+
+/* A ray's edge as an edge point; 0 when it is outside the region. */
+static int put_point(drogue_edge *out, drogue_ray *r, const drogue_ray_edge *e, const drogue_image *view)
+{
+    const int32_t x = r->x_px_q16 + (int32_t)drogue_shr_round_s64(drogue_product(r->nx_q14, e->at_px_q16), 14);
+    const int32_t y = r->y_px_q16 + (int32_t)drogue_shr_round_s64(drogue_product(r->ny_q14, e->at_px_q16), 14);
+    int32_t grey_q8[5];
+    int32_t rise_q8;
+    if (x < 0 || y < 0 || x >> 16 >= view->width_px - 1 || y >> 16 >= view->height_px - 1) {
+        return 0;
+    }
+    r->step_px_q16 = HALF;
+    drogue_ray_read(grey_q8, r, view, e->at_px_q16 - 2 * HALF, 5);
+    rise_q8 = grey_q8[4] + grey_q8[3] - grey_q8[1] - grey_q8[0];
+    out->arc = DROGUE_NO_ARC;
+    out->x_q5 = (uint16_t)((x + 1024) >> 11);
+    out->y_q5 = (uint16_t)((y + 1024) >> 11);
+    out->gx = gradient_of(r->nx_q14, rise_q8);
+    out->gy = gradient_of(r->ny_q14, rise_q8);
+    return 1;
+}
+
+/* Edges on rays about an ellipse, without what belongs to the one within. */
+static void cast(drogue_ray rays[RAYS], const drogue_image *view, const drogue_ellipse *about, drogue_q16 beyond_px_q16,
+                 int32_t phase)
+{
+    int32_t k;
+    drogue_rays_cast(rays, view, about, reach_of(beyond_px_q16), phase, 1, LEAST, 1);
+    for (k = 0; k < RAYS; k++) {
+        drogue_ray *r = &rays[k];
+        uint32_t kept = 0;
+        uint32_t i;
+        for (i = 0; i < r->count; i++) { /* bound: DROGUE_RAY_EDGES */
+            if (r->edges[i].at_px_q16 > -beyond_px_q16 / 2) {
+                r->edges[kept++] = r->edges[i];
+            }
+        }
+        r->count = kept;
+    }
+}
+
+uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about,
+                             drogue_q16 beyond_px_q16)
+{
+    drogue_ray *const rays = workspace->rays;
+    const int32_t phases = drogue_clamp_s32(about->a_px_q16 / DROGUE_Q16(10, 1), 1, 8); /* a point for every pixel */
+    drogue_q16 v_px_q16[3] = {0, 0, 0};
+    drogue_ray_sums sums;
+    uint32_t count = 0;
+    int32_t phase;
+    int32_t k;
+    if (about->b_px_q16 < DROGUE_Q16_ONE) {
+        return 0;
+    }
+    cast(rays, view, about, beyond_px_q16, 4);
+    if (!drogue_ray_sums_settle(&sums, v_px_q16, rays, reach_of(beyond_px_q16), WITHIN, 1) || sums.rays < ENOUGH ||
+        !all_about(rays, v_px_q16)) {
+        return 0;
+    }
+    for (phase = 0; phase < phases; phase++) { /* bound: 8 */
+        cast(rays, view, about, beyond_px_q16, (8 * phase + 4) / phases % 8);
+        for (k = 0; k < RAYS && count < workspace->capacity.edges; k++) {
+            const int32_t which = drogue_ray_chosen(&rays[k], drogue_ray_along(&rays[k], v_px_q16), WITHIN);
+            if (which >= 0) {
+                count += (uint32_t)put_point(&workspace->edges[count], &rays[k], &rays[k].edges[which], view);
+            }
+        }
+    }
+    return count;
+}
