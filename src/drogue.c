@@ -74,6 +74,7 @@ static int lower_thresholds(drogue_frame *f)
 }
 
 #define SURE_Q16 DROGUE_Q16(3, 100)    /* the inner disc is of its size to this */
+#define BEYOND_Q16 DROGUE_Q16(15, 100) /* by more than this it is too large for anything beyond the outline */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 
 /* Take back what was measured. */
@@ -152,7 +153,7 @@ static int try_beyond(best_try *best, drogue_frame *f, int last)
     const drogue_ellipse was = best->result.ellipse;
     const drogue_region region = best->region;
     drogue_status status;
-    if (best->status != DROGUE_OK || best->larger_q16 <= SURE_Q16) {
+    if (best->status != DROGUE_OK || best->larger_q16 <= SURE_Q16 || best->larger_q16 > BEYOND_Q16) {
         return last;
     }
     begin_try(f, BEYOND);

@@ -74,6 +74,9 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
 
 /* Measure along rays how far what lies beside the outline moved it, as shading or the wall's edge, and put that back. Who
  * has edge points and no image does without.
+ * Where motion blurs the outline (by more than half a px^2 of variance more along it than across, and 24 px and more of b), its
+ * edges have no steepest place: the middle of their slopes counts then, less half of what the motion is longer than the bright
+ * band is wide that the outline ends.
  *
  *  outline  in: found or enlarged; out: ellipse, and support.pull_q24 with the coefficients: 0 where they are no larger
  *           than noise makes them, and at most an eighth of the semi-axis; support.smear_px2_q16 with the motion blur that

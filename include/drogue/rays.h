@@ -28,7 +28,7 @@ typedef struct drogue_ray {
     int32_t nx_q14;                          /* outward normal */
     int32_t ny_q14;                          /* downward */
     drogue_q16 step_px_q16;                  /* between samples */
-    drogue_ray_edge edges[DROGUE_RAY_EDGES]; /* in the order of the ray */
+    drogue_ray_edge edges[DROGUE_RAY_EDGES]; /* in no order */
     uint32_t count;                          /* of edges */
 } drogue_ray;
 

@@ -6,7 +6,7 @@
 
 #define LEAST 10                /* grey levels, of which blur may halve the slope */
 #define WITHIN DROGUE_Q16(3, 4) /* px: what agrees */
-#define ENOUGH (2 * RAYS / 5)   /* rays that agree */
+#define ENOUGH (7 * RAYS / 16)  /* rays that agree */
 #define PARTS 8                 /* of the outline, of which all but two must have some */
 #define HALF DROGUE_Q16(1, 2)   /* px between samples */
 #define STEEP_Q2 7              /* the front end's gradient over the grey 1/2 and 1 px to either side, their sum */

@@ -19,9 +19,10 @@
 #define MIDDLE DROGUE_SLOPE_MIDDLE
 #define SLOPES DROGUE_SLOPES
 #define NEAR DROGUE_SLOPE_NEAR
+#define HALF DROGUE_Q16(1, 2) /* px between slopes */
 #define FAR DROGUE_Q16(12, 5) /* slopes: so far from there, 1.2 px, lies the sharpened one */
 #define TAPS 7
-#define SMEARED_Q32 (1u << 28) /* px^4: square of a smear of 1/4 px^2; of less an edge has a steepest place */
+#define SMEARED_Q32 (1u << 30) /* px^4: square of a smear of half a px^2; of less an edge has a steepest place */
 #define MOST_Q24 (1 << 21)     /* semi-axes, of a harmonic */
 
 /* As the front end blurs: variance 1.33 px^2, 1 of its smoothing and 1/3 of Sobel's operator. */
@@ -184,6 +185,14 @@ static int32_t shrunk(int32_t c_px_q24, uint64_t variance_q48)
     return c_px_q24 < 0 ? -kept : kept;
 }
 
+/* Does motion blur the outline, and is it so large that rays do not reach its middle? */
+static int is_smeared(const drogue_outline *outline)
+{
+    const int32_t *smear = outline->support.smear_px2_q16;
+    return drogue_square_sum(smear[0], smear[1]) > SMEARED_Q32 &&
+           outline->fitted.b_px_q16 >= DROGUE_SMEARED_MIDDLE * HALF;
+}
+
 /* An edge that motion blurs has no steepest place: it is where its lobe says. */
 static void find_smeared(int32_t moved[GROUPS], const drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
                          const drogue_support *support)
@@ -221,7 +230,7 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
         variance_px2_q16[i] = drogue_edge_variance(slope, seen);
     }
     drogue_find_smear(outline->support.smear_px2_q16, variance_px2_q16);
-    smeared = drogue_square_sum(outline->support.smear_px2_q16[0], outline->support.smear_px2_q16[1]) > SMEARED_Q32;
+    smeared = is_smeared(outline);
     if (smeared) {
         find_smeared(moved, rays, view, &outline->support);
     }

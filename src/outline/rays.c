@@ -85,41 +85,43 @@ int32_t drogue_ray_peak_q16(int32_t before, int32_t at, int32_t after)
     return (int32_t)drogue_div_round_s64(((int64_t)after - before) * HALF, bend);
 }
 
-static inline int32_t slope_of(const int32_t *sum, int32_t i, int either)
-{
-    const int32_t slope = sum[i + REACH] - sum[i];
-    return either && slope < 0 ? -slope : slope;
-}
-
-/* Slopes along a ray by a derivative of Gaussian of two samples, and their peaks to a share of a sample: 'out' samples to
- * either side. Its taps -2, -3, -4, -3, 0, 3, 4, 3, 2 are the difference of two sums of five samples. */
+/* Slopes along a ray by a derivative of Gaussian of two samples, 'out' samples to either side, and their peaks. Its taps -2, -3,
+ * -4, -3, 0, 3, 4, 3, 2 are the difference of two sums of five samples. */
 static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, int32_t least_q8, int either)
 {
     int32_t grey[SAMPLES + 2 * REACH];
     int32_t sum[SAMPLES + REACH];
-    const int32_t slopes = 2 * out + 1;
+    const int32_t sums = 2 * out + 1 + REACH;
     int32_t before;
     int32_t at;
     int32_t after;
+    int32_t pass;
     int32_t i;
-    drogue_ray_read(grey, r, image, -(out + REACH) * r->step_px_q16, slopes + 2 * REACH);
-    for (i = 0; i < slopes + REACH; i++) {
+    drogue_ray_read(grey, r, image, -(out + REACH) * r->step_px_q16, sums + REACH);
+    for (i = 0; i < sums; i++) {
         sum[i] = 2 * (grey[i] + grey[i + 4]) + 3 * (grey[i + 1] + grey[i + 3]) + 4 * grey[i + 2];
     }
     r->count = 0;
-    at = slope_of(sum, 0, either);
-    after = slope_of(sum, 1, either);
-    for (i = 1; i + 1 < slopes; i++) {
-        before = at;
-        at = after;
-        after = slope_of(sum, i + 1, either);
-        if (at >= least_q8 && at > before && at >= after) {
-            const int64_t part_q16 = drogue_ray_peak_q16(before, at, after);
-            drogue_ray_edge e;
-            e.at_px_q16 = (i - out) * r->step_px_q16 + (int32_t)drogue_shr_round_s64(part_q16 * r->step_px_q16, 16);
-            e.slope_q8 = at;
-            e.level_q8 = grey[i + REACH];
-            keep(r, &e);
+    for (pass = 0; pass <= either; pass++) { /* bound: 2 */
+        if (pass > 0) {                      /* what falls rises */
+            for (i = 0; i < sums; i++) {
+                sum[i] = -sum[i];
+            }
+        }
+        at = sum[REACH] - sum[0];
+        after = sum[REACH + 1] - sum[1];
+        for (i = 1; i < 2 * out; i++) { /* bound: SAMPLES */
+            before = at;
+            at = after;
+            after = sum[i + 1 + REACH] - sum[i + 1];
+            if (at >= least_q8 && at > before && at >= after) {
+                const int64_t part_q16 = drogue_ray_peak_q16(before, at, after);
+                drogue_ray_edge e;
+                e.at_px_q16 = (i - out) * r->step_px_q16 + (int32_t)drogue_shr_round_s64(part_q16 * r->step_px_q16, 16);
+                e.slope_q8 = at;
+                e.level_q8 = grey[i + REACH];
+                keep(r, &e);
+            }
         }
     }
 }

@@ -304,6 +304,18 @@ void add_look(Set &set)
         l = {{0, 0, 128, 128}};
         add_one(set, "rim-" + std::to_string(rim), Tier::stress, {}, p, l);
     }
+    for (const int wall :
+         {36, 38, 40, 42, 43, 44, 45}) { /* in noise: the disc is 7 to 33 % too large for the wall's edge */
+        accuracy::Random noise(17);
+        p.image = image_from(128, 128, [wall, &noise](int x, int y) {
+            const double d = std::hypot(x - 62.3, y - 64.6);
+            const auto within = [d](double radius) { return std::clamp(radius - d + 0.5, 0.0, 1.0); };
+            const double grey = 200 + 8 * within(48) - 118 * within(wall) - 78 * within(16.2);
+            return static_cast<int>(grey + noise.uniform(-6, 6) + 0.5);
+        });
+        l = {{10, 13, 106, 106}};
+        add_one(set, "wall-" + std::to_string(wall), Tier::stress, {"noise"}, p, l);
+    }
     const accuracy::Trial faint = accuracy::varied_trial(41, accuracy::Variety::bright, 12, false);
     p.image = accuracy::render(faint.scene, faint.region);
     p.camera = faint.scene.camera.cropped(faint.region.tl());

@@ -498,7 +498,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    if (best.status == DROGUE_OK && least > SURE && real(best.larger_q16) > SURE) {
+    if (best.status == DROGUE_OK && least > SURE && real(best.larger_q16) > SURE && real(best.larger_q16) <= 0.15L) {
         Result out;
         Features from = {};
         if (beyond(out, f, best, decided, asked_for, task) && judge(out, from, f, task, library) < least - 1 / 256.0L) {

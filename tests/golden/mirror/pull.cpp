@@ -299,7 +299,7 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
             variance[static_cast<size_t>(g)] = edge_variance(slope, seen);
         }
         o.support.smear = smear_of(variance);
-        const bool smeared = std::hypot(o.support.smear[0], o.support.smear[1]) > 0.25L;
+        const bool smeared = std::hypot(o.support.smear[0], o.support.smear[1]) > 0.5L && o.fitted.b >= 24;
         if (smeared) {
             std::array<Lobe, GROUPS> lobe;
             for (int g = 0; g < GROUPS; g++) {
