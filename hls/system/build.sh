@@ -19,14 +19,15 @@ print(v.data_location + "/VexRiscv.v")' 2>/dev/null || true)}
 
 # firmware FOLDER SOURCE [FLAG...]: a program of the soft core, linked with the library and the driver
 firmware() {
-    local hot=(src/inner/fit.c src/outline/rays.c) # what the soft core's clocks go into
-    local seldom=(src/camera/*.c src/search/*.c src/track/*.c) # small, so that all fits the RAM at 256 px
-    local flags=(-march=rv32im -mabi=ilp32 -std=c99 -O2 -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
+    local hot=(src/inner/fit.c src/outline/rays.c) # what the soft core's clocks go into, then what it comes by often; all else is
+    # small, so that it fits the RAM at 256 px
+    local warm=(src/arithmetic/*.c src/inner/{edge,shade}.c src/outline/{moments,near,outline,support}.c src/pose/joint*.c)
+    local flags=(-march=rv32im -mabi=ilp32 -std=c99 -Os -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
     rm -rf "$1/objects"
     mkdir -p "$1/objects"
     (cd "$1/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -c &&
-        riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O3 "${hot[@]/#/$root/}" -c &&
-        riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -Os "${seldom[@]/#/$root/}" -c)
+        riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 "${warm[@]/#/$root/}" -c &&
+        riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O3 "${hot[@]/#/$root/}" -c)
     rm -f "$1/libdrogue.a"
     riscv64-unknown-elf-ar rcs "$1/libdrogue.a" "$1"/objects/*.o
     riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -nostartfiles -Wl,--gc-sections,--no-warn-rwx-segments \
