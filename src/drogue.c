@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "drogue/inner.h"
 #include "look.h"
 
 #define TEXT(x) #x
@@ -156,15 +157,21 @@ static int try_beyond(best_try *best, drogue_frame *f, int last)
     if (best->status != DROGUE_OK || best->larger_q16 <= SURE_Q16 || best->larger_q16 > BEYOND_Q16) {
         return last;
     }
+    if (f->workspace->capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
+        best->second_look = DROGUE_SECOND_FULL;
+        f->second_look = DROGUE_SECOND_FULL;
+        return last;
+    }
     begin_try(f, BEYOND);
     clear(f->out);
+    f->second_look = best->second_look;
     status = drogue_frame_beyond(f, &region, &was, best->larger_q16);
     if (status == DROGUE_OK) {
         f->outline.quality = best->result.quality; /* of the arcs that it was found from */
         f->outline.cluster_members = best->result.cluster_members;
         status = drogue_frame_judge(f);
     }
-    if (f->doubt_q16 < best->least_q16 - CLEARLY_Q16) {
+    if (status == DROGUE_OK && f->doubt_q16 < best->least_q16 - CLEARLY_Q16) {
         keep_try(best, f, BEYOND, status);
     }
     return BEYOND;

@@ -190,7 +190,6 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
     }
     f->asked = *region;
     f->others = 0;
-    f->second_look = DROGUE_SECOND_NONE;
     memset(outline, 0, sizeof *outline);
     for (k = 0; k < 4; k++) {
         outline->arcs[k] = DROGUE_NO_ARC;

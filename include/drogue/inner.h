@@ -108,15 +108,17 @@ void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge
                         const drogue_inner_expected *expected, const drogue_ellipse *outline,
                         const drogue_pose poses[2], const drogue_setup *setup);
 
+#define DROGUE_INNER_BEYOND_POINTS 511 /* at most: the outline looks at all of so many at once */
+
 /* Look along rays for the outline that an inner disc is of the size for which is too large for the one found; its step of
  * grey may be too low for the edge detector. It is an edge of either sign on 28 of 64 rays, in six of eight parts, within
  * 3/4 px of one place and size.
  *
- *  workspace  out: its edge points, from 0 on, one for each pixel of its length, at most 512
+ *  workspace  out: its edge points, from 0 on, on eight times the rays; as many as there is room for
  *  view       the region's pixels
- *  about      where it is expected, region coordinates; b >= 1 px, else there is none
- *  beyond     px Q16, by how much the semi-axes of the outline found are shorter; the other is looked for from half of that
- *             within 'about' to 5/8 and 1 px outside of it, at most 512 px
+ *  about      where it is expected, region coordinates; b >= 1 px and a <= 180 px, else there is none
+ *  beyond     px Q16, above 0: by how much the semi-axes of the outline found are shorter; the other is looked for from half
+ *             of that within 'about' to 5/8 and 1 px outside of it
  *  return     the number of points; 0: there is none, and the edge points are as they were
  */
 uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about,

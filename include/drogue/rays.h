@@ -34,7 +34,7 @@ typedef struct drogue_ray {
 
 /* Place rays, half a pixel between their samples, without edges.
  *
- *  ellipse  region coordinates; b >= 1 px
+ *  ellipse  region coordinates; b >= 1 px, a below 2^14 px
  *  phase    [0, 8): eighths of the angle between two rays by which they are turned; 4 puts two evenly into each bin
  */
 void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *ellipse, int32_t phase);

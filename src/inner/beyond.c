@@ -4,30 +4,34 @@
 
 #include "fit.h"
 
-#define LEAST 10                /* grey levels, of which blur may halve the slope */
-#define WITHIN DROGUE_Q16(3, 4) /* px: what agrees */
-#define ENOUGH (7 * RAYS / 16)  /* rays that agree */
-#define PARTS 8                 /* of the outline, of which all but two must have some */
-#define HALF DROGUE_Q16(1, 2)   /* px between samples */
-#define STEEP_Q2 7              /* the front end's gradient over the grey 1/2 and 1 px to either side, their sum */
+#define LEAST 10                   /* grey levels, of which blur may halve the slope */
+#define WITHIN DROGUE_Q16(3, 4)    /* px: what agrees */
+#define ENOUGH (7 * RAYS / 16)     /* rays that agree */
+#define LARGEST DROGUE_Q16(180, 1) /* px: of a larger one the points would cover too little */
+#define PHASES 8                   /* all that there are */
+#define PARTS 8                    /* of the outline, of which all but two must have some */
+#define HALF DROGUE_Q16(1, 2)      /* px between samples */
+#define STEEP_Q2 7                 /* the front end's gradient over the grey 1/2 and 1 px to either side, their sum */
 
 static drogue_q16 reach_of(drogue_q16 beyond_px_q16) { return drogue_q16_add(beyond_px_q16 / 8 * 5, DROGUE_Q16_ONE); }
 
-/* Do the rays that agree lie all about? */
+/* Do enough rays agree, all about? */
 static int all_about(const drogue_ray rays[RAYS], const drogue_q16 v_px_q16[3])
 {
     uint32_t seen = 0;
     uint32_t parts = 0;
+    uint32_t agree = 0;
     int32_t k;
     for (k = 0; k < RAYS; k++) {
         if (drogue_ray_chosen(&rays[k], drogue_ray_along(&rays[k], v_px_q16), WITHIN) >= 0) {
             seen |= 1u << (k / (RAYS / PARTS));
+            agree++;
         }
     }
     for (k = 0; k < PARTS; k++) {
         parts += seen >> k & 1u;
     }
-    return parts >= PARTS - 2;
+    return parts >= PARTS - 2 && agree >= ENOUGH;
 }
 
 static inline int16_t gradient_of(int32_t n_q14, int32_t grey_q8)
@@ -67,7 +71,7 @@ static void cast(drogue_ray rays[RAYS], const drogue_image *view, const drogue_e
         uint32_t kept = 0;
         uint32_t i;
         for (i = 0; i < r->count; i++) { /* bound: DROGUE_RAY_EDGES */
-            if (r->edges[i].at_px_q16 > -beyond_px_q16 / 2) {
+            if (r->edges[i].at_px_q16 > -(beyond_px_q16 / 2)) {
                 r->edges[kept++] = r->edges[i];
             }
         }
@@ -79,23 +83,22 @@ uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_ima
                              drogue_q16 beyond_px_q16)
 {
     drogue_ray *const rays = workspace->rays;
-    const int32_t phases = drogue_clamp_s32(about->a_px_q16 / DROGUE_Q16(10, 1), 1, 8); /* a point for every pixel */
     drogue_q16 v_px_q16[3] = {0, 0, 0};
     drogue_ray_sums sums;
     uint32_t count = 0;
     int32_t phase;
     int32_t k;
-    if (about->b_px_q16 < DROGUE_Q16_ONE) {
+    if (about->b_px_q16 < DROGUE_Q16_ONE || about->a_px_q16 > LARGEST) {
         return 0;
     }
     cast(rays, view, about, beyond_px_q16, 4);
-    if (!drogue_ray_sums_settle(&sums, v_px_q16, rays, reach_of(beyond_px_q16), WITHIN, 1) || sums.rays < ENOUGH ||
+    if (!drogue_ray_sums_settle(&sums, v_px_q16, rays, reach_of(beyond_px_q16), WITHIN, 1) ||
         !all_about(rays, v_px_q16)) {
         return 0;
     }
-    for (phase = 0; phase < phases; phase++) { /* bound: 8 */
-        cast(rays, view, about, beyond_px_q16, (8 * phase + 4) / phases % 8);
-        for (k = 0; k < RAYS && count < workspace->capacity.edges; k++) {
+    for (phase = 0; phase < PHASES; phase++) {
+        cast(rays, view, about, beyond_px_q16, phase);
+        for (k = 0; k < RAYS && count < workspace->capacity.edges && count < DROGUE_INNER_BEYOND_POINTS; k++) {
             const int32_t which = drogue_ray_chosen(&rays[k], drogue_ray_along(&rays[k], v_px_q16), WITHIN);
             if (which >= 0) {
                 count += (uint32_t)put_point(&workspace->edges[count], &rays[k], &rays[k].edges[which], view);

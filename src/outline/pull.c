@@ -185,7 +185,7 @@ static int32_t shrunk(int32_t c_px_q24, uint64_t variance_q48)
     return c_px_q24 < 0 ? -kept : kept;
 }
 
-/* Does motion blur the outline, and is it so large that rays do not reach its middle? */
+/* Does motion blur the outline, and is it so large that rays hardly reach its middle? */
 static int is_smeared(const drogue_outline *outline)
 {
     const int32_t *smear = outline->support.smear_px2_q16;

@@ -99,7 +99,7 @@ static int32_t half_way_q16(const int32_t curve[SLOPES], int32_t peak, int32_t s
     const int32_t half = sign * curve[peak]; /* of twice the curve */
     int32_t at = peak;
     int32_t next;
-    for (next = peak + step; next >= 0 && next < SLOPES; next += step) { /* bound: SLOPES */
+    for (next = peak + step; next >= 2 && next < SLOPES - 2; next += step) { /* bound: SLOPES */
         if (2 * sign * curve[next] < half) {
             const int64_t above_q16 = (int64_t)(2 * sign * curve[at] - half) * DROGUE_Q16_ONE;
             const int64_t fall = 2 * sign * (int64_t)(curve[at] - curve[next]);
@@ -133,8 +133,9 @@ void drogue_find_lobe(drogue_lobe *lobe, const int32_t slope[DROGUE_SMEARED_SLOP
     for (i = MIDDLE - NEAR + 1; i <= MIDDLE + NEAR; i++) {
         peak = curve[i] > curve[peak] ? i : peak;
     }
-    if (curve[peak] <= 0 || !half_height(&inner_q16, &outer_q16, curve, peak, 1)) {
-        return;
+    if (curve[peak] <= 0 || curve[peak] < curve[peak - 1] || curve[peak] < curve[peak + 1] ||
+        !half_height(&inner_q16, &outer_q16, curve, peak, 1)) {
+        return; /* none, another's that is farther off, or none that ends */
     }
     lobe->at_q16 = (inner_q16 + outer_q16) / 2 - MIDDLE * DROGUE_Q16_ONE;
     lobe->width_q16 = outer_q16 - inner_q16;

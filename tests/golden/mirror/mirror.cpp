@@ -2,6 +2,7 @@
 /* The measurement of a frame in floating point: region, outline, inner part, poses, choice, joint solution. */
 #include "mirror.hpp"
 
+#include "drogue/inner.h"
 #include "drogue/undistort.h"
 
 #include <algorithm>
@@ -393,6 +394,7 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     Ellipse was = best.seen;
     out.status = DROGUE_OK;
     out.tried = 4;
+    out.second_look = best.second_look;
     place(out.region, f.mask, task.image, region);
     f.view = task.image(out.region).clone();
     was.xc -= out.region.x;
@@ -498,10 +500,15 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    if (best.status == DROGUE_OK && least > SURE && real(best.larger_q16) > SURE && real(best.larger_q16) <= 0.15L) {
+    if (best.status == DROGUE_OK && least > SURE && real(best.larger_q16) > SURE && real(best.larger_q16) <= 0.15L &&
+        task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
+        room = DROGUE_SECOND_FULL;
+    } else if (best.status == DROGUE_OK && least > SURE && real(best.larger_q16) > SURE &&
+               real(best.larger_q16) <= 0.15L) {
         Result out;
         Features from = {};
-        if (beyond(out, f, best, decided, asked_for, task) && judge(out, from, f, task, library) < least - 1 / 256.0L) {
+        if (beyond(out, f, best, decided, asked_for, task) && judge(out, from, f, task, library) < least - 1 / 256.0L &&
+            out.status == DROGUE_OK) {
             best = out;
             if (features != nullptr) {
                 *features = from;

@@ -137,7 +137,7 @@ using Long = std::array<Real, LONG_SLOPES>;
 /* Where a curve falls below half of a peak, going one way; negative where it does not. */
 Real half_way(const Long &c, size_t peak, int step)
 {
-    for (auto i = static_cast<int>(peak); i + step >= 0 && i + step < LONG_SLOPES; i += step) {
+    for (auto i = static_cast<int>(peak); i + step >= 2 && i + step < LONG_SLOPES - 2; i += step) {
         const Real here = c[static_cast<size_t>(i)], next = c[static_cast<size_t>(i + step)];
         if (2 * next < c[peak]) {
             return i + step * (here - c[peak] / 2) / (here - next);
@@ -160,7 +160,7 @@ Lobe lobe_of(const Long &slope)
     const auto top = std::max_element(curve.begin() + LONG_MIDDLE - 6, curve.begin() + LONG_MIDDLE + 7);
     const auto peak = static_cast<size_t>(top - curve.begin());
     const Real inner = half_way(curve, peak, -1), outer = half_way(curve, peak, 1);
-    if (!(*top > 0) || inner < 0 || outer < 0) {
+    if (!(*top > 0) || top[0] < top[-1] || top[0] < top[1] || inner < 0 || outer < 0) {
         return lobe;
     }
     lobe.at = (inner + outer) / 2 - LONG_MIDDLE;

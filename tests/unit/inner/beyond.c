@@ -5,15 +5,16 @@
 #include "drogue/drogue.h"
 #include "drogue/inner.h"
 
-enum { SIDE = 130 };
+enum { SIDE = 190 };
 
-static const double xc = 64.3, yc = 65.1;
+static const double xc = 94.3, yc = 95.1;
 
 static uint8_t pixels[SIDE * SIDE];
 static uint32_t memory[DROGUE_WORKSPACE_BYTES_FOR(SIDE) / 4 + 1];
 static drogue_workspace workspace;
 
-/* A step of grey at a radius over a share of the turn, of each sixteenth of it where that is more than 1, about a dark disc; noise of so many grey levels to either side. */
+/* A step of grey at a radius over a share of the turn, of each sixteenth of it where that is more than 1, about a dark disc;
+ * noise of so many grey levels to either side. */
 static drogue_image draw(double radius, double step, double share, double disc, int noise)
 {
     const drogue_image view = {pixels, SIDE, SIDE, SIDE};
@@ -61,7 +62,7 @@ START_TEST(points_on_a_faint_outline)
             const uint32_t count = look(&view, 48 - off, 4);
             double sum = 0, gradient = 0;
             uint32_t i;
-            MUST(count > 150 && count <= 4 * 64, "off by %g: %u points", off, count); /* rays of four phases */
+            MUST(count > 300 && count <= 8 * 64, "off by %g: %u points", off, count);
             for (i = 0; i < count; i++) {
                 const drogue_edge *e = &workspace.edges[i];
                 const double x = e->x_q5 / 32.0 - xc, y = e->y_q5 / 32.0 - yc, r = hypot(x, y);
@@ -80,12 +81,15 @@ END_TEST
 
 START_TEST(no_more_than_there_is_room_for)
 {
-    const drogue_image view = draw(48, 8, 1, 20, 1);
+    drogue_image view = draw(48, 8, 1, 20, 1);
     begin(600);
     const uint32_t all = look(&view, 47, 4);
     begin(100);
     ck_assert_int_eq(look(&view, 47, 4), 100);
     ck_assert_int_gt(all, 200);
+    view = draw(80, 8, 1, 20, 0); /* as many as the outline looks at all of */
+    begin(600);
+    ck_assert_int_eq(look(&view, 80, 4), DROGUE_INNER_BEYOND_POINTS);
 }
 END_TEST
 
@@ -118,14 +122,35 @@ START_TEST(across_the_border)
 {
     drogue_image view = draw(48, 8, 1, 20, 1);
     uint32_t count, i;
-    view.width_px = 100;
+    view.width_px = 130;
     begin(600);
     count = look(&view, 47.5, 4);
     ck_assert_int_gt(count, 100);
     for (i = 0; i < count; i++) {
-        ck_assert_int_lt(workspace.edges[i].x_q5, 99 * 32);
+        ck_assert_int_le(workspace.edges[i].x_q5, 129 * 32);
     }
 }
 END_TEST
 
-SUITE_MAIN("beyond", points_on_a_faint_outline, no_more_than_there_is_room_for, what_is_no_outline, across_the_border)
+/* Of an outline of more than 180 px there are none. */
+START_TEST(as_large_as_points_suffice_for)
+{
+    enum { LARGE = 376 };
+    static uint8_t large[LARGE * LARGE];
+    const drogue_image view = {large, LARGE, LARGE, LARGE};
+    drogue_ellipse about = {q16_of(188), q16_of(188), q16_of(180), q16_of(180), 0};
+    int x, y;
+    begin(600);
+    for (y = 0; y < LARGE; y++) {
+        for (x = 0; x < LARGE; x++) {
+            large[y * LARGE + x] = hypot(x - 188, y - 188) < 180 ? 188 : 180;
+        }
+    }
+    ck_assert_int_gt(drogue_inner_beyond(&workspace, &view, &about, q16_of(5)), 400);
+    about.a_px_q16++;
+    ck_assert_int_eq(drogue_inner_beyond(&workspace, &view, &about, q16_of(5)), 0);
+}
+END_TEST
+
+SUITE_MAIN("beyond", as_large_as_points_suffice_for, points_on_a_faint_outline, no_more_than_there_is_room_for,
+           what_is_no_outline, across_the_border)

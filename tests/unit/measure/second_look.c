@@ -3,6 +3,7 @@
 #include "suite.h"
 
 #include "drogue/drogue.h"
+#include "drogue/inner.h"
 #include "geometry.h"
 #include "workspace.h"
 
@@ -140,5 +141,43 @@ START_TEST(too_little_room_for_the_lower_thresholds)
 }
 END_TEST
 
+/* A disc that is too large for the wall's edge about it and of its size for a rim that is hardly brighter than the ground,
+ * but no room for the rim's points. */
+START_TEST(too_little_room_for_points_along_rays)
+{
+    static uint8_t pixels[SIDE * SIDE];
+    static const drogue_model model = {DROGUE_Q16(35, 100), DROGUE_Q16(14, 100), 0};
+    const drogue_image image = {pixels, SIDE, SIDE, SIDE};
+    const drogue_region region = {12, 12, 104, 104};
+    const drogue_camera camera = pinhole(400, 400, 64, 64);
+    const uint32_t edges[3] = {DROGUE_INNER_BEYOND_POINTS - 1, DROGUE_INNER_BEYOND_POINTS, 4096};
+    drogue_result r[3];
+    drogue_config config;
+    uint64_t rng = 5;
+    int32_t x, y;
+    int k;
+    drogue_config_default(&config);
+    for (y = 0; y < SIDE; y++) {
+        for (x = 0; x < SIDE; x++) {
+            const double d = hypot(x - 64.2, y - 63.9);
+            pixels[y * SIDE + x] = (uint8_t)lround(180 + 3.5 * erfc((d - 45) / 1.1) - 30 * erfc((d - 41) / 1.1) -
+                                                   30 * erfc((d - 18) / 1.1) + rng_real(&rng, -6, 6));
+        }
+    }
+    for (k = 0; k < 3; k++) {
+        test_workspace t = test_workspace_of(SIDE, edges[k], 4096, 512);
+        (void)drogue_measure(&r[k], &t.workspace, &(drogue_setup){&camera, &model, &config}, &image, &region);
+        ck_assert_int_eq(r[k].status, DROGUE_OK);
+        MUST(r[k].second_look == (k == 0 ? DROGUE_SECOND_FULL : DROGUE_SECOND_NONE), "%u edges: %d", (unsigned)edges[k],
+             (int)r[k].second_look);
+        MUST((r[k].tried == 4) == (k > 0), "%u edges: %d stands", (unsigned)edges[k], (int)r[k].tried);
+        MUST(fabs(real_of_q16(r[k].ellipse.a_px_q16) - (k == 0 ? 41 : 45)) < 0.6, "%u edges: a %g", (unsigned)edges[k],
+             real_of_q16(r[k].ellipse.a_px_q16));
+        test_workspace_free(&t);
+    }
+    ck_assert_int_eq(memcmp(&r[1], &r[2], sizeof r[1]), 0);
+}
+END_TEST
+
 SUITE_MAIN("second_look", second_look_beyond_the_coordinates, second_look_of_less_cover,
-           too_little_room_for_the_lower_thresholds)
+           too_little_room_for_the_lower_thresholds, too_little_room_for_points_along_rays)
