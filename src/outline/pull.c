@@ -20,7 +20,12 @@
 #define SLOPES DROGUE_SLOPES
 #define NEAR DROGUE_SLOPE_NEAR
 #define HALF DROGUE_Q16(1, 2) /* px between slopes */
-#define FAR DROGUE_Q16(12, 5) /* slopes: so far from there, 1.2 px, lies the sharpened one */
+#define ONE_Q20 (1 << 20)
+#define FAR (12 * (ONE_Q20 / 5)) /* slopes: so far from there, 1.2 px, lies the sharpened one */
+#define OUTSIDE (MIDDLE + 5)     /* slopes from there on are of what is behind the drogue */
+#define OUTSIDES 4               /* of them, whose differences show noise */
+#define NOISY_Q24 (1 << 26)      /* px: of more noise nothing is left */
+#define LEAST_Q24 (11 << 16)     /* px: what the pixels' grid makes of any edge */
 #define TAPS 7
 #define SMEARED_Q32 (1u << 30) /* px^4: square of a smear of half a px^2; of less an edge has a steepest place */
 #define MOST_Q24 (1 << 21)     /* semi-axes, of a harmonic */
@@ -41,7 +46,7 @@ static int32_t blurred(const int32_t slope[SLOPES], int32_t i)
 static int32_t sharpened(const int32_t slope[SLOPES], int32_t i) { return 6 * slope[i] - slope[i - 2] - slope[i + 2]; }
 
 /* The highest peak of a curve within [from, to]; 0 when there is none. */
-static int find_peak(int32_t *at_q16, const int32_t curve[SLOPES], int32_t from, int32_t to)
+static int32_t find_peak(const int32_t curve[SLOPES], int32_t from, int32_t to)
 {
     int32_t best = 0;
     int32_t i;
@@ -50,31 +55,78 @@ static int find_peak(int32_t *at_q16, const int32_t curve[SLOPES], int32_t from,
             best = i;
         }
     }
-    if (best > 0) {
-        *at_q16 = best * DROGUE_Q16_ONE + drogue_ray_peak_q16(curve[best - 1], curve[best], curve[best + 1]);
-    }
-    return best > 0;
+    return best;
 }
 
-/* How far outwards of the sharpened edge the blurred one lies, in slopes Q16; 0 when there are not both. */
-static int32_t moved_q16(const int32_t slope[SLOPES], const int32_t seen[SLOPES])
+/* The vertex of the parabola through a peak and the values so many slopes from it, Q20; there is one. */
+static int32_t vertex_q20(const int32_t curve[SLOPES], int32_t at, int32_t apart)
 {
+    const int32_t before = curve[at - apart];
+    const int32_t after = curve[at + apart];
+    const int64_t bend = 2 * (int64_t)curve[at] - before - after; /* > 0 */
+    return at * ONE_Q20 + (int32_t)drogue_div_round_s64(((int64_t)after - before) * (apart * (ONE_Q20 / 2)), bend);
+}
+
+/* Where the front end sees a peak that is at 'at_q20': by gradients a pixel to either side, or along diagonals 1.4 of
+ * them, which where a peak is skew is a quarter farther. */
+static int32_t as_seen_q20(const int32_t seen[SLOPES], int32_t best, int32_t at_q20)
+{
+    int32_t wide_q20;
+    if (seen[best] <= seen[best - 2] || seen[best] < seen[best + 2]) {
+        return at_q20;
+    }
+    wide_q20 = vertex_q20(seen, best, 2);
+    return wide_q20 + (wide_q20 - at_q20) / 4;
+}
+
+/* Standard deviation by noise of a sharpened peak's place, px Q24, from how sharp it is and how slopes differ outside:
+ * five times the variance of white noise, since most outlines are moved by less than noise would. */
+static int32_t noise_q24(const int32_t slope[SLOPES], int32_t bend)
+{
+    uint64_t squares = 0;
+    int64_t noise;
+    int half;
+    int32_t i;
+    for (i = OUTSIDE; i < OUTSIDE + OUTSIDES; i++) {
+        squares += drogue_square_sum(slope[i + 2] - slope[i], 0);
+    }
+    if (squares == 0) {
+        return 0;
+    }
+    half = drogue_clz_u64(squares) / 2; /* the root to 31 bits, below 2^23 before */
+    noise = drogue_isqrt_u64(squares << (2 * half)) * (INT64_C(1) << 25);
+    noise = drogue_div_round_s64(noise, (int64_t)bend << half);
+    return noise < NOISY_Q24 ? (int32_t)noise : NOISY_Q24;
+}
+
+/* How far outwards of the sharpened edge the blurred one lies, in slopes Q20; 0 when there are not both. And what noise
+ * makes of it. */
+static int32_t moved_by(int32_t *noise_px_q24, const int32_t slope[SLOPES], const int32_t seen[SLOPES])
+{
+    const int32_t best = find_peak(seen, MIDDLE - NEAR, MIDDLE + NEAR);
     int32_t curve[SLOPES];
-    int32_t seen_q16;
-    int32_t is_q16;
+    int32_t at_q20;
+    int32_t is;
     int32_t from;
     int32_t to;
     int32_t i;
-    if (!find_peak(&seen_q16, seen, MIDDLE - NEAR, MIDDLE + NEAR)) {
+    *noise_px_q24 = 0;
+    if (best == 0) {
         return 0;
     }
+    at_q20 = vertex_q20(seen, best, 1);
     curve[0] = 0; /* what a peak is to be higher than */
-    from = (seen_q16 - FAR) >> 16;
-    to = (seen_q16 + FAR + DROGUE_Q16_ONE - 1) >> 16;
+    from = (at_q20 - FAR) >> 20;
+    to = (at_q20 + FAR + ONE_Q20 - 1) >> 20;
     for (i = from - 1; i <= to + 1; i++) {
         curve[i] = sharpened(slope, i);
     }
-    return find_peak(&is_q16, curve, from, to) ? seen_q16 - is_q16 : 0;
+    is = find_peak(curve, from, to);
+    if (is == 0) {
+        return 0;
+    }
+    *noise_px_q24 = noise_q24(slope, 2 * curve[is] - curve[is - 1] - curve[is + 1]);
+    return as_seen_q20(seen, best, at_q20) - vertex_q20(curve, is, 1);
 }
 
 /* Slopes along a group's rays where the outline has points, 'middle' of them within it, rising from bright to dark or the
@@ -100,7 +152,7 @@ static void add_slopes(int32_t slope[], int32_t slopes, int32_t middle, const dr
 
 /* Offsets along the normal as radial ones, in semi-axes times b: times the length of the normal in semi-axes, which is the
  * same in all quadrants. */
-static void spread(int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t moved[GROUPS], const drogue_ellipse *e)
+static void spread(int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t moved_q20[GROUPS], const drogue_ellipse *e)
 {
     const int64_t ratio_q24 = drogue_div_round_s64(e->b_px_q16 * (INT64_C(1) << 24), e->a_px_q16);
     uint32_t k;
@@ -116,7 +168,7 @@ static void spread(int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t moved[
         v_q24 = (int32_t)drogue_shr_round_s64(basis_q30[2], 6);
         length_q24 = drogue_isqrt_u64(drogue_square_sum(u_q24, v_q24));
         for (i = 0; i < 4; i++) { /* half a pixel each */
-            off_px_q24[bins[i]] = (int32_t)drogue_shr_round_s64(moved[bins[i] / BINS] * length_q24, 17);
+            off_px_q24[bins[i]] = (int32_t)drogue_shr_round_s64(moved_q20[bins[i] / BINS] * length_q24, 21);
         }
     }
 }
@@ -160,29 +212,31 @@ static uint64_t squares_left(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], cons
     return squares_q48;
 }
 
-/* Variance of a wave, px^2 Q48: a quarter of what it is of a group's mean, which the three degrees of freedom show that
- * the harmonics leave (of the mean over all groups it is half that: shrunk more); and a quarter of the mean square of the
- * points' offsets, as measured. Nothing where motion blurs them: the points lie anywhere on an edge then, and what the
- * harmonics leave is the motion's own. */
+/* Variance of a wave, px^2 Q48, a quarter of what it is of a group's mean: by the three degrees of freedom that the
+ * harmonics leave, by noise, and by the grid. */
 static uint64_t variance_of(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t c_px_q24[5],
-                            const drogue_outline *outline, int smeared)
+                            const int32_t noise_px_q24[GROUPS])
 {
-    const drogue_support *s = &outline->support;
-    const int64_t rms_q24 = drogue_isqrt_u64(((uint64_t)s->squares_q32 << 16) / s->points);
-    const uint64_t rms_px_q24 = (uint64_t)drogue_shr_round_s64(rms_q24 * outline->fitted.b_px_q16, 16);
-    return smeared ? 0 : squares_left(off_px_q24, c_px_q24) / (12 * BINS * BINS) + rms_px_q24 * rms_px_q24 / 4;
+    uint64_t noise_q48 = 0;
+    int32_t i;
+    for (i = 0; i < GROUPS; i++) {
+        noise_q48 += drogue_square_sum(noise_px_q24[i], 0);
+    }
+    return squares_left(off_px_q24, c_px_q24) / (12 * BINS * BINS) + noise_q48 / (4 * GROUPS) +
+           drogue_square_sum(LEAST_Q24, 0);
 }
 
-/* Less what noise makes of it: c (1 - variance / c^2), or nothing. */
+/* Less what is likely noise of it: c c^2 / (c^2 + variance), as Wiener's filter. */
 static int32_t shrunk(int32_t c_px_q24, uint64_t variance_q48)
 {
-    const int32_t size = c_px_q24 < 0 ? -c_px_q24 : c_px_q24;
-    int32_t kept;
-    if (drogue_square_sum(size, 0) <= variance_q48) {
-        return 0;
+    const uint64_t both_q48 = drogue_square_sum(c_px_q24, 0) + variance_q48;
+    const int shift = both_q48 >> 31 != 0 ? 33 - drogue_clz_u64(both_q48) : 0; /* to 31 bits */
+    int64_t noise_q30;
+    if (variance_q48 == 0) {
+        return c_px_q24;
     }
-    kept = size - (int32_t)drogue_div_round_s64((int64_t)variance_q48, size);
-    return c_px_q24 < 0 ? -kept : kept;
+    noise_q30 = drogue_div_round_s64((int64_t)((variance_q48 >> shift) << 30), (int64_t)(both_q48 >> shift));
+    return c_px_q24 - (int32_t)drogue_shr_round_s64(c_px_q24 * noise_q30, 30);
 }
 
 /* Does motion blur the outline, and is it so large that rays hardly reach its middle? */
@@ -194,7 +248,7 @@ static int is_smeared(const drogue_outline *outline)
 }
 
 /* An edge that motion blurs has no steepest place: it is where its lobe says. */
-static void find_smeared(int32_t moved[GROUPS], const drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
+static void find_smeared(int32_t moved_q20[GROUPS], const drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
                          const drogue_support *support)
 {
     drogue_lobe lobe[GROUPS];
@@ -204,12 +258,16 @@ static void find_smeared(int32_t moved[GROUPS], const drogue_ray rays[DROGUE_RAY
         add_slopes(slope, DROGUE_SMEARED_SLOPES, DROGUE_SMEARED_MIDDLE, rays, i, view, support);
         drogue_find_lobe(&lobe[i], slope);
     }
-    drogue_find_smeared(moved, lobe);
+    drogue_find_smeared(moved_q20, lobe);
+    for (i = 0; i < GROUPS; i++) {
+        moved_q20[i] *= ONE_Q20 / DROGUE_Q16_ONE;
+    }
 }
 
 static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view)
 {
-    int32_t moved[GROUPS];
+    int32_t moved_q20[GROUPS];
+    int32_t noise_px_q24[GROUPS];
     int32_t variance_px2_q16[GROUPS];
     int32_t off_px_q24[DROGUE_SUPPORT_BINS];
     int32_t c_px_q24[5];
@@ -226,20 +284,22 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
         for (k = DROGUE_SLOPE_FIRST; k <= DROGUE_SLOPE_LAST; k++) {
             seen[k] = blurred(slope, k);
         }
-        moved[i] = moved_q16(slope, seen);
+        moved_q20[i] = moved_by(&noise_px_q24[i], slope, seen);
         variance_px2_q16[i] = drogue_edge_variance(slope, seen);
     }
     drogue_find_smear(outline->support.smear_px2_q16, variance_px2_q16);
     smeared = is_smeared(outline);
     if (smeared) {
-        find_smeared(moved, rays, view, &outline->support);
+        find_smeared(moved_q20, rays, view, &outline->support);
     }
     drogue_turn_wave(outline->support.smear_px2_q16, outline->fitted.angle_rad_q16);
-    spread(off_px_q24, moved, &outline->fitted);
+    spread(off_px_q24, moved_q20, &outline->fitted);
     find_harmonics(c_px_q24, off_px_q24);
-    variance_q48 = variance_of(off_px_q24, c_px_q24, outline, smeared);
+    /* where motion blurs the outline, what the harmonics leave is the motion's own */
+    variance_q48 = smeared ? 0 : variance_of(off_px_q24, c_px_q24, noise_px_q24);
     for (i = 0; i < 5; i++) {
-        const int64_t c_px_q40 = shrunk(c_px_q24[i], variance_q48) * (int64_t)DROGUE_Q16_ONE;
+        const uint64_t own_q48 = i > 0 ? variance_q48 : variance_q48 / 2; /* of a mean half that of a wave */
+        const int64_t c_px_q40 = shrunk(c_px_q24[i], own_q48) * (int64_t)DROGUE_Q16_ONE;
         const int64_t c_q24 = drogue_div_round_s64(c_px_q40, outline->fitted.b_px_q16);
         outline->support.pull_q24[i] = drogue_clamp_s32(drogue_sat_s32(c_q24), -MOST_Q24, MOST_Q24);
     }

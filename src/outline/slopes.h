@@ -7,9 +7,9 @@
 
 #define DROGUE_SLOPE_MIDDLE 11                                           /* the slope on the ellipse */
 #define DROGUE_SLOPES (2 * DROGUE_SLOPE_MIDDLE + 1)                      /* inside first */
-#define DROGUE_SLOPE_NEAR 3                                              /* so near the ellipse lies its edge */
-#define DROGUE_SLOPE_FIRST (DROGUE_SLOPE_MIDDLE - DROGUE_SLOPE_NEAR - 1) /* looked at, blurred */
-#define DROGUE_SLOPE_LAST (DROGUE_SLOPE_MIDDLE + DROGUE_SLOPE_NEAR + 1)
+#define DROGUE_SLOPE_NEAR 2                                              /* so near the ellipse lies its edge */
+#define DROGUE_SLOPE_FIRST (DROGUE_SLOPE_MIDDLE - DROGUE_SLOPE_NEAR - 2) /* looked at, blurred */
+#define DROGUE_SLOPE_LAST (DROGUE_SLOPE_MIDDLE + DROGUE_SLOPE_NEAR + 2)
 #define DROGUE_SLOPE_GAIN 738 /* of the front end's blur of them */
 
 #define DROGUE_EDGE_GROUPS 8 /* equal parts of the outline whose rays are taken together */

@@ -186,6 +186,9 @@ void poses_more(std::vector<Real> &more, const mirror::Task &task, const mirror:
             }
         },
         error);
+    for (size_t k = 0; k < 5 && f.support.pull[k] != 0; k++) { /* to 2^-24, of which half remains */
+        s.move([k](mirror::Features &g, Real by) { g.support.pull[k] += by; }, 0x1p-24L);
+    }
     for (size_t k = 0; k < 2 && (f.support.smear[0] != 0 || f.support.smear[1] != 0); k++) {
         s.move([k](mirror::Features &g, Real by) { g.support.smear[k] += by; }, SMEAR_LSB / 65536);
     }

@@ -61,8 +61,8 @@ Curve sharpened(const Curve &slope)
     return out;
 }
 
-/* The highest peak from one place to another; negative when there is none. */
-Real peak(const Curve &c, int from, int to)
+/* The highest peak from one place to another; 0 when there is none. */
+size_t peak(const Curve &c, int from, int to)
 {
     size_t best = 0;
     Real highest = 0;
@@ -72,9 +72,14 @@ Real peak(const Curve &c, int from, int to)
             highest = c[i];
         }
     }
-    return best == 0 ? -1
-                     : static_cast<Real>(best) +
-                           (c[best + 1] - c[best - 1]) / (2 * (2 * c[best] - c[best - 1] - c[best + 1]));
+    return best;
+}
+
+/* The vertex of the parabola through a peak and the values so far from it. */
+Real vertex(const Curve &c, size_t at, size_t apart)
+{
+    const Real before = c[at - apart], after = c[at + apart];
+    return static_cast<Real>(at) + static_cast<Real>(apart) * (after - before) / (2 * (2 * c[at] - before - after));
 }
 
 /* The most that slopes add up to from one place on. */
@@ -115,16 +120,35 @@ std::array<Real, 2> smear_of(const std::array<Real, GROUPS> &variance)
     return beyond > 0 ? std::array<Real, 2>{c * beyond / length, s * beyond / length} : std::array<Real, 2>{0, 0};
 }
 
-/* How far outwards the front end's blur moves a group's edge, px. */
-Real moved(const Curve &slope, const Curve &blurry)
+/* How far outwards the front end's blur moves a group's edge, px, and the standard deviation of that by noise. */
+struct Moved {
+    Real by = 0, noise = 0;
+};
+
+Moved moved(const Curve &slope, const Curve &seen)
 {
-    const Real seen = peak(blurry, MIDDLE - 3, MIDDLE + 3);
-    if (seen < 0) {
-        return 0;
+    const size_t best = peak(seen, MIDDLE - 2, MIDDLE + 2);
+    if (best == 0) {
+        return {};
     }
-    const Real is =
-        peak(sharpened(slope), static_cast<int>(std::floor(seen - 2.4L)), static_cast<int>(std::ceil(seen + 2.4L)));
-    return is < 0 ? 0 : (seen - is) / 2;
+    const Real at = vertex(seen, best, 1);
+    const Curve sharp = sharpened(slope);
+    const size_t is = peak(sharp, static_cast<int>(std::floor(at - 2.4L)), static_cast<int>(std::ceil(at + 2.4L)));
+    if (is == 0) {
+        return {};
+    }
+    Moved out;
+    Real squares = 0, from = at;
+    for (size_t i = MIDDLE + 5; i < MIDDLE + 9; i++) {
+        squares += (slope[i + 2] - slope[i]) * (slope[i + 2] - slope[i]);
+    }
+    out.noise = std::min<Real>(2 * std::sqrt(squares) / (4 * (2 * sharp[is] - sharp[is - 1] - sharp[is + 1])), 4);
+    if (seen[best] > seen[best - 2] && seen[best] >= seen[best + 2]) {
+        const Real wide = vertex(seen, best, 2);
+        from = wide + (wide - at) / 4;
+    }
+    out.by = (from - vertex(sharp, is, 1)) / 2;
+    return out;
 }
 
 /* An edge that motion blurs: middle and width at half its height, how far inwards the band's other edge is; half pixels. */
@@ -218,10 +242,10 @@ std::array<Real, 5> basis(int k)
     return {1, std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)};
 }
 
-/* Harmonics of the groups' offsets, in semi-axes, each shrunk by what noise makes of it where motion blurs nothing. */
-std::array<Real, 5> harmonics(const std::array<Real, GROUPS> &off, const Outline &o, bool smeared)
+/* Harmonics of the groups' offsets, in semi-axes, each shrunk by what noise makes of it where motion blurs nothing: 'noise'
+ * is the variance of a wave by the pixels' own, times b^2. */
+std::array<Real, 5> harmonics(const std::array<Real, GROUPS> &off, const Ellipse &e, Real noise, bool smeared)
 {
-    const Ellipse &e = o.fitted;
     std::array<Real, reference::SUPPORT_BINS> radial;
     std::array<Real, 5> c = {};
     Real left = 0;
@@ -244,9 +268,10 @@ std::array<Real, 5> harmonics(const std::array<Real, GROUPS> &off, const Outline
         }
         left += mean * mean;
     }
-    const Real variance = smeared ? 0 : left / 12 + o.support.squares / o.support.points / 4;
-    for (Real &v : c) {
-        v = v * v <= variance ? Real(0) : std::clamp<Real>(v - variance / v, -0.125L, 0.125L);
+    for (size_t i = 0; i < 5; i++) {
+        const Real variance = smeared ? 0 : (left / 12 + noise / (e.b * e.b)) / (i > 0 ? 1 : 2);
+        c[i] = variance > 0 ? c[i] * (c[i] * c[i]) / (c[i] * c[i] + variance) : c[i];
+        c[i] = std::clamp<Real>(c[i], -0.125L, 0.125L);
     }
     return c;
 }
@@ -271,7 +296,7 @@ void put_back(Ellipse &e, const std::array<Real, 5> &pull)
     const Real pi = std::acos(Real(-1));
     e.xc += u * c - v * s;
     e.yc += u * s + v * c;
-    if (apart > 0) {
+    if (apart > 0x1p-17L) { /* half an LSB of the library: of a circle any angle is as good */
         e.angle = std::remainder(e.angle + std::atan2(cross, half) / 2, pi);
     }
     e.a = (a + b) / 2 + apart;
@@ -288,6 +313,7 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
 {
     std::array<drogue_ray, DROGUE_RAYS> rays;
     std::array<Real, GROUPS> off, variance;
+    Real noise = 121 / 65536.0L;
     o.ellipse = o.fitted;
     o.support.pull = {};
     o.support.smear = {};
@@ -295,7 +321,9 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
         drogue_rays_aim(rays.data(), &aim, 4);
         for (int g = 0; g < GROUPS; g++) {
             const Curve slope = slopes<SLOPES>(o.support, rays.data(), g, view, MIDDLE), seen = blurred(slope);
-            off[static_cast<size_t>(g)] = moved(slope, seen);
+            const Moved edge = moved(slope, seen);
+            off[static_cast<size_t>(g)] = edge.by;
+            noise += edge.noise * edge.noise / (4 * GROUPS);
             variance[static_cast<size_t>(g)] = edge_variance(slope, seen);
         }
         o.support.smear = smear_of(variance);
@@ -310,7 +338,7 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
         }
         const Real c2 = std::cos(2 * o.fitted.angle), s2 = std::sin(2 * o.fitted.angle), c = o.support.smear[0];
         o.support.smear = {c * c2 - o.support.smear[1] * s2, o.support.smear[1] * c2 + c * s2}; /* from +x */
-        o.support.pull = harmonics(off, o, smeared);
+        o.support.pull = harmonics(off, o.fitted, noise, smeared);
         put_back(o.ellipse, o.support.pull);
     }
     undo_blur(o.ellipse, config);
