@@ -102,8 +102,8 @@ void draw_pose(Trial &t, Random &random, Variety variety, bool held_out)
         s.image_px = {1280, 720};
     }
     const double distance = s.camera.fx_px * s.drogue.rim_radius_m / a;
-    const cv::Point2d off = held_out ? cv::Point2d(random.uniform(-0.4, 0.4), random.uniform(-0.15, 0.15))
-                                     : cv::Point2d(random.uniform(-0.25, 0.25), random.uniform(-0.25, 0.25));
+    const double down = held_out ? random.uniform(-0.15, 0.15) : random.uniform(-0.25, 0.25);
+    const cv::Point2d off(held_out ? random.uniform(-0.4, 0.4) : random.uniform(-0.25, 0.25), down);
     const double turn = any_angle(random);
     s.pose.position_m = distance * cv::Vec3d(off.x, off.y, 1);
     const cv::Vec3d sight = cv::normalize(s.pose.position_m);
