@@ -48,10 +48,6 @@ void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *ellipse
 void drogue_ray_read(int32_t *grey_q8, const drogue_ray *ray, const drogue_image *image, drogue_q16 from_px_q16,
                      int32_t count);
 
-/* Where between samples a curve is highest, from a sample that is higher than the one before and no lower than the one
- * after: by the parabola through the three, samples Q16, within half a sample. */
-int32_t drogue_ray_peak_q16(int32_t before, int32_t at, int32_t after);
-
 /* Place rays and find where the grey rises outwards along them, or changes either way.
  *
  *  reach   how far from the ellipse edges are looked for, [2, 512] px and limited to that; samples are half a pixel apart

@@ -24,7 +24,7 @@
 #define FAR (12 * (ONE_Q20 / 5)) /* slopes: so far from there, 1.2 px, lies the sharpened one */
 #define OUTSIDE (MIDDLE + 5)     /* slopes from there on are of what is behind the drogue */
 #define OUTSIDES 4               /* of them, whose differences show noise */
-#define NOISY_Q24 (1 << 26)      /* px: of more noise nothing is left */
+#define NOISY_Q24 (1 << 26)      /* px: more noise is not told apart */
 #define LEAST_Q24 (11 << 16)     /* px: what the pixels' grid makes of any edge */
 #define TAPS 7
 #define SMEARED_Q32 (1u << 30) /* px^4: square of a smear of half a px^2; of less an edge has a steepest place */
@@ -90,10 +90,7 @@ static int32_t noise_q24(const int32_t slope[SLOPES], int32_t bend)
     for (i = OUTSIDE; i < OUTSIDE + OUTSIDES; i++) {
         squares += drogue_square_sum(slope[i + 2] - slope[i], 0);
     }
-    if (squares == 0) {
-        return 0;
-    }
-    half = drogue_clz_u64(squares) / 2; /* the root to 31 bits, below 2^23 before */
+    half = drogue_clz_u64(squares | 1u) / 2; /* the root to 32 bits, below 2^21 before */
     noise = drogue_isqrt_u64(squares << (2 * half)) * (INT64_C(1) << 25);
     noise = drogue_div_round_s64(noise, (int64_t)bend << half);
     return noise < NOISY_Q24 ? (int32_t)noise : NOISY_Q24;
@@ -213,7 +210,7 @@ static uint64_t squares_left(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], cons
 }
 
 /* Variance of a wave, px^2 Q48, a quarter of what it is of a group's mean: by the three degrees of freedom that the
- * harmonics leave, by noise, and by the grid. */
+ * harmonics leave, by noise, and by the grid; as of a round outline. */
 static uint64_t variance_of(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t c_px_q24[5],
                             const int32_t noise_px_q24[GROUPS])
 {
@@ -230,11 +227,12 @@ static uint64_t variance_of(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], const
 static int32_t shrunk(int32_t c_px_q24, uint64_t variance_q48)
 {
     const uint64_t both_q48 = drogue_square_sum(c_px_q24, 0) + variance_q48;
-    const int shift = both_q48 >> 31 != 0 ? 33 - drogue_clz_u64(both_q48) : 0; /* to 31 bits */
     int64_t noise_q30;
+    int shift;
     if (variance_q48 == 0) {
         return c_px_q24;
     }
+    shift = 33 - drogue_clz_u64(both_q48); /* to 31 bits; the grid's variance alone has more */
     noise_q30 = drogue_div_round_s64((int64_t)((variance_q48 >> shift) << 30), (int64_t)(both_q48 >> shift));
     return c_px_q24 - (int32_t)drogue_shr_round_s64(c_px_q24 * noise_q30, 30);
 }
@@ -252,15 +250,16 @@ static void find_smeared(int32_t moved_q20[GROUPS], const drogue_ray rays[DROGUE
                          const drogue_support *support)
 {
     drogue_lobe lobe[GROUPS];
+    int32_t moved_q16[GROUPS];
     int32_t i;
     for (i = 0; i < GROUPS; i++) {
         int32_t slope[DROGUE_SMEARED_SLOPES];
         add_slopes(slope, DROGUE_SMEARED_SLOPES, DROGUE_SMEARED_MIDDLE, rays, i, view, support);
         drogue_find_lobe(&lobe[i], slope);
     }
-    drogue_find_smeared(moved_q20, lobe);
+    drogue_find_smeared(moved_q16, lobe);
     for (i = 0; i < GROUPS; i++) {
-        moved_q20[i] *= ONE_Q20 / DROGUE_Q16_ONE;
+        moved_q20[i] = moved_q16[i] * (ONE_Q20 / DROGUE_Q16_ONE);
     }
 }
 

@@ -79,7 +79,9 @@ void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_ima
     }
 }
 
-int32_t drogue_ray_peak_q16(int32_t before, int32_t at, int32_t after)
+/* Where between samples a curve is highest, from a sample that is higher than the one before and no lower than the one
+ * after: by the parabola through the three, samples Q16, within half a sample. */
+static int32_t peak_q16(int32_t before, int32_t at, int32_t after)
 {
     const int64_t bend = 2 * (int64_t)at - before - after; /* > 0 */
     return (int32_t)drogue_div_round_s64(((int64_t)after - before) * HALF, bend);
@@ -115,7 +117,7 @@ static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, in
             at = after;
             after = sum[i + 1 + REACH] - sum[i + 1];
             if (at >= least_q8 && at > before && at >= after) {
-                const int64_t part_q16 = drogue_ray_peak_q16(before, at, after);
+                const int64_t part_q16 = peak_q16(before, at, after);
                 drogue_ray_edge e;
                 e.at_px_q16 = (i - out) * r->step_px_q16 + (int32_t)drogue_shr_round_s64(part_q16 * r->step_px_q16, 16);
                 e.slope_q8 = at;

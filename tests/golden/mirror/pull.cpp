@@ -133,7 +133,9 @@ Moved moved(const Curve &slope, const Curve &seen)
     }
     const Real at = vertex(seen, best, 1);
     const Curve sharp = sharpened(slope);
-    const size_t is = peak(sharp, static_cast<int>(std::floor(at - 2.4L)), static_cast<int>(std::ceil(at + 2.4L)));
+    const Real near = std::floor(at * 0x1p20L + 0.5L), far = 2516580; /* slopes Q20, as the library: 2.4 of them */
+    const size_t is = peak(sharp, static_cast<int>(std::floor((near - far) / 0x1p20L)),
+                           static_cast<int>(std::ceil((near + far) / 0x1p20L)));
     if (is == 0) {
         return {};
     }
@@ -296,7 +298,7 @@ void put_back(Ellipse &e, const std::array<Real, 5> &pull)
     const Real pi = std::acos(Real(-1));
     e.xc += u * c - v * s;
     e.yc += u * s + v * c;
-    if (apart > 0x1p-17L) { /* half an LSB of the library: of a circle any angle is as good */
+    if (apart > 0x1p-16L) { /* an LSB of the library: of a circle any angle is as good */
         e.angle = std::remainder(e.angle + std::atan2(cross, half) / 2, pi);
     }
     e.a = (a + b) / 2 + apart;

@@ -45,7 +45,7 @@ static drogue_image draw(const ring *r, uint64_t seed)
             grey -= beside ? r->ramp * (within * step(within) + optics2 * bell(within, optics2)) : 0;
             grey -= beside && r->width > 0 ? 100 * step(within - r->width) : 0;
             grey += noise(&seed, r->noise);
-            pixels[y * SIDE + x] = (uint8_t)lround(r->negative ? 220 - grey : grey);
+            pixels[y * SIDE + x] = (uint8_t)lround(fmin(fmax(r->negative ? 220 - grey : grey, 0), 255));
         }
     }
     return view;
@@ -58,7 +58,7 @@ static drogue_ellipse circle(double xc, double yc, double radius)
 }
 
 /* Fitted about the ring's centre. */
-static drogue_outline fitted_at(const ring *r, double radius, double rms_px)
+static drogue_outline fitted_at(const ring *r, double radius)
 {
     const int bright = !r->negative;
     drogue_outline o;
@@ -67,7 +67,6 @@ static drogue_outline fitted_at(const ring *r, double radius, double rms_px)
     o.fitted = circle(r->xc, r->yc, radius);
     o.support.bright_bins = bright ? UINT32_MAX : 0;
     o.support.points = 320;
-    o.support.squares_q32 = (int64_t)ldexp(o.support.points * rms_px * rms_px / (radius * radius), 32);
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
         o.support.bin[k].count[bright] = 10;
     }
@@ -142,7 +141,7 @@ static double mean_radius(double *worst, ring r, double off)
         r.outer = rng_real(&rng, 29, 31);
         r.negative = i % 2;
         view = draw(&r, 1);
-        o = fitted_at(&r, r.outer + off, 0.06);
+        o = fitted_at(&r, r.outer + off);
         drogue_outline_pull(&o, rays, &view, &config);
         at = radius_of(&o, &config) - r.outer;
         sum += at;
@@ -162,7 +161,8 @@ START_TEST(a_band_is_as_wide_as_it_is)
         const double off = beyond(width, 0);
         double worst;
         const double mean = mean_radius(&worst, r, off);
-        MUST(fabs(mean) < 0.09 && worst < 0.14, "%g px wide: off by %g, %g; was %g", width, mean, worst, off);
+        MUST(fabs(mean) < 0.02 + 0.25 * off && worst < 0.14, "%g px wide: off by %g, %g; was %g", width, mean, worst,
+             off);
     }
 }
 END_TEST
@@ -177,8 +177,8 @@ START_TEST(shading_goes_back)
         const double off = beyond(0, ramp);
         double worst;
         const double mean = mean_radius(&worst, r, off);
-        MUST(fabs(mean) < 0.015 + 0.2 * off && worst < 0.1, "%g a pixel: off by %g, %g; was %g", ramp, mean, worst,
-             off);
+        MUST(fabs(mean) < 0.015 + 0.2 * off && worst < 0.03 + 0.4 * off, "%g a pixel: off by %g, %g; was %g", ramp,
+             mean, worst, off);
     }
 }
 END_TEST
@@ -188,14 +188,14 @@ START_TEST(half_a_band_moves_the_centre)
     const double off = beyond(2.5, 0);
     const ring r = {30, 2.5, 0, 0, 47.3, 46.9, 47, 0};
     const drogue_image view = draw(&r, 1);
-    drogue_outline o = fitted_at(&r, 30 + off / 2, 0.01);
+    drogue_outline o = fitted_at(&r, 30 + off / 2);
     drogue_config config;
     drogue_config_default(&config);
     o.fitted.yc_px_q16 = q16_of(r.yc + off * 2 / TEST_PI); /* of a half wave: 2 / pi */
     drogue_outline_pull(&o, rays, &view, &config);
-    ck_assert(fabs(real_of_q16(o.ellipse.yc_px_q16) - r.yc) < 0.4 * off);
+    ck_assert(fabs(real_of_q16(o.ellipse.yc_px_q16) - r.yc) < 0.25 * off);
     ck_assert(fabs(real_of_q16(o.ellipse.xc_px_q16) - r.xc) < 0.02);
-    ck_assert(fabs(radius_of(&o, &config) - 30) < 0.3 * off);
+    ck_assert(fabs(radius_of(&o, &config) - 30) < 0.1 * off);
 }
 END_TEST
 
@@ -209,7 +209,7 @@ START_TEST(no_more_than_noise)
     for (seed = 1; seed <= 100; seed++) {
         ring r = {30, 0, 0, 6, 47.3, 46.9, 0, 0};
         drogue_image view = draw(&r, seed);
-        drogue_outline o = fitted_at(&r, 30, 0.1);
+        drogue_outline o = fitted_at(&r, 30);
         int i;
         drogue_outline_pull(&o, rays, &view, &config);
         for (i = 0; i < 5; i++) {
@@ -219,13 +219,13 @@ START_TEST(no_more_than_noise)
             r.ramp = 4;
             r.noise = i == 0 ? 1 : 20;
             view = draw(&r, seed);
-            o = fitted_at(&r, 30 + beyond(0, 4), 0.1);
+            o = fitted_at(&r, 30 + beyond(0, 4));
             drogue_outline_pull(&o, rays, &view, &config);
             left[i] += ldexp(o.support.pull_q24[0], -24) * 30 / 100;
         }
     }
     MUST(moved < 0.01, "%g px at the mean", moved);
-    MUST(left[0] > 0.6 * beyond(0, 4) && left[1] < 0.4 * beyond(0, 4), "of %g px %g and %g", beyond(0, 4), left[0],
+    MUST(left[0] > 0.55 * beyond(0, 4) && left[1] < 0.4 * beyond(0, 4), "of %g px %g and %g", beyond(0, 4), left[0],
          left[1]);
 }
 END_TEST
@@ -241,20 +241,16 @@ START_TEST(even_grey_moves_nothing)
     for (place = 0; place < 40; place++) {
         const ring r = {rng_real(&rng, 15, 40), 0, 0, 0, rng_real(&rng, 47, 48), rng_real(&rng, 47, 48), 0, 0};
         const drogue_image view = draw(&r, 1);
-        drogue_outline o = fitted_at(&r, r.outer, 0.08);
-        drogue_ellipse undone = o.fitted;
-        drogue_undo_blur(&undone, &config);
+        drogue_outline o = fitted_at(&r, r.outer);
+        drogue_ellipse undone;
         drogue_outline_pull(&o, rays, &view, &config);
         most += ldexp(largest(&o), -24) * r.outer / 40;
         MUST(ldexp(largest(&o), -24) * r.outer < 0.05, "place %d: %g px", place, ldexp(largest(&o), -24) * r.outer);
-        if (largest(&o) == 0) {
-            ck_assert_int_eq(memcmp(&o.ellipse, &undone, sizeof undone), 0);
-        }
         undone = o.ellipse;
         drogue_outline_pull(&o, rays, &view, &config);
         ck_assert_int_eq(memcmp(&o.ellipse, &undone, sizeof undone), 0);
     }
-    MUST(most < 0.015, "%g px at the mean", most);
+    MUST(most < 0.012, "%g px at the mean", most);
 }
 END_TEST
 
@@ -263,7 +259,7 @@ START_TEST(only_where_the_outline_has_points)
     const ring r = {30, 2.5, 0, 0, 47.3, 46.9, 47, 0};
     const drogue_image view = draw(&r, 1);
     drogue_config config;
-    drogue_outline o = fitted_at(&r, 30, 0.08);
+    drogue_outline o = fitted_at(&r, 30);
     uint32_t k;
     drogue_config_default(&config);
     for (k = 0; k < DROGUE_SUPPORT_BINS / 2; k++) { /* along +v: below */
@@ -271,9 +267,8 @@ START_TEST(only_where_the_outline_has_points)
         o.support.bin[k].count[0] = 10; /* of the other sense: none of its own */
     }
     drogue_outline_pull(&o, rays, &view, &config);
-    MUST(ldexp(largest(&o), -24) * 30 < 0.02, "%g px", ldexp(largest(&o), -24) * 30);
+    MUST(ldexp(largest(&o), -24) * 30 < 0.005, "%g px", ldexp(largest(&o), -24) * 30);
     o.support.points = 0;
-    o.support.squares_q32 = 0;
     drogue_outline_pull(&o, rays, &view, &config);
     ck_assert_int_eq(largest(&o), 0);
 }
@@ -289,7 +284,7 @@ START_TEST(the_smallest)
     int limited = 0;
     drogue_config_default(&config);
     for (radius = 1; radius < 5; radius += 0.125) {
-        drogue_outline o = fitted_at(&r, radius, 0.001);
+        drogue_outline o = fitted_at(&r, radius);
         drogue_outline_pull(&o, rays, &view, &config);
         ck_assert_int_le(largest(&o), 1 << 21);
         ck_assert(o.ellipse.b_px_q16 > o.fitted.b_px_q16 / 2 && o.ellipse.a_px_q16 >= o.ellipse.b_px_q16);
@@ -297,7 +292,7 @@ START_TEST(the_smallest)
     }
     ck_assert_int_gt(limited, 0);
     {
-        drogue_outline o = fitted_at(&r, 0.999, 0.001);
+        drogue_outline o = fitted_at(&r, 0.999);
         o.support.pull_q24[2] = 77;
         o.support.smear_px2_q16[1] = 88;
         drogue_outline_pull(&o, rays, &view, &config);
@@ -315,11 +310,39 @@ START_TEST(across_the_border)
     const drogue_image all = draw(&r, 1);
     const drogue_image view = {all.data, 76, SIDE, SIDE}; /* the outline's right end is cut at 77.5 */
     drogue_config config;
-    drogue_outline o = fitted_at(&r, 30, 0.05);
+    drogue_outline o = fitted_at(&r, 30);
     drogue_config_default(&config);
     drogue_outline_pull(&o, rays, &view, &config);
-    ck_assert(fabs(radius_of(&o, &config) - 30) < 0.1);
-    ck_assert(fabs(real_of_q16(o.ellipse.xc_px_q16) - r.xc) < 0.1);
+    ck_assert(fabs(radius_of(&o, &config) - 30) < 0.02);
+    ck_assert(fabs(real_of_q16(o.ellipse.xc_px_q16) - r.xc) < 0.02);
+}
+END_TEST
+
+/* Of a checkerboard the front end's blur leaves waves of a pixel: peaks as high as others two slopes away, through which goes
+ * no parabola. */
+START_TEST(waves_of_a_pixel)
+{
+    const drogue_image view = {pixels, SIDE, SIDE, SIDE};
+    const ring r = {0, 0, 0, 0, 47.3, 46.9, 0, 0};
+    drogue_config config;
+    double a, ratio;
+    int x, y;
+    drogue_config_default(&config);
+    for (y = 0; y < SIDE; y++) {
+        for (x = 0; x < SIDE; x++) {
+            pixels[y * SIDE + x] = ((x ^ y) & 1) != 0 ? 255 : 0;
+        }
+    }
+    for (a = 5; a < 46; a += 0.0625) {
+        for (ratio = 0.5; ratio <= 1; ratio += 0.05) {
+            drogue_outline o = fitted_at(&r, a);
+            o.fitted.b_px_q16 = q16_of(a * ratio);
+            drogue_outline_pull(&o, rays, &view, &config);
+            MUST(hypot(o.support.smear_px2_q16[0], o.support.smear_px2_q16[1]) > 32000 ||
+                     ldexp(largest(&o), -24) * a * ratio < 1.2,
+                 "a %g, b %g: %g px", a, a * ratio, ldexp(largest(&o), -24) * a * ratio);
+        }
+    }
 }
 END_TEST
 
@@ -396,5 +419,5 @@ START_TEST(harmonics_of_any_ellipse)
 END_TEST
 
 SUITE_MAIN("pull", a_band_is_as_wide_as_it_is, shading_goes_back, half_a_band_moves_the_centre, no_more_than_noise,
-           even_grey_moves_nothing, only_where_the_outline_has_points, the_smallest, across_the_border, units_and_bands,
-           harmonics_of_any_ellipse)
+           even_grey_moves_nothing, only_where_the_outline_has_points, the_smallest, across_the_border,
+           waves_of_a_pixel, units_and_bands, harmonics_of_any_ellipse)
