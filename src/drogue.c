@@ -147,21 +147,18 @@ static drogue_second_look short_of_room(const drogue_frame *f, drogue_status sta
     }
 }
 
-/* The inner disc is too large for the best outline: look for the one that it is of the size for. Returns what was tried
- * last. */
-static int try_beyond(best_try *best, drogue_frame *f, int last)
+/* Is the inner disc too large for the best outline, by no more than one about it explains? */
+static int asks_beyond(const best_try *best)
+{
+    return best->status == DROGUE_OK && best->larger_q16 > SURE_Q16 && best->larger_q16 <= BEYOND_Q16;
+}
+
+/* Look for the outline that the inner disc is of the size for. */
+static void try_beyond(best_try *best, drogue_frame *f)
 {
     const drogue_ellipse was = best->result.ellipse;
     const drogue_region region = best->region;
     drogue_status status;
-    if (best->status != DROGUE_OK || best->larger_q16 <= SURE_Q16 || best->larger_q16 > BEYOND_Q16) {
-        return last;
-    }
-    if (f->workspace->capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
-        best->second_look = DROGUE_SECOND_FULL;
-        f->second_look = DROGUE_SECOND_FULL;
-        return last;
-    }
     begin_try(f, BEYOND);
     clear(f->out);
     f->second_look = best->second_look;
@@ -174,7 +171,6 @@ static int try_beyond(best_try *best, drogue_frame *f, int last)
     if (status == DROGUE_OK && f->doubt_q16 < best->least_q16 - CLEARLY_Q16) {
         keep_try(best, f, BEYOND, status);
     }
-    return BEYOND;
 }
 
 /* Measure; while the inner disc is not seen or not of its size, try what else the outline may be. What has the disc
@@ -211,7 +207,12 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
             room = short_of_room(f, status);
         }
     }
-    last = best.least_q16 > SURE_Q16 ? try_beyond(&best, f, last) : last;
+    if (asks_beyond(&best) && f->workspace->capacity.edges >= DROGUE_INNER_BEYOND_POINTS) {
+        try_beyond(&best, f);
+        last = BEYOND;
+    } else if (asks_beyond(&best) && room == DROGUE_SECOND_NONE) {
+        room = DROGUE_SECOND_FULL;
+    }
     if (best.what != last || f->others) {
         return_to(&best, f, region, last);
     }

@@ -2,8 +2,6 @@
 /* Region, front end, outline; and the second look at an outline that the ring cuts. */
 #include "look.h"
 
-#include <string.h>
-
 #include "drogue/frontend.h"
 #include "drogue/inner.h"
 
@@ -184,16 +182,12 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
     const drogue_q16 by_px_q16 = drogue_q16_mul(was->a_px_q16, larger_q16);
     drogue_ellipse about = *was;
     const drogue_status status = place_view(f, region);
-    int k;
     if (status != DROGUE_OK) {
         return status;
     }
     f->asked = *region;
     f->others = 0;
-    memset(outline, 0, sizeof *outline);
-    for (k = 0; k < 4; k++) {
-        outline->arcs[k] = DROGUE_NO_ARC;
-    }
+    drogue_outline_clear(outline);
     about.xc_px_q16 = drogue_q16_sub(was->xc_px_q16, drogue_q16_from_int(out->region.x_px));
     about.yc_px_q16 = drogue_q16_sub(was->yc_px_q16, drogue_q16_from_int(out->region.y_px));
     outline->fitted = about;

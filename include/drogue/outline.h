@@ -72,6 +72,9 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
 int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                            const drogue_mask *mask, const drogue_config *config);
 
+/* None: no ellipse, no arcs. */
+void drogue_outline_clear(drogue_outline *outline);
+
 /* Measure along rays how far what lies beside the outline moved it, as shading or the wall's edge, and put that back: an edge
  * goes from where the front end sees it, by gradients a pixel to either side, to where it is steepest with less blur. Of each
  * coefficient c the part c^2 / (c^2 + v) is put back, v its variance by the noise that the rays show outside, by what the

@@ -297,16 +297,21 @@ static drogue_status best_outline(drogue_outline *out, uint32_t count, context *
     return out->ellipse.b_px_q16 > 0 && out->cover_q16 >= c->config->min_cover_q16 ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
 }
 
+void drogue_outline_clear(drogue_outline *outline)
+{
+    int k;
+    memset(outline, 0, sizeof *outline);
+    for (k = 0; k < 4; k++) {
+        outline->arcs[k] = DROGUE_NO_ARC;
+    }
+}
+
 drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                                   const drogue_mask *mask, const drogue_config *config)
 {
     context c;
     drogue_status status;
-    int k;
-    memset(out, 0, sizeof *out);
-    for (k = 0; k < 4; k++) {
-        out->arcs[k] = DROGUE_NO_ARC;
-    }
+    drogue_outline_clear(out);
     if (list->edge_count == 0) {
         return DROGUE_E_NO_EDGES;
     }

@@ -294,11 +294,13 @@ void add_look(Set &set)
     add_one(set, "past-the-border", Tier::boundary, {"border", "arc"}, p, l);
     p.inner_radius = 0.12;
     p.camera = {600, 600, 63.5, 63.5};
+    const auto within = [](int x, int y, double radius) {
+        return std::clamp(radius - std::hypot(x - 62.3, y - 64.6) + 0.5, 0.0, 1.0);
+    };
     for (const int rim : {205, 208, 211, 214, 217, 223}) { /* before 205: along rays, and where it is an edge at once */
-        p.image = image_from(128, 128, [rim](int x, int y) {
-            const double d = std::hypot(x - 62.3, y - 64.6);
-            const auto within = [d](double radius) { return std::clamp(radius - d + 0.5, 0.0, 1.0); };
-            const double grey = 205 + (rim - 205) * within(48) + (90 - rim) * within(42) - 78 * within(16.2);
+        p.image = image_from(128, 128, [rim, within](int x, int y) {
+            const double grey =
+                205 + (rim - 205) * within(x, y, 48) + (90 - rim) * within(x, y, 42) - 78 * within(x, y, 16.2);
             return static_cast<int>(grey + 0.5) + (x * 7 + y * 5) % 3;
         });
         l = {{0, 0, 128, 128}};
@@ -307,10 +309,8 @@ void add_look(Set &set)
     for (const int wall :
          {36, 38, 40, 42, 43, 44, 45}) { /* in noise: the disc is 7 to 33 % too large for the wall's edge */
         accuracy::Random noise(17);
-        p.image = image_from(128, 128, [wall, &noise](int x, int y) {
-            const double d = std::hypot(x - 62.3, y - 64.6);
-            const auto within = [d](double radius) { return std::clamp(radius - d + 0.5, 0.0, 1.0); };
-            const double grey = 200 + 8 * within(48) - 118 * within(wall) - 78 * within(16.2);
+        p.image = image_from(128, 128, [wall, within, &noise](int x, int y) {
+            const double grey = 200 + 8 * within(x, y, 48) - 118 * within(x, y, wall) - 78 * within(x, y, 16.2);
             return static_cast<int>(grey + noise.uniform(-6, 6) + 0.5);
         });
         l = {{10, 13, 106, 106}};

@@ -2,6 +2,7 @@
 /* The outline stage with its static functions in reach, so that its rounds can be followed. */
 #include "decisions.h"
 
+#define drogue_outline_clear decisions_outline_clear
 #define drogue_outline_find decisions_outline_find
 #define drogue_outline_enlarge decisions_outline_enlarge
 drogue_status decisions_outline_find(drogue_outline *, const drogue_workspace *, const drogue_edge_list *,

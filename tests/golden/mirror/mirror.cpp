@@ -500,11 +500,10 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    if (best.status == DROGUE_OK && least > SURE && real(best.larger_q16) > SURE && real(best.larger_q16) <= 0.15L &&
-        task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
-        room = DROGUE_SECOND_FULL;
-    } else if (best.status == DROGUE_OK && least > SURE && real(best.larger_q16) > SURE &&
-               real(best.larger_q16) <= 0.15L) {
+    const bool asks_beyond = best.status == DROGUE_OK && real(best.larger_q16) > SURE && real(best.larger_q16) <= 0.15L;
+    if (asks_beyond && task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
+        room = room == DROGUE_SECOND_NONE ? DROGUE_SECOND_FULL : room;
+    } else if (asks_beyond) {
         Result out;
         Features from = {};
         if (beyond(out, f, best, decided, asked_for, task) && judge(out, from, f, task, library) < least - 1 / 256.0L &&
