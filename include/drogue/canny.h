@@ -87,12 +87,6 @@ static inline int drogue_canny_is_maximum(drogue_sector sector, int32_t before, 
     return m > before && m > after;
 }
 
-/* Vertex of the parabola through (-1, before), (0, m), (1, after), where m is the maximum.
- *
- *  return  offset Q5 in [-15, 15], rounded to nearest, towards 'after' positive; 0 when all three are equal
- */
-int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after);
-
 /* The division that gives drogue_canny_offset_q5(), a bit at a time. */
 typedef struct drogue_canny_vertex {
     int32_t curvature; /* 2 m - before - after */
@@ -127,6 +121,21 @@ static inline int32_t drogue_canny_vertex_offset(const drogue_canny_vertex *v)
     const int32_t offset = v->quotient - 16; /* where |slope| < curvature: quotient in [0, 32) */
     const int32_t within = offset < -15 || v->slope <= -v->curvature ? -15 : v->slope >= v->curvature ? 15 : offset;
     return v->curvature <= 0 ? 0 : within;
+}
+
+/* Vertex of the parabola through (-1, before), (0, m), (1, after), where m is the maximum.
+ *
+ *  return  offset Q5 in [-15, 15], rounded to nearest, towards 'after' positive; 0 when all three are equal
+ */
+static inline int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after)
+{
+    drogue_canny_vertex v = drogue_canny_vertex_begin(before, m, after);
+    DROGUE_NOTE("canny: offset numerator", v.rest, 18);
+    if (v.curvature > 0 && v.rest > 0) { /* one division; the steps are for hardware without one */
+        const uint32_t quotient = (uint32_t)v.rest / (2u * (uint32_t)v.curvature);
+        v.quotient = quotient < 31u ? (int32_t)quotient : 31;
+    }
+    return drogue_canny_vertex_offset(&v);
 }
 
 /* Direction class by the signs of the gradient, gy counted upward as in (2): 0..3 for I..IV.

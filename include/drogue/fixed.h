@@ -120,6 +120,9 @@ static inline uint64_t drogue_square_sum(int32_t a, int32_t b)
     return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b);
 }
 
+/* (u, v) turned by an angle from the first axis to the second, rounded to nearest, ties toward +infinity; exact until then. */
+void drogue_rotate_q30(int64_t out[2], int32_t u, int32_t v, int32_t cos_q30, int32_t sin_q30);
+
 /* floor(num / den) for den > 0. */
 int64_t drogue_floor_div_s64(int64_t num, int64_t den);
 

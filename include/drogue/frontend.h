@@ -116,7 +116,9 @@ typedef struct drogue_frontend {
     drogue_workspace *workspace;   /* the caller's */
     drogue_frontend_config config; /* as given */
     drogue_columns columns[8];     /* of the last rows fed, row y at y % 8: where candidates are */
-    drogue_stretch stretch[8];     /* and what holds them */
+    drogue_stretch stretch[8];     /* what holds them */
+    drogue_stretch about[8];       /* what holds those of a row and its neighbours */
+    drogue_ring_chords chords;     /* of the ring, in the row fed last */
     int32_t width_px;              /* of the frame */
     int32_t height_px;             /* of the frame */
     int32_t rows_in;               /* fed so far */

@@ -69,13 +69,24 @@ typedef struct drogue_columns {
     uint16_t end[2];   /* px: behind the last of each */
 } drogue_columns;
 
+/* The two circles of a ring, disc and hole, and their chords along the row that was looked at last. */
+typedef struct drogue_ring_chords {
+    int64_t square[2];  /* largest (2x - centre2_x)^2 + (2y - centre2_y)^2 within */
+    int32_t half_px[2]; /* largest |2x - centre2_x|; where a row misses the circle, that of the row before */
+} drogue_ring_chords;
+
+/* The circles of a valid mask, before its first row. */
+void drogue_ring_chords_of(drogue_ring_chords *out, const drogue_mask *mask);
+
 /* Those of a valid mask's ring in row y, on both sides of its hole: exactly where drogue_mask_in_ring() holds.
  *
  *  out       in [0, width_px]
+ *  chords    the mask's; its rows come in any order, fastest from one to the next
  *  y         [0, DROGUE_MAX_SIDE)
  *  width_px  [1, DROGUE_MAX_SIDE]
  */
-void drogue_mask_columns(drogue_columns *out, const drogue_mask *mask, int32_t y, int32_t width_px);
+void drogue_mask_columns(drogue_columns *out, drogue_ring_chords *chords, const drogue_mask *mask, int32_t y,
+                         int32_t width_px);
 
 /* Mask of a region of its own coordinates, (0, 0) its top-left pixel. */
 static inline drogue_mask drogue_mask_of_size(int32_t width_px, int32_t height_px)

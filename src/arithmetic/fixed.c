@@ -105,6 +105,12 @@ drogue_q16 drogue_q16_div(drogue_q16 a, drogue_q16 b)
     return drogue_sat_s32(drogue_div_round_s64(num, den));
 }
 
+void drogue_rotate_q30(int64_t out[2], int32_t u, int32_t v, int32_t cos_q30, int32_t sin_q30)
+{
+    out[0] = drogue_shr_round_s64(drogue_product(u, cos_q30) - drogue_product(v, sin_q30), 30);
+    out[1] = drogue_shr_round_s64(drogue_product(u, sin_q30) + drogue_product(v, cos_q30), 30);
+}
+
 /* floor(sqrt(v)) for 2^30 <= v: v times its inverse root, which is Newton's from a line within 0.09 of it. */
 static uint32_t isqrt_u32(uint32_t v)
 {

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Subpixel offset across the edge. */
-#include "drogue/canny.h"
+/* What is noted of a maximum: its offset across the edge, its code. */
+#include "rows.h"
 
-int32_t drogue_canny_offset_q5(int32_t before, int32_t m, int32_t after)
+uint8_t drogue_rows_place(drogue_slope *at, const drogue_frontend *f, drogue_sector sector, int32_t before, int32_t m,
+                          int32_t after)
 {
-    drogue_canny_vertex v = drogue_canny_vertex_begin(before, m, after);
-    DROGUE_NOTE("canny: offset numerator", v.rest, 18);
-    if (v.curvature > 0 && v.rest > 0) { /* one division; the steps are for hardware without one */
-        const uint32_t quotient = (uint32_t)v.rest / (2u * (uint32_t)v.curvature);
-        v.quotient = quotient < 31u ? (int32_t)quotient : 31;
-    }
-    return drogue_canny_vertex_offset(&v);
+    const int32_t offset_q5 = drogue_canny_offset_q5(before, m, after);
+    const uint32_t strong = m > f->config.canny_high ? DROGUE_CODE_STRONG : 0u;
+    const uint32_t key = (drogue_direction_class(at->gx, at->gy) + 1u) << DROGUE_CODE_CLASS_SHIFT;
+    at->dx_q5 = (int8_t)(drogue_canny_step_x(sector) * offset_q5);
+    at->dy_q5 = (int8_t)(drogue_canny_step_y(sector) * offset_q5);
+    return (uint8_t)(DROGUE_CODE_CANDIDATE | strong | key);
 }

@@ -7,10 +7,13 @@
 #include "label_pass.h"
 #include "rows.h"
 
+static const drogue_stretch no_stretch = {UINT16_MAX, 0};
+
 drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace *workspace,
                                     const drogue_frontend_config *config, int32_t width_px, int32_t height_px)
 {
     const drogue_status status = drogue_frontend_check(workspace, config, width_px, height_px);
+    uint32_t k;
     if (status != DROGUE_OK) {
         return status;
     }
@@ -19,6 +22,12 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
     frontend->width_px = width_px;
     frontend->height_px = height_px;
     frontend->rows_in = 0;
+    if (config->use_ring) {
+        drogue_ring_chords_of(&frontend->chords, &config->ring);
+    }
+    for (k = 0; k < 8; k++) {
+        frontend->stretch[k] = no_stretch;
+    }
     frontend->edge_count = 0;
     frontend->edges_full = 0;
     frontend->slope_count[0] = 0;
@@ -65,33 +74,31 @@ static void resolve_backward(uint32_t *parent, drogue_merge *first, drogue_merge
     drogue_labels_resolve(parent, first, count);
 }
 
-uint8_t drogue_rows_place(drogue_slope *at, const drogue_frontend *f, drogue_sector sector, int32_t before, int32_t m,
-                          int32_t after)
+/* What holds both. */
+static inline drogue_stretch joined(drogue_stretch a, drogue_stretch b)
 {
-    const int32_t offset_q5 = drogue_canny_offset_q5(before, m, after);
-    const uint32_t strong = m > f->config.canny_high ? DROGUE_CODE_STRONG : 0u;
-    const uint32_t key = (drogue_direction_class(at->gx, at->gy) + 1u) << DROGUE_CODE_CLASS_SHIFT;
-    at->dx_q5 = (int8_t)(drogue_canny_step_x(sector) * offset_q5);
-    at->dy_q5 = (int8_t)(drogue_canny_step_y(sector) * offset_q5);
-    return (uint8_t)(DROGUE_CODE_CANDIDATE | strong | key);
+    drogue_stretch all;
+    all.begin = a.begin < b.begin ? a.begin : b.begin;
+    all.end = a.end > b.end ? a.end : b.end;
+    return all;
 }
 
-/* What the candidates of the rows about row y lie in, so many up and down, and as much beside that. */
-static drogue_stretch stretch_about(const drogue_frontend *f, int32_t y, int32_t reach)
+/* What holds the candidates of row y, and with it those of the rows about the one before. */
+static void note_stretch(drogue_frontend *f, int32_t y, drogue_stretch stretch)
 {
-    const int32_t last = y + reach < f->height_px ? y + reach : f->height_px - 1;
+    const uint32_t row = (uint32_t)y & 7u;
+    const uint32_t before = (row + 7u) & 7u;
+    f->stretch[row] = stretch;
+    f->about[before] = joined(joined(f->stretch[(row + 6u) & 7u], f->stretch[before]), stretch);
+}
+
+/* The same with so much beside it, within the row. */
+static drogue_stretch widened(const drogue_frontend *f, drogue_stretch stretch, int32_t reach)
+{
     const int32_t limit = drogue_rows_end(f);
     drogue_stretch all;
-    int32_t begin = UINT16_MAX;
-    int32_t end = 0;
-    int32_t row;
-    for (row = y > reach ? y - reach : 0; row <= last; row++) {
-        const drogue_stretch s = f->stretch[row & 7];
-        begin = s.begin < begin ? s.begin : begin;
-        end = s.end > end ? s.end : end;
-    }
-    all.begin = (uint16_t)(begin > reach ? begin - reach : 0);
-    all.end = (uint16_t)(end + reach < limit ? end + reach : limit);
+    all.begin = (uint16_t)(stretch.begin > reach ? stretch.begin - reach : 0);
+    all.end = (uint16_t)(stretch.end + reach < limit ? stretch.end + reach : limit);
     return all; /* where no row has any it begins far off and remains empty */
 }
 
@@ -138,7 +145,7 @@ static void canny_step(drogue_frontend *f, int32_t y)
 /* Smoothed row y is there: the gradient of row y - 1 is complete above and below. */
 static void gradient_step(drogue_frontend *f, int32_t y)
 {
-    const drogue_stretch stretch = stretch_about(f, y, 1);
+    const drogue_stretch stretch = widened(f, f->about[y & 7], 1);
     if (stretch.begin < stretch.end) {
         drogue_rows_gradient(f, y, stretch);
     }
@@ -149,7 +156,7 @@ static void gradient_step(drogue_frontend *f, int32_t y)
 
 static void smooth_step(drogue_frontend *f, int32_t y)
 {
-    const drogue_stretch stretch = stretch_about(f, y, 2);
+    const drogue_stretch stretch = widened(f, joined(f->about[(y + 7) & 7], f->about[(y + 1) & 7]), 2);
     if (stretch.begin < stretch.end) {
         drogue_rows_smooth(f, y, stretch);
     }
@@ -163,25 +170,28 @@ static void begin_row(drogue_frontend *f, int32_t y)
 {
     drogue_columns *columns = &f->columns[y & 7];
     if (f->config.use_ring) {
-        drogue_mask_columns(columns, &f->config.ring, y, f->width_px);
+        drogue_mask_columns(columns, &f->chords, &f->config.ring, y, f->width_px);
     } else {
         columns->begin[0] = 0;
         columns->begin[1] = (uint16_t)f->width_px;
         columns->end[0] = (uint16_t)f->width_px;
         columns->end[1] = (uint16_t)f->width_px;
     }
-    f->stretch[y & 7] = drogue_rows_stretch(f, columns);
+    note_stretch(f, y, drogue_rows_stretch(f, columns));
 }
 
 /* Row y of pixels comes in, kept for smoothing, its border reflected: pixels -2, -1, width_px, width_px + 1. */
 static void take_row(const drogue_frontend *f, int32_t y, const uint8_t *pixels)
 {
+    const int32_t width_px = f->width_px;
     uint8_t *row = drogue_raw_row(f, y) + 2 + drogue_row_left(f);
+    uint8_t *last = row + width_px - 1;
     int32_t k;
-    memcpy(row, pixels, (size_t)f->width_px);
+    memcpy(row, pixels, (size_t)width_px);
     for (k = 1; k <= 2; k++) {
-        row[-k] = row[drogue_reflect_101(-k, f->width_px)];
-        row[f->width_px - 1 + k] = row[drogue_reflect_101(f->width_px - 1 + k, f->width_px)];
+        const int32_t mirror = k < width_px ? k : 0; /* what drogue_reflect_101() comes to */
+        row[-k] = row[mirror];
+        last[k] = last[-mirror];
     }
 }
 
@@ -210,6 +220,8 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
 static void drain(drogue_frontend *f)
 {
     int32_t height = f->height_px;
+    note_stretch(f, height, no_stretch);
+    note_stretch(f, height + 1, no_stretch);
     if (f->config.smooth) {
         int32_t y;
         for (y = height > 2 ? height - 2 : 0; y < height; y++) {

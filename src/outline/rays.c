@@ -59,13 +59,19 @@ static int within(const drogue_image *image, int32_t x_px_q16, int32_t y_px_q16)
            y_px_q16 >> 16 < image->height_px - 1;
 }
 
+/* How far that goes along an axis. */
+static int32_t part_px_q16(int32_t n_q14, drogue_q16 along_px_q16)
+{
+    return (int32_t)drogue_shr_round_s64(drogue_product(n_q14, along_px_q16), 14);
+}
+
 void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_image *image, drogue_q16 from_px_q16,
                      int32_t count)
 {
-    const int32_t dx = (int32_t)drogue_shr_round_s64(drogue_product(r->nx_q14, r->step_px_q16), 14);
-    const int32_t dy = (int32_t)drogue_shr_round_s64(drogue_product(r->ny_q14, r->step_px_q16), 14);
-    int32_t x = r->x_px_q16 + (int32_t)drogue_shr_round_s64(drogue_product(r->nx_q14, from_px_q16), 14);
-    int32_t y = r->y_px_q16 + (int32_t)drogue_shr_round_s64(drogue_product(r->ny_q14, from_px_q16), 14);
+    const int32_t dx = part_px_q16(r->nx_q14, r->step_px_q16);
+    const int32_t dy = part_px_q16(r->ny_q14, r->step_px_q16);
+    int32_t x = r->x_px_q16 + part_px_q16(r->nx_q14, from_px_q16);
+    int32_t y = r->y_px_q16 + part_px_q16(r->ny_q14, from_px_q16);
     const drogue_image own = *image; /* which what is written cannot alias */
     int32_t *const end = grey_q8_out + count;
     if (within(&own, x, y) && within(&own, x + (count - 1) * dx, y + (count - 1) * dy)) {
@@ -128,14 +134,14 @@ static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, in
     }
 }
 
-/* A ray at an offset from the centre of an ellipse, px Q16, and along a normal. */
-static void place(drogue_ray *r, const drogue_ellipse *e, int64_t x_px_q16, int64_t y_px_q16, int32_t nx_q14,
-                  int32_t ny_q14)
+/* A ray at an offset from the centre of an ellipse and along a normal, or with both reversed; sign is 1 or -1. */
+static void place(drogue_ray *r, const drogue_ellipse *e, const int64_t at_px_q16[2], const int64_t normal_q14[2],
+                  int32_t sign)
 {
-    r->x_px_q16 = drogue_clamp_s64(e->xc_px_q16 + x_px_q16); /* beyond 2^14 px every image has ended */
-    r->y_px_q16 = drogue_clamp_s64(e->yc_px_q16 + y_px_q16);
-    r->nx_q14 = nx_q14;
-    r->ny_q14 = ny_q14;
+    r->x_px_q16 = drogue_clamp_s64(e->xc_px_q16 + sign * at_px_q16[0]); /* beyond 2^14 px every image has ended */
+    r->y_px_q16 = drogue_clamp_s64(e->yc_px_q16 + sign * at_px_q16[1]);
+    r->nx_q14 = sign * (int32_t)normal_q14[0];
+    r->ny_q14 = sign * (int32_t)normal_q14[1];
     r->step_px_q16 = HALF;
     r->count = 0;
 }
@@ -158,18 +164,15 @@ static void aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t p
         int32_t c_q30;
         int32_t u; /* offset from the centre along the axes, px Q16, then the normal along them */
         int32_t v;
-        int64_t x;
-        int64_t y;
+        int64_t at_px_q16[2];
+        int64_t normal_q14[2];
         uint32_t length;
         int shift;
         int32_t inverse;
-        int32_t nx_q14;
-        int32_t ny_q14;
         drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shr_round_s64((8 * k + phase) * turn_q29, 3));
         u = scaled(e->a_px_q16, c_q30);
         v = scaled(e->b_px_q16, s_q30);
-        x = drogue_shr_round_s64(drogue_product(u, cos_q30) - drogue_product(v, sin_q30), 30);
-        y = drogue_shr_round_s64(drogue_product(u, sin_q30) + drogue_product(v, cos_q30), 30);
+        drogue_rotate_q30(at_px_q16, u, v, cos_q30, sin_q30);
         u = scaled(e->b_px_q16, c_q30);
         v = scaled(e->a_px_q16, s_q30);
         length = drogue_isqrt_u64(drogue_square_sum(u, v)) | 1u; /* below 2^31 */
@@ -177,10 +180,9 @@ static void aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t p
         inverse = (int32_t)(drogue_reciprocal_u32(length << shift) >> 1); /* 2^61 over it */
         u = (int32_t)drogue_shr_round_s64(drogue_product(u, inverse), 47 - shift);
         v = (int32_t)drogue_shr_round_s64(drogue_product(v, inverse), 47 - shift);
-        nx_q14 = (int32_t)drogue_shr_round_s64(drogue_product(u, cos_q30) - drogue_product(v, sin_q30), 30);
-        ny_q14 = (int32_t)drogue_shr_round_s64(drogue_product(u, sin_q30) + drogue_product(v, cos_q30), 30);
-        place(&rays[k], e, x, y, nx_q14, ny_q14);
-        place(&rays[k + DROGUE_RAYS / 2], e, -x, -y, -nx_q14, -ny_q14);
+        drogue_rotate_q30(normal_q14, u, v, cos_q30, sin_q30);
+        place(&rays[k], e, at_px_q16, normal_q14, 1);
+        place(&rays[k + DROGUE_RAYS / 2], e, at_px_q16, normal_q14, -1);
     }
 }
 

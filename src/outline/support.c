@@ -118,17 +118,14 @@ void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16)
 {
     int32_t s_q30;
     int32_t c_q30;
-    int64_t s2_q30;
-    int64_t c2_q30;
+    int64_t twice_q30[2];
     int64_t turned[2];
     if (wave[0] == 0 && wave[1] == 0) {
         return; /* as the smear of most frames */
     }
     drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(by_rad_q16, 13));
-    c2_q30 = drogue_shr_round_s64((int64_t)c_q30 * c_q30 - (int64_t)s_q30 * s_q30, 30);
-    s2_q30 = drogue_shr_round_s64((int64_t)s_q30 * c_q30, 29);
-    turned[0] = drogue_shr_round_s64(wave[0] * c2_q30 - wave[1] * s2_q30, 30);
-    turned[1] = drogue_shr_round_s64(wave[1] * c2_q30 + wave[0] * s2_q30, 30);
+    drogue_rotate_q30(twice_q30, c_q30, s_q30, c_q30, s_q30);
+    drogue_rotate_q30(turned, wave[0], wave[1], (int32_t)twice_q30[0], (int32_t)twice_q30[1]);
     wave[0] = drogue_sat_s32(turned[0]);
     wave[1] = drogue_sat_s32(turned[1]);
 }

@@ -229,6 +229,25 @@ START_TEST(sincos_within_2_to_minus_29)
 }
 END_TEST
 
+START_TEST(rotation_rounds_what_is_exact)
+{
+    static const int32_t ends[6] = {INT32_MIN, INT32_MIN + 1, -1, 0, 1, INT32_MAX};
+    uint64_t rng = 1;
+    int32_t i;
+    for (i = 0; i < 200000; i++) {
+        const int32_t u = i % 3 == 0 ? ends[i / 3 % 6] : rng_s32_any_width(&rng);
+        const int32_t v = i % 5 == 0 ? ends[i / 5 % 6] : rng_s32_any_width(&rng);
+        const int32_t c = rng_range(&rng, -(1 << 30), 1 << 30);
+        const int32_t s = rng_range(&rng, -(1 << 30), 1 << 30);
+        const wide128 across = (wide128)u * c - (wide128)v * s + (1 << 29);
+        const wide128 along = (wide128)u * s + (wide128)v * c + (1 << 29);
+        int64_t out[2];
+        drogue_rotate_q30(out, u, v, c, s);
+        MUST(out[0] == (int64_t)(across >> 30) && out[1] == (int64_t)(along >> 30), "%d %d by %d %d", u, v, c, s);
+    }
+}
+END_TEST
+
 START_TEST(exp_within_2_to_minus_28)
 {
     double worst = 0;
@@ -249,4 +268,5 @@ START_TEST(exp_within_2_to_minus_28)
 END_TEST
 
 SUITE_MAIN("fixed", edge_values, random_values, isqrt_next_to_every_kind_of_square, shift_left_keeps_the_value,
-           constants, atan2_within_2_to_minus_26, sincos_within_2_to_minus_29, exp_within_2_to_minus_28)
+           constants, atan2_within_2_to_minus_26, sincos_within_2_to_minus_29, rotation_rounds_what_is_exact,
+           exp_within_2_to_minus_28)

@@ -68,11 +68,11 @@ START_TEST(whole_region_of_one_pixel)
 END_TEST
 
 /* The columns of a row are those that are in the ring one by one; a stretch that is empty has no length. */
-static void check_columns(const drogue_mask *mask, int32_t y, int32_t width_px)
+static void check_columns(drogue_ring_chords *chords, const drogue_mask *mask, int32_t y, int32_t width_px)
 {
     drogue_columns c;
     int32_t x;
-    drogue_mask_columns(&c, mask, y, width_px);
+    drogue_mask_columns(&c, chords, mask, y, width_px);
     MUST(c.begin[0] <= c.end[0] && c.end[0] <= c.begin[1] && c.begin[1] <= c.end[1] && c.end[1] <= width_px,
          "ring of %d, row %d: %d %d %d %d", mask->longest_px, y, c.begin[0], c.end[0], c.begin[1], c.end[1]);
     for (x = 0; x < width_px; x++) {
@@ -89,8 +89,10 @@ START_TEST(columns_of_small_rings)
     for (mask.longest_px = 1; mask.longest_px <= 40; mask.longest_px++) {
         for (mask.centre2_x = -50; mask.centre2_x <= 70; mask.centre2_x++) {
             for (mask.centre2_y = -45; mask.centre2_y <= 46; mask.centre2_y += 13) {
+                drogue_ring_chords chords;
+                drogue_ring_chords_of(&chords, &mask);
                 for (y = 0; y < 25; y++) {
-                    check_columns(&mask, y, 1 + (mask.longest_px + mask.centre2_x + y + 50) % 27);
+                    check_columns(&chords, &mask, y, 1 + (mask.longest_px + mask.centre2_x + y + 50) % 27);
                 }
             }
         }
@@ -106,10 +108,21 @@ START_TEST(columns_of_large_rings)
     for (i = 0; i < 20000; i++) {
         drogue_mask mask;
         const int32_t width_px = rng_range(&rng, 1, DROGUE_MAX_SIDE);
+        const int32_t y = rng_range(&rng, 0, DROGUE_MAX_SIDE - 1);
+        drogue_ring_chords chords; /* from anywhere, then from near by, on either side */
+        int32_t k;
         mask.longest_px = rng_range(&rng, 1, 1 << (1 + i % 20));
         mask.centre2_x = i % 5 == 0 ? ends[rng_range(&rng, 0, 3)] : rng_range(&rng, -(1 << 13), 1 << 13);
         mask.centre2_y = i % 7 == 0 ? ends[rng_range(&rng, 0, 3)] : rng_range(&rng, -(1 << 13), 1 << 13);
-        check_columns(&mask, rng_range(&rng, 0, DROGUE_MAX_SIDE - 1), width_px);
+        drogue_ring_chords_of(&chords, &mask);
+        chords.half_px[0] = rng_range(&rng, 0, 1 << (i % 21));
+        chords.half_px[1] = rng_range(&rng, 0, 1 << (i % 21));
+        check_columns(&chords, &mask, y, width_px);
+        for (k = 0; k < 2; k++) {
+            const int32_t near_by = chords.half_px[k] + rng_range(&rng, -10, 10);
+            chords.half_px[k] = near_by < 0 ? 0 : near_by;
+        }
+        check_columns(&chords, &mask, y, width_px);
     }
 }
 END_TEST
