@@ -98,8 +98,8 @@ typedef struct best_try {
     drogue_second_look second_look;
     int32_t too_large;
     drogue_q16 larger_q16;
-    drogue_region region; /* where its edges were looked for */
-    drogue_result result;
+    drogue_region region;  /* where its edges were looked for */
+    drogue_result *result; /* the workspace's, which leaves the stack free */
 } best_try;
 
 static void keep_try(best_try *best, const drogue_frame *f, int what, drogue_status status)
@@ -111,14 +111,14 @@ static void keep_try(best_try *best, const drogue_frame *f, int what, drogue_sta
     best->too_large = f->too_large;
     best->larger_q16 = f->larger_q16;
     best->region = f->asked;
-    best->result = *f->out;
+    *best->result = *f->out;
 }
 
 /* What was best stands, and its edges are in the workspace again; where nothing was found they are those of the last try. */
 static void return_to(const best_try *best, drogue_frame *f, const drogue_region *region, int last)
 {
     const drogue_config *config = f->setup->config;
-    const int found = best->result.ellipse.a_px_q16 > 0; /* its arcs are in the list of that outline, pose or not */
+    const int found = best->result->ellipse.a_px_q16 > 0; /* its arcs are in the list of that outline, pose or not */
     drogue_edge_list list;
     if (found && (last == BEYOND || (best->what < LOWER && last >= LOWER))) {
         if (best->what < LOWER) {
@@ -130,7 +130,7 @@ static void return_to(const best_try *best, drogue_frame *f, const drogue_region
         (void)drogue_frame_edges(f, region);
     }
     list = f->out->list;
-    *f->out = best->result;
+    *f->out = *best->result;
     f->out->list = list;
     f->second_look = best->second_look;
     f->too_large = best->too_large;
@@ -156,7 +156,7 @@ static int asks_beyond(const best_try *best)
 /* Look for the outline that the inner disc is of the size for. */
 static void try_beyond(best_try *best, drogue_frame *f)
 {
-    const drogue_ellipse was = best->result.ellipse;
+    const drogue_ellipse was = best->result->ellipse;
     const drogue_region region = best->region;
     drogue_status status;
     begin_try(f, BEYOND);
@@ -164,8 +164,8 @@ static void try_beyond(best_try *best, drogue_frame *f)
     f->second_look = best->second_look;
     status = drogue_frame_beyond(f, &region, &was, best->larger_q16);
     if (status == DROGUE_OK) {
-        f->outline.quality = best->result.quality; /* of the arcs that it was found from */
-        f->outline.cluster_members = best->result.cluster_members;
+        f->outline.quality = best->result->quality; /* of the arcs that it was found from */
+        f->outline.cluster_members = best->result->cluster_members;
         status = drogue_frame_judge(f);
     }
     if (status == DROGUE_OK && f->doubt_q16 < best->least_q16 - CLEARLY_Q16) {
@@ -184,6 +184,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     int last = -1;
     int what;
     best.least_q16 = DROGUE_Q16_MAX;
+    best.result = f->workspace->kept;
     f->canny_low = config->canny_low;
     f->canny_high = config->canny_high;
     for (what = FIRST; what < BEYOND && best.least_q16 > SURE_Q16; what++) {

@@ -5,8 +5,8 @@ module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter AR
     // the processor's: a word a clock, what is read comes a clock later
     input wire select, input wire write, input wire [17:0] at, input wire [31:0] word, output reg [31:0] read,
     output wire interrupt,
-    // the frame memory's: the pixel that lies at 'source', a clock later
-    output wire running, output wire [31:0] source_next, input wire [7:0] pixel);
+    // the frame memory's: the word about the pixel that lies at 'frame_at', a clock later
+    output wire running, output wire [31:0] frame_at, input wire [31:0] frame_word);
     localparam EDGE_BITS = $clog2(EDGES), ARC_BITS = $clog2(ARCS);
     reg [31:0] asked [0:11]; // WIDTH_PX .. STRIDE
     reg started, done, interrupting, was_running;
@@ -24,27 +24,46 @@ module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter AR
     drogue_frontend block (
         .clock(clock), .reset(stop), .start(started), .busy(busy), .width_px(asked[0]), .height_px(asked[1]),
         .canny_low(asked[2]), .canny_high(asked[3]), .smooth(asked[4]), .min_arc_px(asked[5]), .use_ring(asked[6]),
-        .centre2_x(asked[7]), .centre2_y(asked[8]), .longest_px(asked[9]), .pixel_valid(1'b1), .pixel(pixel),
+        .centre2_x(asked[7]), .centre2_y(asked[8]), .longest_px(asked[9]), .pixel_valid(1'b1), .pixel(waiting[0]),
         .pixel_ready(pixel_ready), .edge_write(edge_write), .edge_at(edge_at), .edge_word(edge_word),
         .arc_write(arc_write), .arc_at(arc_at), .arc_word(arc_word), .status(status), .edge_count(edge_count),
         .arc_count(arc_count), .listing(listing));
 
-    // The region's pixels in raster order: a pixel is there whenever the block takes one, since the frame memory is asked for
-    // the next one in the same clock.
+    // The region's pixels in raster order, asked for ahead of the block, by registers alone: the way from the block to the frame
+    // memory would be the longest. Three ahead are enough for one a clock. The block takes its first pixel twenty clocks after
+    // its start, so that one is there whenever it takes one.
     reg [31:0] source, row;
     reg [11:0] column;
-    wire last = column == asked[0][11:0] - 12'd1;
-    wire [31:0] row_next = row + asked[11];
+    reg [1:0] byte_of, ahead;
+    reg asked_for;
+    reg [7:0] waiting [0:2];
+    wire [11:0] width = asked[0][11:0];
+    wire last = column == width - 12'd1;
+    wire asks = running && !started && {1'b0, ahead} + {2'd0, asked_for} < 3'd3;
+    wire [1:0] left = ahead - {1'b0, pixel_ready};
     assign running = started || busy;
-    assign source_next = started ? asked[10] : !pixel_ready ? source : last ? row_next : source + 32'd1;
+    assign frame_at = source;
+    wire [7:0] came = frame_word[8 * byte_of +: 8];
     always @(posedge clock) begin
-        source <= source_next;
+        asked_for <= asks;
+        byte_of <= source[1:0];
         if (started) begin
-            row <= asked[10];
+            source <= asked[10];
+            row <= asked[10] + asked[11];
             column <= 12'd0;
-        end else if (pixel_ready) begin
-            column <= last ? 12'd0 : column + 12'd1;
-            if (last) row <= row_next;
+            ahead <= 2'd0;
+        end else begin
+            if (asks) begin
+                source <= last ? row : source + 32'd1;
+                column <= last ? 12'd0 : column + 12'd1;
+                if (last) row <= row + asked[11];
+            end
+            if (pixel_ready) begin
+                waiting[0] <= waiting[1];
+                waiting[1] <= waiting[2];
+            end
+            if (asked_for) waiting[left] <= came;
+            ahead <= left + {1'b0, asked_for};
         end
     end
 

@@ -43,7 +43,7 @@ unsigned run(uint32_t side)
     write(DROGUE_BANK_CONTROL, DROGUE_BANK_START);
     v.at = DROGUE_BANK_STATE;
     for (unsigned clocks = 1; clocks < 100000; clocks++) {
-        v.pixel = (uint8_t)(clocks * 37u >> 2);
+        v.frame_word = clocks * 0x2545F491u >> 2;
         tick();
         if (v.read == DROGUE_BANK_DONE) {
             return clocks;

@@ -58,20 +58,18 @@ module drogue_system #(
 
     // The frame memory: the front end's while it runs, else the camera's when it brings a pixel, else the processor's.
     wire running;
-    wire [31:0] source_next;
-    reg [1:0] source_byte;
+    wire [31:0] block_at;
     reg [31:0] wanted, taken;
     wire takes = camera_valid && camera_ready;
     wire [31:0] place = camera_first ? 32'd0 : taken;
     assign captured = wanted == 32'd0;
     assign camera_ready = !captured && !running && (camera_first || taken != 32'd0);
     assign frame_free = !running && !takes;
-    wire [31:0] frame_at = running ? source_next : takes ? place : {d_place, 2'd0};
+    wire [31:0] frame_at = running ? block_at : takes ? place : {d_place, 2'd0};
     drogue_ram #(.WORDS(FRAME_WORDS), .CONTENTS("")) frame (
         .clock(clock), .enable(1'b1), .write(running ? 4'd0 : takes ? 4'd1 << place[1:0] : 4'd0),
         .at(frame_at[2 +: $clog2(FRAME_WORDS)]), .word({4{camera_pixel}}), .read(frame_read));
     always @(posedge clock) begin
-        source_byte <= source_next[1:0];
         if (reset) begin
             wanted <= 32'd0;
             taken <= 32'd0;
@@ -86,8 +84,8 @@ module drogue_system #(
 
     drogue_bank #(.WIDTH(WIDTH), .EDGES(EDGES), .ARCS(ARCS)) bank (
         .clock(clock), .reset(reset), .select(d_bank), .write(d_write), .at({d_at[15:0], 2'd0}), .word(d_word),
-        .read(bank_read), .interrupt(interrupt), .running(running), .source_next(source_next),
-        .pixel(frame_read[8 * source_byte +: 8]));
+        .read(bank_read), .interrupt(interrupt), .running(running), .frame_at(block_at),
+        .frame_word(frame_read));
     assign result_valid = d_own && d_at[0] && d_write;
     assign result = d_word;
     assign block_busy = running;

@@ -77,6 +77,8 @@ typedef struct drogue_result {
     int64_t axis_std_rad_q32;      /* root mean square angle between measured and true axis, Q32 */
 } drogue_result;
 
+typedef char drogue_assume_result_fits[sizeof(drogue_result) + 4 <= DROGUE_KEPT_BYTES ? 1 : -1];
+
 /* Measure one frame.
  *
  *  out        result; every member is defined for every return value, zero where there is nothing to say

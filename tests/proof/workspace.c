@@ -41,6 +41,9 @@ void layout(void)
     at = after(at, w.arc_parent, capacity.labels, 4, 4);
     at = after(at, w.arc_component, capacity.labels, 4, 4);
     at = after(at, w.histogram, 256, 4, 4);
+    PROVE(place(w.kept) == at || place(w.kept) == at + 4);
+    PROVE(((uintptr_t)w.kept & 4u) == 0); /* the memory may lie at a multiple of 4 alone */
+    at += DROGUE_KEPT_BYTES;
     rows = at;
     at = after(at, w.merges, capacity.width_px, sizeof(drogue_merge), 4);
     at = after(at, w.component_rows, 2 * (size_t)capacity.width_px, 4, 4);
@@ -52,15 +55,15 @@ void layout(void)
     at = after(at, w.code_rows, 4 * half, 1, 1);
     PROVE(place(w.hull) == rows && place(w.rays) == rows);
     PROVE(place(w.outline) == rows || place(w.outline) == rows + 4);
-    PROVE(((uintptr_t)w.outline & 4u) == 0); /* the memory may lie at a multiple of 4 alone */
+    PROVE(((uintptr_t)w.outline & 4u) == 0);
 }
 
-/* The rows, the histogram before them and what takes their place later fit into the bytes asked for. */
+/* The rows, what lies before them and what takes their place later fit into the bytes asked for. */
 void room(void)
 {
     const uint32_t width = any_unsigned(12);
     const size_t half = DROGUE_HALF(width);
-    const size_t bytes = DROGUE_WORKSPACE_BYTES(width, 0, 0, 0) - 256 * sizeof(uint32_t);
+    const size_t bytes = DROGUE_WORKSPACE_BYTES(width, 0, 0, 0) - 256 * sizeof(uint32_t) - DROGUE_KEPT_BYTES;
     ASSUME(width >= 1 && width <= DROGUE_MAX_SIDE);
     PROVE(width * sizeof(drogue_merge) + 4 * width * sizeof(uint32_t) + 5 * (2 * half + 4) + 7 * 4 * (half + 2) +
               4 * half * sizeof(drogue_slope) + 4 * half <=
