@@ -230,6 +230,30 @@ static inline void drogue_hls_pack_u64(int32_t words[2], uint64_t v)
  *  outline          all words are written in every case; 0 where there is nothing to say, ARCS -1
  *  STATUS           drogue_measure()'s; DROGUE_E_ARGUMENT for parameters, lists or sizes outside their range too
  */
+/* A view of a region's pixels in a memory of the block's own: the library reads them by a member, and no compiler follows a
+ * port through one. What does not fit is left out. */
+static inline void drogue_hls_take_pixels(drogue_image *view, uint8_t memory[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
+                                          const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], int32_t width_px,
+                                          int32_t height_px)
+{
+    int32_t count = 0;
+    int32_t i;
+    if (width_px >= 1 && width_px <= DROGUE_HLS_WIDTH && height_px >= 1 && height_px <= DROGUE_HLS_HEIGHT) {
+        count = width_px * height_px;
+    }
+    for (i = 0; i < count; i++) {
+#ifndef __BAMBU__
+#pragma HLS pipeline II = 1
+#pragma HLS loop_tripcount max = DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT
+#endif
+        memory[i] = pixels[i];
+    }
+    view->data = memory;
+    view->width_px = width_px;
+    view->height_px = height_px;
+    view->stride = width_px;
+}
+
 void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_count,
                         const uint64_t arcs[DROGUE_HLS_ARCS], uint32_t arc_count, uint32_t frontend_status,
                         const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], int32_t width_px, int32_t height_px,

@@ -22,6 +22,7 @@ void drogue_hls_edge(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
     drogue_inner_expected expected;
     drogue_inner_edge found;
     static drogue_ray rays[DROGUE_RAYS];
+    static uint8_t pixel_memory[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT];
     drogue_image view;
     drogue_status status = DROGUE_E_ARGUMENT;
     drogue_hls_unpack_parameters(&p, parameters);
@@ -29,10 +30,7 @@ void drogue_hls_edge(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
     expected.count = (uint32_t)outline[DROGUE_HLS_O_EXPECTED_COUNT];
     expected.disc[0] = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED);
     expected.disc[1] = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED + 5);
-    view.data = pixels;
-    view.width_px = width_px;
-    view.height_px = height_px;
-    view.stride = width_px;
+    drogue_hls_take_pixels(&view, pixel_memory, pixels, width_px, height_px);
     if (width_px >= 1 && width_px <= DROGUE_HLS_WIDTH && height_px >= 1 && height_px <= DROGUE_HLS_HEIGHT &&
         expected.count <= 2 && outline[DROGUE_HLS_O_STATUS] == DROGUE_OK) {
         status = drogue_inner_edge_find(&found, rays, &view, &expected, &ellipse, &p.config);

@@ -79,7 +79,7 @@ static drogue_status find(frame *f, const drogue_workspace *workspace, const dro
     return status;
 }
 
-static void put_support(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const drogue_support *support)
+static inline void put_support(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const drogue_support *support)
 {
     int k;
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
@@ -100,7 +100,7 @@ static void put_support(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const drogue_su
     }
 }
 
-static void put(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const frame *f)
+static inline void put(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const frame *f)
 {
     const drogue_outline *o = &f->outline;
     int k;
@@ -143,6 +143,7 @@ void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_co
     static drogue_point hull[DROGUE_HULL_MAX];
     static drogue_outline_room room;
     static drogue_ray rays[DROGUE_RAYS];
+    static uint8_t pixel_memory[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT];
     drogue_workspace workspace;
     drogue_image view;
     drogue_hls_parameters p;
@@ -159,10 +160,7 @@ void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_co
     list.edge_count = edge_count;
     list.arc_count = arc_count;
     drogue_hls_unpack_parameters(&p, parameters);
-    view.data = pixels;
-    view.width_px = width_px;
-    view.height_px = height_px;
-    view.stride = width_px;
+    drogue_hls_take_pixels(&view, pixel_memory, pixels, width_px, height_px);
     if (status == DROGUE_OK && !(valid(&p) && fits(&view) && read_lists(edge_memory, arc_memory, edges, arcs, &list))) {
         status = DROGUE_E_ARGUMENT;
     }

@@ -7,7 +7,7 @@
 #include "drogue/decide.h"
 #include "drogue/inner.h"
 
-static void get_support(drogue_support *support, const int32_t words[DROGUE_HLS_OUTLINE_WORDS])
+static inline void get_support(drogue_support *support, const int32_t words[DROGUE_HLS_OUTLINE_WORDS])
 {
     int k;
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
@@ -28,8 +28,8 @@ static void get_support(drogue_support *support, const int32_t words[DROGUE_HLS_
     }
 }
 
-static void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS],
-                int64_t std[DROGUE_HLS_STD_WORDS], const drogue_inner_evidence *inner, const drogue_decision *r)
+static inline void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covariance[DROGUE_HLS_COVARIANCE_WORDS],
+                       int64_t std[DROGUE_HLS_STD_WORDS], const drogue_inner_evidence *inner, const drogue_decision *r)
 {
     int i;
     int j;

@@ -18,6 +18,11 @@ module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter AR
     wire control = select && write && at == 18'h10;
     wire start = control && word[0] && !busy && !started;
     wire stop = reset || (control && word[1]);
+    reg [31:0] source, row; // of the pixels asked for ahead
+    reg [11:0] column;
+    reg [1:0] byte_of, ahead;
+    reg asked_for;
+    reg [7:0] waiting [0:2];
     integer k;
     initial for (k = 0; k < 12; k = k + 1) asked[k] = 0;
 
@@ -30,13 +35,8 @@ module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter AR
         .arc_count(arc_count), .listing(listing));
 
     // The region's pixels in raster order, asked for ahead of the block, by registers alone: the way from the block to the frame
-    // memory would be the longest. Three ahead are enough for one a clock. The block takes its first pixel twenty clocks after
-    // its start, so that one is there whenever it takes one.
-    reg [31:0] source, row;
-    reg [11:0] column;
-    reg [1:0] byte_of, ahead;
-    reg asked_for;
-    reg [7:0] waiting [0:2];
+    // memory would be the longest. Three ahead are enough for one a clock, and the block squares for more than twenty clocks before
+    // it takes its first (SQUARE_BITS in ../frontend/step.c): one is there whenever it takes one.
     wire [11:0] width = asked[0][11:0];
     wire last = column == width - 12'd1;
     wire asks = running && !started && {1'b0, ahead} + {2'd0, asked_for} < 3'd3;

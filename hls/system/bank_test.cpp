@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The register bank's state, read every clock from START on: busy until the lists are there, then done, nothing else between.
+// The register bank: its state, read every clock from START on, is busy until the lists are there, then done, nothing else between;
+// and the block is given the region's pixels, each once and in order, wherever the region lies.
 #include <cstdio>
 
 #include "Vdrogue_bank.h"
+#include "Vdrogue_bank___024root.h"
 #include "verilated.h"
 
 extern "C" {
@@ -11,14 +13,33 @@ extern "C" {
 
 namespace {
 
+enum { MEMORY_BYTES = 65536 };
+
+struct Frame {
+    uint32_t width, height, source, stride;
+    unsigned reset_after; // clocks; 0: never
+};
+
 Vdrogue_bank v;
+uint8_t memory[MEMORY_BYTES];
+
+uint32_t word_about(uint32_t at)
+{
+    uint32_t word = 0;
+    for (uint32_t k = 4; k-- > 0;) {
+        word = word << 8 | memory[((at & ~3u) + k) % MEMORY_BYTES];
+    }
+    return word;
+}
 
 void tick()
 {
     v.eval();
+    const uint32_t word = word_about(v.frame_at);
     v.clock = 1;
     v.eval();
     v.clock = 0;
+    v.frame_word = word;
     v.eval();
 }
 
@@ -31,43 +52,66 @@ void write(uint32_t at, uint32_t word)
     v.select = v.write = 0;
 }
 
-// Clocks of a frame of so many columns; 0 when the state was ever neither busy nor done, or stays busy.
-unsigned run(uint32_t side)
+bool runs(const Frame &f)
 {
-    write(DROGUE_BANK_WIDTH_PX, side);
-    write(DROGUE_BANK_HEIGHT_PX, side);
+    const bool refused = f.width < 1 || f.width > 256;
+    uint32_t taken = 0;
+    write(DROGUE_BANK_WIDTH_PX, f.width);
+    write(DROGUE_BANK_HEIGHT_PX, f.height);
     write(DROGUE_BANK_CANNY_LOW, 1);
     write(DROGUE_BANK_CANNY_HIGH, 2);
     write(DROGUE_BANK_MIN_ARC_PX, 1);
-    write(DROGUE_BANK_STRIDE, side);
+    write(DROGUE_BANK_SOURCE, f.source);
+    write(DROGUE_BANK_STRIDE, f.stride);
     write(DROGUE_BANK_CONTROL, DROGUE_BANK_START);
     v.at = DROGUE_BANK_STATE;
-    for (unsigned clocks = 1; clocks < 100000; clocks++) {
-        v.frame_word = clocks * 0x2545F491u >> 2;
+    for (unsigned clocks = 1; clocks < 200000; clocks++) {
+        if (v.rootp->drogue_bank__DOT__pixel_ready) {
+            const uint32_t at = f.source + taken / f.width * f.stride + taken % f.width;
+            if (v.rootp->drogue_bank__DOT__waiting[0] != memory[at % MEMORY_BYTES]) {
+                printf("bank: %u x %u at %u: pixel %u is not the region's\n", f.width, f.height, f.source, taken);
+                return false;
+            }
+            taken++;
+        }
+        if (clocks == f.reset_after) {
+            write(DROGUE_BANK_CONTROL, DROGUE_BANK_RESET);
+            return true;
+        }
         tick();
         if (v.read == DROGUE_BANK_DONE) {
-            return clocks;
+            return taken == (refused ? 0 : f.width * f.height);
         }
         if (v.read != DROGUE_BANK_BUSY) {
-            printf("bank: side %u: state is %u after %u clocks\n", side, v.read, clocks);
-            return 0;
+            printf("bank: %u x %u: state is %u after %u clocks\n", f.width, f.height, v.read, clocks);
+            return false;
         }
     }
-    return 0;
+    return false;
 }
 
 } // namespace
 
 int main()
 {
-    static const uint32_t sides[] = {1, 2, 16, 33, 0 /* refused */, 257 /* too wide */, 5};
-    int failed = 0;
+    static const Frame frames[] = {
+        {1, 1, 0, 1, 0},     {2, 2, 3, 2, 0},       {16, 16, 1000, 40, 0}, {33, 33, 4097, 256, 0},
+        {0, 0, 0, 0, 0},     {257, 257, 0, 257, 0}, {5, 5, 17, 0, 0},      {1, 9, 65533, 3, 0},
+        {9, 1, 65530, 9, 0}, {40, 3, 2, 40, 100},   {7, 5, 6001, 7, 0},    {256, 2, 1, 256, 300},
+        {3, 4, 70, 64, 33},  {12, 11, 9, 12, 0},
+    };
+    unsigned failed = 0;
+    uint32_t state = 1;
+    for (uint8_t &pixel : memory) {
+        state = state * 1664525u + 1013904223u;
+        pixel = static_cast<uint8_t>(state >> 24);
+    }
     v.reset = 1;
     tick();
     v.reset = 0;
-    for (const uint32_t side : sides) {
-        failed += run(side) == 0;
+    for (const Frame &f : frames) {
+        failed += !runs(f);
     }
-    printf("bank: frames=%zu failed=%d\n", sizeof sides / sizeof sides[0], failed);
+    printf("bank: frames=%zu failed=%u\n", sizeof frames / sizeof frames[0], failed);
     return failed != 0;
 }

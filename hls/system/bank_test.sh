@@ -10,7 +10,7 @@ done
 hls/rtl/rtl.sh 256 >/dev/null
 work=$PWD/build/hls/system/bank
 mkdir -p "$work"
-verilator --cc --exe --build -O3 --x-assign fast --x-initial fast -Wno-fatal -Wno-lint -Mdir "$work" --top-module drogue_bank \
+verilator --cc --exe --build -O3 --x-assign fast --x-initial fast -Wno-fatal -Wno-lint -Mdir "$work" --public-flat-rw --top-module drogue_bank \
     hls/system/bank.v build/hls/rtl/256/drogue_frontend.v "$PWD/hls/system/bank_test.cpp" -CFLAGS "-O1 -I$PWD/hls" -o bank_test \
     >"$work/verilator.log" 2>&1 || { tail -n 20 "$work/verilator.log" && exit 1; }
 "$work/bank_test"

@@ -72,7 +72,7 @@ typedef struct drogue_columns {
 /* The two circles of a ring, disc and hole, and their chords along the row that was looked at last. */
 typedef struct drogue_ring_chords {
     int64_t square[2];  /* largest (2x - centre2_x)^2 + (2y - centre2_y)^2 within */
-    int32_t half_px[2]; /* largest |2x - centre2_x|; where a row misses the circle, that of the row before */
+    int32_t half_px[2]; /* |2x - centre2_x| is at most this; of the last row that met the circle, 0 before */
 } drogue_ring_chords;
 
 /* The circles of a valid mask, before its first row. */

@@ -4,7 +4,7 @@
 
 #include "drogue/fixed.h"
 
-/* floor(sqrt(v)), v in [0, 2^40], in a few steps where a guess in [0, 2^20] is within 8 of it. */
+/* floor(sqrt(v)), v in [0, 2^40], in a few steps from a guess in [0, 2^20] that is near. */
 static int32_t root_near(int64_t v, int32_t guess)
 {
     const int64_t off = v - drogue_product(guess, guess);
@@ -15,7 +15,7 @@ static int32_t root_near(int64_t v, int32_t guess)
         return (int32_t)drogue_isqrt_u64((uint64_t)v);
     }
     rest = (int32_t)off;
-    while (rest < 0) { /* bound: 9 */
+    while (rest < 0) { /* bound: 16 */
         root--;
         rest += 2 * root + 1;
     }

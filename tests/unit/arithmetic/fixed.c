@@ -237,8 +237,8 @@ START_TEST(rotation_rounds_what_is_exact)
     for (i = 0; i < 200000; i++) {
         const int32_t u = i % 3 == 0 ? ends[i / 3 % 6] : rng_s32_any_width(&rng);
         const int32_t v = i % 5 == 0 ? ends[i / 5 % 6] : rng_s32_any_width(&rng);
-        const int32_t c = rng_range(&rng, -(1 << 30), 1 << 30);
-        const int32_t s = rng_range(&rng, -(1 << 30), 1 << 30);
+        const int32_t c = i % 7 == 0 ? (i % 2 ? 1 << 30 : -(1 << 30)) : rng_range(&rng, -(1 << 30), 1 << 30);
+        const int32_t s = i % 11 == 0 ? (i % 2 ? 1 << 30 : -(1 << 30)) : rng_range(&rng, -(1 << 30), 1 << 30);
         const wide128 across = (wide128)u * c - (wide128)v * s + (1 << 29);
         const wide128 along = (wide128)u * s + (wide128)v * c + (1 << 29);
         int64_t out[2];
