@@ -13,7 +13,7 @@ Ends with 'NAME: functions=N loops=N annotated=N findings=N'; exit status 1 wher
 import re
 import sys
 
-from ir import Module
+from ir import NAME, Module, arguments
 
 FLOATING = re.compile(r"(?<![%@.\w])(half|bfloat|float|double|x86_fp80|fp128|ppc_fp128)\b")
 HEAP = re.compile(r"@(malloc|calloc|realloc|free|aligned_alloc|posix_memalign|alloca)$")
@@ -138,6 +138,34 @@ def loops(module, path, findings):
     return len(found), comments
 
 
+def ports(module, findings):
+    """Arrays of a top are ports: Bambu follows them into inline functions alone, and not through memory."""
+
+    def last_name(text):
+        return (re.findall(rf"%{NAME}", text) or [None])[-1]
+
+    def follow(function, names):
+        for i in (i for i in module.instructions() if i.function == function):
+            made = re.match(rf"(%{NAME}) = (?:getelementptr|bitcast|phi|select|freeze)\b(.*)", i.code)
+            stored = re.match(rf"store \S+ (%{NAME}),", i.code)
+            callee = i.callee()
+            if made and names & set(re.findall(rf"%{NAME}", made[2])):
+                names.add(made[1])
+            elif stored and stored[1] in names:
+                findings.add(module.place(i), "port", f"{function} keeps a port's address in memory")
+            elif callee and callee[1:] in module.functions:
+                own = [last_name(a) for a in arguments(module.heads[callee[1:]])]
+                given = {own[k] for k, a in enumerate(arguments(i.code)) if last_name(a) in names}
+                if given and module.inlined(callee[1:]):
+                    follow(callee[1:], given)
+                elif given:
+                    findings.add(module.place(i), "port", f"{callee[1:]} is given a port and not inline")
+
+    for name, head in module.heads.items():
+        if not re.match(r"define (\w+ )*internal ", head):
+            follow(name, {last_name(a) for a in arguments(head) if "*" in a or re.match(r" *ptr ", a)})
+
+
 def needed(module):
     """Files of src/ whose functions and tables the top is made of."""
     files = {module.location(node)[0] for node in module.functions.values() if node}
@@ -160,7 +188,9 @@ def main():
     module, findings = Module(linked), Findings()
     recursion(module, calls(module, findings), findings)
     data(module, findings)
-    count, comments = loops(Module(normal), trips, findings)
+    module_normal = Module(normal)
+    count, comments = loops(module_normal, trips, findings)
+    ports(module_normal, findings)
     sources(module, listed, name, findings)
     findings.show()
     number = len(findings.lines)

@@ -10,6 +10,20 @@ CALLEE = re.compile(rf"([@%]{NAME})\(")
 CAST = re.compile(rf"\b(?:bitcast|addrspacecast) \([^@]*(@{NAME}) to ")
 
 
+def arguments(code):
+    """What stands between the parentheses of a definition or a call, one by one."""
+    parts, depth = [""], 0
+    for c in code[re.search(rf"[@%]{NAME}\(", code).end() :]:
+        depth += (c in "([{") - (c in ")]}")
+        if depth < 0:
+            break
+        if c == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += c
+    return parts
+
+
 def unquote(name):
     return name.strip('"')
 
@@ -42,6 +56,7 @@ class Module:
         self.metadata = dict(METADATA.findall(text))
         self.functions = {}  # name -> subprogram's metadata
         self.heads = {}  # name -> its line 'define'
+        self.attributes = dict(re.findall(r"^attributes (#\d+) = \{(.*)\}$", text, re.M))
         self.blocks = {}  # (function, block) -> instructions
         self.globals = [line for line in text.splitlines() if re.match(rf"@{NAME} = ", line)]
         function = block = None
@@ -62,6 +77,10 @@ class Module:
 
     def instructions(self):
         return [i for block in self.blocks.values() for i in block]
+
+    def inlined(self, name):
+        """Is a function marked 'inline'?"""
+        return any("inlinehint" in self.attributes.get(a, "") for a in re.findall(r"#\d+", self.heads[name]))
 
     def field(self, node, name):
         found = re.search(rf'\b{name}: (!\d+|\d+|"[^"]*")', self.metadata.get(node, ""))

@@ -57,9 +57,9 @@ static inline void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covarianc
 }
 
 /* Weigh the inner part, if there is one, and decide. */
-static drogue_status solve(drogue_decision *out, drogue_inner_evidence *inner, drogue_evidence *evidence,
-                           const drogue_hls_parameters *p, const int32_t outline[DROGUE_HLS_OUTLINE_WORDS],
-                           const int32_t words[DROGUE_HLS_EDGE_WORDS])
+static inline drogue_status solve(drogue_decision *out, drogue_inner_evidence *inner, drogue_evidence *evidence,
+                                  const drogue_hls_parameters *p, const int32_t outline[DROGUE_HLS_OUTLINE_WORDS],
+                                  const int32_t words[DROGUE_HLS_EDGE_WORDS])
 {
     const drogue_setup setup = {&p->camera, &p->model, &p->config};
     if (p->model.inner_radius_m_q16 > 0 && words[DROGUE_HLS_E_STATUS] == DROGUE_OK) {

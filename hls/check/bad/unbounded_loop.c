@@ -14,7 +14,7 @@ static uint32_t steps_to_one(uint32_t value)
     return steps;
 }
 
-static uint32_t root(uint32_t label, const uint32_t parent[64])
+static inline uint32_t root(uint32_t label, const uint32_t parent[64])
 {
     while (parent[label & 63u] != label) { /* expect: unbounded-loop */
         label = parent[label & 63u];
@@ -22,7 +22,7 @@ static uint32_t root(uint32_t label, const uint32_t parent[64])
     return label;
 }
 
-static uint32_t length(const uint8_t text[64])
+static inline uint32_t length(const uint8_t text[64])
 {
     uint32_t i;
     for (i = 0; text[i] != 0; i++) {} /* expect: unbounded-loop */
