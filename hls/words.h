@@ -222,25 +222,15 @@ static inline void drogue_hls_pack_u64(int32_t words[2], uint64_t v)
     words[1] = (int32_t)(uint32_t)(v >> 32);
 }
 
-/* From the lists to the outline, the two poses that it allows, and where the inner part should be.
- *
- *  edges, arcs      drogue_hls.h; an arc's points lie within the list
- *  pixels           the region's, width_px * height_px grey levels, row by row
- *  frontend_status  the front end's status register: other than 0 in its low byte is passed on, the lists are not read
- *  outline          all words are written in every case; 0 where there is nothing to say, ARCS -1
- *  STATUS           drogue_measure()'s; DROGUE_E_ARGUMENT for parameters, lists or sizes outside their range too
- */
 /* A view of a region's pixels in a memory of the block's own: the library reads them by a member, and no compiler follows a
- * port through one. What does not fit is left out. */
-static inline void drogue_hls_take_pixels(drogue_image *view, uint8_t memory[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
-                                          const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], int32_t width_px,
-                                          int32_t height_px)
+ * port through one. Returns 0, and reads nothing, where the region does not fit. */
+static inline int drogue_hls_take_pixels(drogue_image *view, uint8_t memory[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
+                                         const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], int32_t width_px,
+                                         int32_t height_px)
 {
-    int32_t count = 0;
+    const int fits = width_px >= 1 && width_px <= DROGUE_HLS_WIDTH && height_px >= 1 && height_px <= DROGUE_HLS_HEIGHT;
+    const int32_t count = fits ? width_px * height_px : 0;
     int32_t i;
-    if (width_px >= 1 && width_px <= DROGUE_HLS_WIDTH && height_px >= 1 && height_px <= DROGUE_HLS_HEIGHT) {
-        count = width_px * height_px;
-    }
     for (i = 0; i < count; i++) {
 #ifndef __BAMBU__
 #pragma HLS pipeline II = 1
@@ -252,8 +242,17 @@ static inline void drogue_hls_take_pixels(drogue_image *view, uint8_t memory[DRO
     view->width_px = width_px;
     view->height_px = height_px;
     view->stride = width_px;
+    return fits;
 }
 
+/* From the lists to the outline, the two poses that it allows, and where the inner part should be.
+ *
+ *  edges, arcs      drogue_hls.h; an arc's points lie within the list
+ *  pixels           the region's, width_px * height_px grey levels, row by row
+ *  frontend_status  the front end's status register: other than 0 in its low byte is passed on, the lists are not read
+ *  outline          all words are written in every case; 0 where there is nothing to say, ARCS -1
+ *  STATUS           drogue_measure()'s; DROGUE_E_ARGUMENT for parameters, lists or sizes outside their range too
+ */
 void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_count,
                         const uint64_t arcs[DROGUE_HLS_ARCS], uint32_t arc_count, uint32_t frontend_status,
                         const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT], int32_t width_px, int32_t height_px,

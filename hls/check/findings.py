@@ -144,7 +144,12 @@ def ports(module, findings):
     def last_name(text):
         return (re.findall(rf"%{NAME}", text) or [None])[-1]
 
+    followed = set()
+
     def follow(function, names):
+        if (function, frozenset(names)) in followed:
+            return  # recursion, which is a finding of its own
+        followed.add((function, frozenset(names)))
         for i in (i for i in module.instructions() if i.function == function):
             made = re.match(rf"(%{NAME}) = (?:getelementptr|bitcast|phi|select|freeze)\b(.*)", i.code)
             stored = re.match(rf"store \S+ (%{NAME}),", i.code)

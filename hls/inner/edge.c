@@ -30,9 +30,8 @@ void drogue_hls_edge(const uint8_t pixels[DROGUE_HLS_WIDTH * DROGUE_HLS_HEIGHT],
     expected.count = (uint32_t)outline[DROGUE_HLS_O_EXPECTED_COUNT];
     expected.disc[0] = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED);
     expected.disc[1] = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED + 5);
-    drogue_hls_take_pixels(&view, pixel_memory, pixels, width_px, height_px);
-    if (width_px >= 1 && width_px <= DROGUE_HLS_WIDTH && height_px >= 1 && height_px <= DROGUE_HLS_HEIGHT &&
-        expected.count <= 2 && outline[DROGUE_HLS_O_STATUS] == DROGUE_OK) {
+    if (expected.count <= 2 && outline[DROGUE_HLS_O_STATUS] == DROGUE_OK &&
+        drogue_hls_take_pixels(&view, pixel_memory, pixels, width_px, height_px)) {
         status = drogue_inner_edge_find(&found, rays, &view, &expected, &ellipse, &p.config);
     }
     edge[DROGUE_HLS_E_STATUS] = (int32_t)status;

@@ -22,12 +22,6 @@ static int valid(const drogue_hls_parameters *p)
            p->model.inner_radius_m_q16 >= 0 && drogue_config_valid(&p->config) && drogue_mask_valid(&p->mask);
 }
 
-static int fits(const drogue_image *view)
-{
-    return view->width_px >= 1 && view->width_px <= DROGUE_HLS_WIDTH && view->height_px >= 1 &&
-           view->height_px <= DROGUE_HLS_HEIGHT;
-}
-
 /* The lists into the workspace; 0 when they cannot be a front end's. */
 static inline int read_lists(drogue_edge edges[DROGUE_HLS_EDGES], drogue_arc arcs[DROGUE_HLS_ARCS],
                              const uint64_t edge_words[DROGUE_HLS_EDGES], const uint64_t arc_words[DROGUE_HLS_ARCS],
@@ -160,8 +154,9 @@ void drogue_hls_outline(const uint64_t edges[DROGUE_HLS_EDGES], uint32_t edge_co
     list.edge_count = edge_count;
     list.arc_count = arc_count;
     drogue_hls_unpack_parameters(&p, parameters);
-    drogue_hls_take_pixels(&view, pixel_memory, pixels, width_px, height_px);
-    if (status == DROGUE_OK && !(valid(&p) && fits(&view) && read_lists(edge_memory, arc_memory, edges, arcs, &list))) {
+    if (status == DROGUE_OK &&
+        !(valid(&p) && drogue_hls_take_pixels(&view, pixel_memory, pixels, width_px, height_px) &&
+          read_lists(edge_memory, arc_memory, edges, arcs, &list))) {
         status = DROGUE_E_ARGUMENT;
     }
     found = status;

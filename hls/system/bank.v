@@ -37,8 +37,7 @@ module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter AR
     // The region's pixels in raster order, asked for ahead of the block, by registers alone: the way from the block to the frame
     // memory would be the longest. Three ahead are enough for one a clock, and the block squares for more than twenty clocks before
     // it takes its first (SQUARE_BITS in ../frontend/step.c): one is there whenever it takes one.
-    wire [11:0] width = asked[0][11:0];
-    wire last = column == width - 12'd1;
+    wire last = column == asked[0][11:0] - 12'd1;
     wire asks = running && !started && {1'b0, ahead} + {2'd0, asked_for} < 3'd3;
     wire [1:0] left = ahead - {1'b0, pixel_ready};
     assign running = started || busy;

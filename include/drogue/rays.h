@@ -39,6 +39,12 @@ typedef struct drogue_ray {
  */
 void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *ellipse, int32_t phase);
 
+/* What a way along a ray is along an axis, px Q16, by that component of the ray's normal. */
+static inline int32_t drogue_ray_part(int32_t n_q14, drogue_q16 along_px_q16)
+{
+    return (int32_t)drogue_shr_round_s64(drogue_product(n_q14, along_px_q16), 14);
+}
+
 /* Grey along a ray.
  *
  *  grey   out, Q8: 'count' samples from 'from' outwards; beyond the image the grey of its border stands

@@ -42,8 +42,8 @@ static inline int16_t gradient_of(int32_t n_q14, int32_t grey_q8)
 /* A ray's edge as an edge point; 0 when it is outside the region. */
 static int put_point(drogue_edge *out, drogue_ray *r, const drogue_ray_edge *e, const drogue_image *view)
 {
-    const int32_t x = r->x_px_q16 + (int32_t)drogue_shr_round_s64(drogue_product(r->nx_q14, e->at_px_q16), 14);
-    const int32_t y = r->y_px_q16 + (int32_t)drogue_shr_round_s64(drogue_product(r->ny_q14, e->at_px_q16), 14);
+    const int32_t x = r->x_px_q16 + drogue_ray_part(r->nx_q14, e->at_px_q16);
+    const int32_t y = r->y_px_q16 + drogue_ray_part(r->ny_q14, e->at_px_q16);
     int32_t grey_q8[5];
     int32_t rise_q8;
     if (x < 0 || y < 0 || x >> 16 >= view->width_px - 1 || y >> 16 >= view->height_px - 1) {

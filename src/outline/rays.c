@@ -59,19 +59,13 @@ static int within(const drogue_image *image, int32_t x_px_q16, int32_t y_px_q16)
            y_px_q16 >> 16 < image->height_px - 1;
 }
 
-/* How far that goes along an axis. */
-static int32_t part_px_q16(int32_t n_q14, drogue_q16 along_px_q16)
-{
-    return (int32_t)drogue_shr_round_s64(drogue_product(n_q14, along_px_q16), 14);
-}
-
 void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_image *image, drogue_q16 from_px_q16,
                      int32_t count)
 {
-    const int32_t dx = part_px_q16(r->nx_q14, r->step_px_q16);
-    const int32_t dy = part_px_q16(r->ny_q14, r->step_px_q16);
-    int32_t x = r->x_px_q16 + part_px_q16(r->nx_q14, from_px_q16);
-    int32_t y = r->y_px_q16 + part_px_q16(r->ny_q14, from_px_q16);
+    const int32_t dx = drogue_ray_part(r->nx_q14, r->step_px_q16);
+    const int32_t dy = drogue_ray_part(r->ny_q14, r->step_px_q16);
+    int32_t x = r->x_px_q16 + drogue_ray_part(r->nx_q14, from_px_q16);
+    int32_t y = r->y_px_q16 + drogue_ray_part(r->ny_q14, from_px_q16);
     const drogue_image own = *image; /* which what is written cannot alias */
     int32_t *const end = grey_q8_out + count;
     if (within(&own, x, y) && within(&own, x + (count - 1) * dx, y + (count - 1) * dy)) {
