@@ -190,9 +190,9 @@ static inline void frame_find_outline(frame *f)
 /* The inner disc, where the outline says. */
 static inline void frame_find_inner(int32_t words[DROGUE_HLS_EDGE_WORDS], const frame *f)
 {
-    const drogue_inner_expected expected = {{drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED),
-                                             drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5)},
-                                            (uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT]};
+    const drogue_inner_expected expected = {(uint32_t)f->words[DROGUE_HLS_O_EXPECTED_COUNT],
+                                            {drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED),
+                                             drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5)}};
     drogue_ray rays[DROGUE_RAYS];
     drogue_inner_edge edge;
     memset(&edge, 0, sizeof edge);

@@ -171,6 +171,32 @@ def ports(module, findings):
             follow(name, {last_name(a) for a in arguments(head) if "*" in a or re.match(r" *ptr ", a)})
 
 
+def layouts(module, findings):
+    """Bambu takes a struct whose scalars are all of one size for an array of what its first member is an array of, and
+    gives it so many whole elements of memory: what is left over is lost."""
+
+    def scalars(text):
+        """Bits of each scalar in a type; an address has 32."""
+        if text in module.types:
+            return [bits for member in module.types[text] for bits in scalars(member)]
+        if array := re.match(r"\[(\d+) x (.*)\]$", text):
+            return int(array[1]) * scalars(array[2])
+        return [max(8, int(text[1:]))] if re.match(r"i\d+$", text) else [32]
+
+    def element(text):
+        if text in module.types:
+            return element(module.types[text][0])
+        array = re.match(r"\[\d+ x (.*)\]$", text)
+        return (element if array[1].startswith("[") else scalars)(array[1]) if array else scalars(text)
+
+    for name, members in module.types.items():
+        all_bits = scalars(name) if members else []
+        if len(set(all_bits)) == 1 and len(all_bits) % len(element(name)) != 0:
+            held = len(all_bits) - len(all_bits) % len(element(name))
+            what = f"Bambu keeps {held} of the {len(all_bits)} words of {name[1:].removeprefix('struct.')}"
+            findings.add(module.type_place(name), "layout", what)
+
+
 def needed(module):
     """Files of src/ whose functions and tables the top is made of."""
     files = {module.location(node)[0] for node in module.functions.values() if node}
@@ -196,6 +222,7 @@ def main():
     module_normal = Module(normal)
     count, comments = loops(module_normal, trips, findings)
     ports(module_normal, findings)
+    layouts(module, findings)
     sources(module, listed, name, findings)
     findings.show()
     number = len(findings.lines)

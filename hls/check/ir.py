@@ -24,6 +24,11 @@ def arguments(code):
     return parts
 
 
+def members(text):
+    """What stands between the outer braces of a struct's type, one by one."""
+    return arguments(f"@type({text[1:-1]})") if text[1:-1].strip() else []
+
+
 def unquote(name):
     return name.strip('"')
 
@@ -54,6 +59,8 @@ class Module:
     def __init__(self, path):
         text = open(path).read()
         self.metadata = dict(METADATA.findall(text))
+        types = re.findall(rf"^(%{NAME}) = type <?(\{{.*\}})>?$", text, re.M)
+        self.types = {name: [part.strip() for part in members(body)] for name, body in types}
         self.functions = {}  # name -> subprogram's metadata
         self.heads = {}  # name -> its line 'define'
         self.attributes = dict(re.findall(r"^attributes (#\d+) = \{(.*)\}$", text, re.M))
@@ -97,6 +104,14 @@ class Module:
     def place(self, instruction):
         """(file, line) of an instruction: its own, or its function's."""
         return self.location(instruction.dbg or self.functions[instruction.function])
+
+    def type_place(self, name):
+        """(file, line) of a struct."""
+        tag = re.sub(r"^%struct\.|\.\d+$", "", name)
+        for node, value in self.metadata.items():
+            if value.startswith("!DICompositeType(") and self.field(node, "name") == tag:
+                return self.location(node)
+        return ("?", 0)
 
     def loop_place(self, function, header):
         """(file, line) where the loop of a header block starts: of the statement, where the compiler kept it."""

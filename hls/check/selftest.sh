@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export DROGUE_HLS_CHECK_DIR=$work
 failures=0
-rules='recursion indirect-call dynamic-memory unbounded-loop floating-point external pragma port'
+rules='recursion indirect-call dynamic-memory unbounded-loop floating-point external pragma port layout'
 
 # verdict NAME OK
 verdict() {

@@ -12,9 +12,9 @@ extern "C" {
 
 /* What a frame says about the pose. */
 typedef struct drogue_evidence {
+    drogue_ellipse ideal;          /* the outline without distortion, px of the whole image */
     drogue_pose poses[2];          /* from drogue_pose_from_ellipse() */
     uint32_t nearer;               /* index of the one whose projected inner centre is nearer; either without one */
-    drogue_ellipse ideal;          /* the outline without distortion, px of the whole image */
     const drogue_support *support; /* of the outline's last fit */
     drogue_joint_inner inner;      /* std_px_q16 is 0 when there is none */
     drogue_q16 doubt_q16;          /* share by which the inner part is not of its size, as in drogue_inner_evidence */

@@ -11,9 +11,9 @@ extern "C" {
 
 /* Eigenvalues and their vectors. */
 typedef struct drogue_eigen3 {
-    drogue_real value[3];     /* descending */
     int32_t vector_q30[3][3]; /* vector_q30[k] belongs to value[k]; orthonormal, right-handed; the component of largest
                                  magnitude of vectors 0 and 1 is positive (the first of equals) */
+    drogue_real value[3];     /* descending */
 } drogue_eigen3;
 
 /* Diagonalise.

@@ -77,8 +77,8 @@ static inline void drogue_moments_add_point(drogue_moments *m, int32_t x, int32_
 /* Scatter matrix of the monomials 1, x, y, x^2, xy, y^2 about the points' centre, packed by rows of its lower triangle
  * (cholesky.h). From each of the last three, 'taken' times 1, x and y is taken in the exact sums. */
 typedef struct drogue_scatter {
-    drogue_real entry[21]; /* packed */
     int32_t centre[2];     /* mean of x and of y, rounded */
+    drogue_real entry[21]; /* packed */
     int32_t taken[3][3];   /* of x^2, x y, y^2: times 1, x, y */
 } drogue_scatter;
 

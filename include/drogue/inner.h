@@ -24,8 +24,8 @@ typedef struct drogue_inner_part {
 
 /* What is looked for. */
 typedef struct drogue_inner_expected {
-    drogue_ellipse disc[2]; /* images of the inner disc for either pose, as seen, region coordinates */
     uint32_t count;         /* how many of them there are */
+    drogue_ellipse disc[2]; /* images of the inner disc for either pose, as seen, region coordinates */
 } drogue_inner_expected;
 
 /* Images of the inner disc for both poses, through the lens: a pose whose disc is behind the camera, edge-on or under a

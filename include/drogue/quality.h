@@ -76,8 +76,12 @@ typedef struct drogue_quality {
 void drogue_quality_score(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
                           const drogue_quality_config *config);
 
-/* The same with the share of the circumference that edge points cover in place of l_r (12). */
-void drogue_quality_of_cover(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
+/* phi (11): the share of the points that were fitted, total >= 1, that meet (10). Q16, [0, 1]. */
+drogue_q16 drogue_quality_fit_ratio(uint32_t near_count, uint32_t total);
+
+/* Score an ellipse from phi and, in place of l_r (12), the share of its circumference that edge points cover; both in
+ * [0, 1]. */
+void drogue_quality_of_cover(drogue_quality *out, const drogue_ellipse *ellipse, drogue_q16 fit_ratio_q16,
                              drogue_q16 cover_q16, const drogue_quality_config *config);
 
 #ifdef __cplusplus

@@ -149,14 +149,16 @@ static int try_arcs(drogue_candidate *out, uint32_t arcs, context *c)
     for (k = 0; k < c->parts; k++) { /* bound: 4 */
         near_count += drogue_near_count(&frame, threshold, c->workspace->edges + c->part[k]->first, c->part[k]->count);
     }
+    out->fit_ratio_q16 = drogue_quality_fit_ratio(near_count, (uint32_t)c->room->sum.moments.n);
+    if (out->fit_ratio_q16 < c->config->min_fit_ratio_q16) {
+        return 0;
+    }
     (void)look(c, &out->ellipse, polarity_of_arcs(c, arcs));
-    drogue_quality_of_cover(&quality, &out->ellipse, near_count, (uint32_t)c->room->sum.moments.n,
-                            drogue_support_cover(&c->room->support), &c->config->quality);
-    out->reliability_q16 = quality.reliability_q16;
-    out->fit_ratio_q16 = quality.fit_ratio_q16;
-    out->cover_q16 = quality.length_ratio_q16;
+    out->cover_q16 = drogue_support_cover(&c->room->support);
     out->polarity = c->room->support.bright_bins;
-    return quality.fit_ratio_q16 >= c->config->min_fit_ratio_q16;
+    drogue_quality_of_cover(&quality, &out->ellipse, out->fit_ratio_q16, out->cover_q16, &c->config->quality);
+    out->reliability_q16 = quality.reliability_q16;
+    return 1;
 }
 
 /* Can an arc be fitted? More points than moments hold are noise. */
@@ -257,8 +259,8 @@ static void refine(drogue_outline *out, const drogue_candidate *candidate, conte
         const drogue_arc *arc = arc_of(c, candidate->arcs, k);
         out->arcs[k] = arc != NULL ? (uint32_t)(arc - c->workspace->arcs) : DROGUE_NO_ARC;
     }
-    drogue_quality_of_cover(&out->quality, &candidate->ellipse, (uint32_t)candidate->fit_ratio_q16, DROGUE_Q16_ONE,
-                            candidate->cover_q16, &c->config->quality);
+    drogue_quality_of_cover(&out->quality, &candidate->ellipse, candidate->fit_ratio_q16, candidate->cover_q16,
+                            &c->config->quality);
     out->ellipse = candidate->ellipse;
     refit(out, c);
 }

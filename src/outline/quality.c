@@ -170,10 +170,12 @@ static drogue_q16 length_ratio(uint32_t points, const drogue_ellipse *ellipse)
     return ratio_to_one(drogue_shl_s64(points > most ? most : points, 16), drogue_ellipse_circumference(ellipse));
 }
 
-void drogue_quality_of_cover(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
+drogue_q16 drogue_quality_fit_ratio(uint32_t near_count, uint32_t total) { return ratio_to_one(near_count, total); }
+
+void drogue_quality_of_cover(drogue_quality *out, const drogue_ellipse *ellipse, drogue_q16 fit_ratio_q16,
                              drogue_q16 cover_q16, const drogue_quality_config *config)
 {
-    out->fit_ratio_q16 = ratio_to_one(near_count, total);
+    out->fit_ratio_q16 = fit_ratio_q16;
     out->length_ratio_q16 = cover_q16;
     out->axis_ratio_q16 = drogue_q16_div(ellipse->b_px_q16, ellipse->a_px_q16);
     out->score_q16 = (drogue_q16)drogue_shr_round_s64(out->length_ratio_q16, 1) + axis_ratio_score(ellipse, config);
@@ -183,5 +185,6 @@ void drogue_quality_of_cover(drogue_quality *out, const drogue_ellipse *ellipse,
 void drogue_quality_score(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
                           const drogue_quality_config *config)
 {
-    drogue_quality_of_cover(out, ellipse, near_count, total, length_ratio(total, ellipse), config);
+    drogue_quality_of_cover(out, ellipse, drogue_quality_fit_ratio(near_count, total), length_ratio(total, ellipse),
+                            config);
 }

@@ -182,9 +182,10 @@ START_TEST(quality_of_cover)
         uint32_t total = (uint32_t)rng_range(&rng, 1, 8000), near_count = (uint32_t)rng_range(&rng, 0, (int32_t)total);
         drogue_quality by_points, by_cover, none;
         drogue_quality_score(&by_points, &e, near_count, total, &c);
-        drogue_quality_of_cover(&by_cover, &e, near_count, total, by_points.length_ratio_q16, &c);
+        drogue_quality_of_cover(&by_cover, &e, drogue_quality_fit_ratio(near_count, total), by_points.length_ratio_q16,
+                                &c);
         MUST(memcmp(&by_points, &by_cover, sizeof by_cover) == 0, "case %d", i);
-        drogue_quality_of_cover(&none, &e, near_count, total, 0, &c);
+        drogue_quality_of_cover(&none, &e, by_points.fit_ratio_q16, 0, &c);
         MUST(none.length_ratio_q16 == 0 &&
                  abs(by_cover.score_q16 - none.score_q16 - by_cover.length_ratio_q16 / 2) <= 1,
              "case %d: cover 0", i);
