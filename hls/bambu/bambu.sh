@@ -62,6 +62,8 @@ open_ports() { sed -nE "s/.*PROXY_PREF_done_port_(\\w+)\\(1'b0\\).*/error: \\1 h
 verdict=PASS
 if [ $status -eq 124 ] || [ $status -eq 137 ]; then
     verdict=TIMEOUT
+elif grep -q 'fatal error:' log; then
+    verdict=FAIL # a header that is not there, of the test bench for one: nothing was simulated
 elif [ $simulated = yes ] && grep -qE 'mismatch|Returned error|ERROR:' log HLS_output/simulation/testbench.log 2>/dev/null; then
     verdict=MISMATCH
 elif [ $status -ne 0 ] || [ ! -s "$function.v" ]; then

@@ -32,6 +32,7 @@ expect 1 FAIL "$rtl; exit 1"
 expect 1 FAIL "$rtl" --simulate
 expect 1 MISMATCH "$rtl; $ran; echo 'mismatch on memory'" --simulate
 expect 1 MISMATCH "$rtl; $ran; mkdir -p HLS_output/simulation; echo 'Returned error code!' >HLS_output/simulation/testbench.log" --simulate
+expect 1 FAIL "$rtl; $ran; echo \"fatal error: 'asm/errno.h' file not found\"; echo 'Returned error code!'" --simulate
 expect 1 FAIL "echo '.PROXY_PREF_done_port_root(1'\\''b0)' >$function.v; $ran" --simulate
 expect 1 TIMEOUT "sleep 20"
 
