@@ -76,16 +76,15 @@ static drogue_status decide(drogue_result *out, const drogue_evidence *evidence,
 
 drogue_status drogue_frame_judge(drogue_frame *f)
 {
-    const drogue_setup *setup = f->setup;
     drogue_result *out = f->out;
     drogue_evidence evidence;
     drogue_status status;
-    drogue_outline_pull(&f->outline, f->workspace->rays, &f->view, setup->config);
+    drogue_outline_pull(&f->outline, f->workspace->rays, &f->view, f->setup->config);
     describe(out, &f->outline);
     out->tried = f->tried;
-    if (drogue_camera_distorts(setup->camera)) {
-        status = drogue_outline_undistorted(&out->ideal, &f->outline, f->workspace, &out->list, setup, out->region.x_px,
-                                            out->region.y_px);
+    if (drogue_camera_distorts(f->setup->camera)) {
+        status = drogue_outline_undistorted(&out->ideal, &f->outline, f->workspace, &out->list, f->setup,
+                                            out->region.x_px, out->region.y_px);
         if (status != DROGUE_OK) {
             memset(&out->ideal, 0, sizeof out->ideal);
             return DROGUE_E_NO_ELLIPSE;
@@ -94,13 +93,13 @@ drogue_status drogue_frame_judge(drogue_frame *f)
     memset(&evidence, 0, sizeof evidence);
     evidence.ideal = out->ideal;
     evidence.support = &f->outline.support;
-    status = drogue_pose_from_ellipse(evidence.poses, &out->ideal, setup->camera, setup->model->rim_radius_m_q16);
+    status = drogue_pose_from_ellipse(evidence.poses, &out->ideal, f->setup->camera, f->setup->model->rim_radius_m_q16);
     if (status != DROGUE_OK) {
         return status;
     }
     f->doubt_q16 = 0;
-    if (setup->model->inner_radius_m_q16 > 0) {
+    if (f->setup->model->inner_radius_m_q16 > 0) {
         find_inner(&evidence, f);
     }
-    return decide(out, &evidence, setup);
+    return decide(out, &evidence, f->setup);
 }

@@ -167,6 +167,8 @@ static void doubt_outline(drogue_joint_outline *outline)
     (void)drogue_joint_outline_weigh(outline); /* as positive definite as it was */
 }
 
+static int has_inner(const drogue_evidence *evidence) { return evidence->inner.std_px_q16 > 0; }
+
 drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup)
 {
     static const drogue_joint_inner none = {0, 0, 0};
@@ -174,7 +176,6 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
     drogue_joint joint;
     uint32_t index = evidence->nearer;
     int32_t resolved = 0;
-    const int seen = evidence->inner.std_px_q16 > 0;
     int agree = 0;
     memset(&joint, 0, sizeof joint);
     outline.ellipse = evidence->ideal;
@@ -182,13 +183,13 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
                                         setup->config->optics_blur_std_px2_q16) != DROGUE_OK) {
         return DROGUE_E_DOMAIN;
     }
-    if (seen) {
+    if (has_inner(evidence)) {
         agree = solve_together(&joint, &index, &resolved, &outline, evidence, setup);
     }
     if (!agree) {
         resolved = 0;
         index = evidence->nearer;
-        if (setup->model->inner_radius_m_q16 > 0 && !seen) {
+        if (setup->model->inner_radius_m_q16 > 0 && !has_inner(evidence)) {
             doubt_outline(&outline);
         }
         if (drogue_joint_solve(&joint, &evidence->poses[index], &outline, &none, setup->camera, setup->model, 0) !=
@@ -196,7 +197,7 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
             return DROGUE_E_DOMAIN;
         }
     }
-    if (seen) {
+    if (has_inner(evidence)) {
         drogue_real chi2 = joint.chi2;
         drogue_q16 doubt_q16 = evidence->doubt_q16;
         if (!agree) {
