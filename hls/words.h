@@ -128,7 +128,8 @@ enum drogue_hls_outline_word {
     DROGUE_HLS_O_COVERED,
     DROGUE_HLS_O_PULL,                          /* five words, Q24 */
     DROGUE_HLS_O_SMEAR = DROGUE_HLS_O_PULL + 5, /* two words, px^2 Q16 */
-    DROGUE_HLS_OUTLINE_WORDS = DROGUE_HLS_O_SMEAR + 2
+    DROGUE_HLS_O_AXIS = DROGUE_HLS_O_SMEAR + 2, /* from which the bins count, rad Q16 */
+    DROGUE_HLS_OUTLINE_WORDS
 };
 
 /* What drogue_hls_edge() leaves. */

@@ -39,7 +39,7 @@ void drogue_config_default(drogue_config *config)
     config->inner_rms_px_q16 = DROGUE_Q16(65, 100);
     config->inner_size_px_q16 = DROGUE_Q16(1, 1);
     config->inner_size_q16 = DROGUE_Q16(1, 10);
-    config->outline_shading_q16 = DROGUE_Q16(24, 10);
+    config->outline_shading_q16 = DROGUE_Q16(16, 10);
     config->optics_blur_std_px2_q16 = DROGUE_Q16(2, 10);
     config->inner_std_px_q16 = DROGUE_Q16(5, 100);
     config->inner_std_share_q16 = DROGUE_Q16(5, 1000);

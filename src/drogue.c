@@ -74,7 +74,7 @@ static int lower_thresholds(drogue_frame *f)
     return high < config->canny_high;
 }
 
-#define SURE_Q16 DROGUE_Q16(3, 100)    /* the inner disc is of its size to this */
+#define SURE_Q16 DROGUE_Q16(1, 256)    /* of less doubt nothing else is tried */
 #define BEYOND_Q16 DROGUE_Q16(15, 100) /* by more than this it is too large for anything beyond the outline */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 
@@ -150,7 +150,8 @@ static drogue_second_look short_of_room(const drogue_frame *f, drogue_status sta
 /* Is the inner disc too large for the best outline, by no more than one about it explains? */
 static int asks_beyond(const best_try *best)
 {
-    return best->status == DROGUE_OK && best->larger_q16 > SURE_Q16 && best->larger_q16 <= BEYOND_Q16;
+    return best->status == DROGUE_OK && best->least_q16 > SURE_Q16 && best->larger_q16 > 0 &&
+           best->larger_q16 <= BEYOND_Q16;
 }
 
 /* Look for the outline that the inner disc is of the size for. */

@@ -50,11 +50,9 @@ static void find_inner(drogue_evidence *evidence, drogue_frame *f)
     }
     f->doubt_q16 = DROGUE_Q16_ONE;
     if (out->has_inner || f->too_large) {
-        const drogue_q16 a_px_q16 = expected.disc[edge.which].a_px_q16;
-        const drogue_q16 off_px_q16 = edge.grown_px_q16 < 0 ? -edge.grown_px_q16 : edge.grown_px_q16;
-        const drogue_q16 off_q16 = off_px_q16 <= DROGUE_INNER_SEEN_TO_PX_Q16 ? 0 : drogue_q16_div(off_px_q16, a_px_q16);
-        f->doubt_q16 = out->has_inner ? off_q16 : DROGUE_Q16_ONE;
-        f->larger_q16 = edge.grown_px_q16 > 0 ? off_q16 : 0;
+        const drogue_ellipse *disc = &expected.disc[edge.which];
+        f->doubt_q16 = out->has_inner ? drogue_inner_doubt(&edge, disc) : DROGUE_Q16_ONE;
+        f->larger_q16 = edge.grown_px_q16 > 0 ? drogue_q16_div(edge.grown_px_q16, disc->a_px_q16) : 0;
     }
 }
 

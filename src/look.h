@@ -22,7 +22,7 @@ typedef struct drogue_frame {
     int32_t others;        /* the workspace holds edges of another region than the view */
     int32_t too_large;     /* the inner disc is seen, but too large for the outline */
     drogue_q16 larger_q16; /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
-    drogue_q16 doubt_q16;  /* by what share the inner disc's size is off; 1 and more: not seen, or no outline */
+    drogue_q16 doubt_q16;  /* of the inner disc's size, drogue_inner_doubt(); 1 and more: not seen, or no outline */
 } drogue_frame;
 
 /* Find the edges of a region with the frame's thresholds; the view becomes the region's pixels. */

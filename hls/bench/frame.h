@@ -153,6 +153,7 @@ static inline void frame_put_outline(frame *f, const drogue_pose poses[2], const
     w[DROGUE_HLS_O_POINTS] = (int32_t)o->support.points;
     w[DROGUE_HLS_O_BRIGHT_BINS] = (int32_t)o->support.bright_bins;
     w[DROGUE_HLS_O_COVERED] = (int32_t)o->support.covered;
+    w[DROGUE_HLS_O_AXIS] = o->support.axis_rad_q16;
     memcpy(w + DROGUE_HLS_O_PULL, o->support.pull_q24, sizeof o->support.pull_q24);
     memcpy(w + DROGUE_HLS_O_SMEAR, o->support.smear_px2_q16, sizeof o->support.smear_px2_q16);
 }

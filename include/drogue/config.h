@@ -63,7 +63,7 @@ typedef struct drogue_config {
     drogue_q16 inner_rms_px_q16;    /* 0.65 px: and these lie about it by no more, root mean square */
     drogue_q16 inner_size_px_q16; /* 1 px, 0.1: and its semi-axis is the expected one within so many pixels and this */
     drogue_q16 inner_size_q16;    /* share */
-    drogue_q16 outline_shading_q16; /* 2.4 px grey * 8: error of the outline that its own residuals cannot show, over
+    drogue_q16 outline_shading_q16; /* 1.6 px grey * 8: error of the outline that its own residuals cannot show, over
                                        the gradient along it (joint.h) */
     drogue_q16 optics_blur_std_px2_q16; /* 0.2 px^2: uncertainty of half the variance of the optics' blur */
     drogue_q16 inner_std_px_q16;        /* 0.05 px: standard deviation of the inner disc's centre, */

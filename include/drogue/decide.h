@@ -17,7 +17,7 @@ typedef struct drogue_evidence {
     uint32_t nearer;               /* index of the one whose projected inner centre is nearer; either without one */
     const drogue_support *support; /* of the outline's last fit */
     drogue_joint_inner inner;      /* std_px_q16 is 0 when there is none */
-    drogue_q16 doubt_q16;          /* share by which the inner part is not of its size, as in drogue_inner_evidence */
+    drogue_q16 doubt_q16;          /* of the distance, by the inner part's size: drogue_inner_doubt() */
 } drogue_evidence;
 
 /* The pose that a result gives. */
@@ -32,8 +32,8 @@ typedef struct drogue_decision {
 
 /* Solve for outline and inner part together; for the outline alone when they contradict each other or there is no inner
  * part to be believed. Where there is one, the covariance is chi2 times as large where that, 0.5 on average of frames that
- * are as supposed, is above 1, and max_chi2 times where they contradict each other; and half the square of half the share by
- * which the inner part is not of its size is added, of the distance, or 1.1 % where they contradict each other. Where
+ * are as supposed, is above 1, and max_chi2 times where they contradict each other; and half the square of the share by
+ * which the inner part's size puts the distance in doubt is added, of the distance, or 1.1 % where they contradict each other. Where
  * the model has an inner part and none is to be believed, the outline may be another edge than the rim, or partly: 1.1 % of
  * its size is added to every parameter of the outline.
  *

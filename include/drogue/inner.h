@@ -84,8 +84,16 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[DRO
 drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse *expected,
                             const drogue_ellipse *outline, const drogue_config *config);
 
-/* Blur and what touches the inner disc move its edge by so much. */
-#define DROGUE_INNER_SEEN_TO_PX_Q16 DROGUE_Q16(1, 2)
+drogue_q16 drogue_inner_doubt(const drogue_inner_edge *edge, const drogue_ellipse *expected);
+
+/* By what share the disc's size puts the distance in doubt. A disc that is too large may be that of a larger outline than the
+ * one found, and is so in one of eight; one that is too small hardly ever says more than that its edge is blurred or touched.
+ *
+ *  expected  the disc that the edge is compared with
+ *  return    the share of its semi-axis by which the disc is larger, from 1/32 on, and nothing below 1/64; half of that by
+ *            which it is smaller by more than half a pixel
+ */
+drogue_q16 drogue_inner_doubt(const drogue_inner_edge *edge, const drogue_ellipse *expected);
 
 /* The inner part as evidence between the poses. */
 typedef struct drogue_inner_evidence {
@@ -96,7 +104,7 @@ typedef struct drogue_inner_evidence {
     int32_t
         too_large;   /* 1: a disc is seen that would be believed but for its size, which is too large for the outline */
     uint32_t nearer; /* index of the pose whose projected inner centre is nearer, believed or not */
-    drogue_q16 doubt_q16; /* share of its semi-axis by which the disc is larger or smaller by more than half a pixel */
+    drogue_q16 doubt_q16; /* drogue_inner_doubt() */
 } drogue_inner_evidence;
 
 /* Weigh the disc, and see which pose it is nearer to.

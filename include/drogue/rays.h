@@ -34,10 +34,12 @@ typedef struct drogue_ray {
 
 /* Place rays, half a pixel between their samples, without edges.
  *
- *  ellipse  region coordinates; b >= 1 px, a below 2^14 px
- *  phase    [0, 8): eighths of the angle between two rays by which they are turned; 4 puts two evenly into each bin
+ *  ellipse   region coordinates; b >= 1 px, a below 2^14 px
+ *  phase     [0, 8): eighths of the angle between two rays by which they are turned; 4 puts two evenly into each bin
+ *  from, to  [0, 32]: these alone, from one on to before another, and those across
  */
-void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *ellipse, int32_t phase);
+void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *ellipse, int32_t phase, int32_t from,
+                     int32_t to);
 
 /* What a way along a ray is along an axis, px Q16, by that component of the ray's normal. */
 static inline int32_t drogue_ray_part(int32_t n_q14, drogue_q16 along_px_q16)

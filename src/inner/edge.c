@@ -7,7 +7,8 @@
 #include "shade.h"
 
 #define APART DROGUE_Q16(3, 4)     /* px */
-#define SMALL DROGUE_Q16(20, 1)    /* px: every second ray will do to find a disc of less */
+#define EVERY 2                    /* so many-th ray will do to find the disc, */
+#define SMALL DROGUE_Q16(10, 1)    /* px: and to measure one of less */
 #define INWARD DROGUE_Q16(45, 100) /* px: a quarter of a blurred step is this far within its middle */
 
 /* Squared residuals of the bins over their weights; the number of bins that hold rays. */
@@ -86,8 +87,8 @@ static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], uint32_t 
     }
 }
 
-/* Measure about a first place: which rays see the edge, and how large it is, by its steepest place; where it is, by as many
- * rays as it has pixels, at most 512. */
+/* Measure about a first place: which rays see the edge, and how large it is, by its steepest place; where it is, by half as
+ * many rays as it has pixels, at most 512. */
 static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
                              const drogue_ellipse *e, int32_t least)
 {
@@ -101,18 +102,19 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     drogue_inner_shade grey;
     drogue_ray_sums s;
     drogue_ray_bins bins;
-    int32_t phases = e->a_px_q16 / DROGUE_Q16(10, 1); /* 2 pi a over 64 */
+    int32_t phases = e->a_px_q16 / DROGUE_Q16(20, 1); /* pi a over 64 */
+    const int32_t every = e->a_px_q16 < SMALL ? EVERY : 1;
     int32_t filled;
     int32_t k;
     phases = drogue_clamp_s32(phases, 1, 8);
-    drogue_rays_cast(rays, image, e, 0, 4, 1, least, 0);
+    drogue_rays_cast(rays, image, e, 0, 4, every, least, 0);
     if (!narrow(&s, v, &within, rays) || !drogue_inner_shade_find(&grey, rays, image, v, within)) {
         return DROGUE_E_NO_INNER_PART;
     }
     out->contrast = (uint8_t)drogue_clamp_s32(
         (int32_t)drogue_div_round_s64(s.slopes_q8, (int64_t)s.rays * DROGUE_RAY_WEIGHT * 256), 0, 255);
     out->level = (uint8_t)drogue_clamp_s32((int32_t)drogue_div_round_s64(s.levels_q8, (int64_t)s.rays * 256), 0, 255);
-    drogue_inner_shade_cross(rays, image, &grey, v);
+    drogue_inner_shade_cross(rays, image, &grey, v, every);
     within = DROGUE_Q16(3, 2);
     size = v[2];
     if (!narrow(&s, v, &within, rays)) {
@@ -123,8 +125,8 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     for (k = 0; k < phases; k++) {
         const drogue_q16 about[3] = {v[0], v[1], size};
         if (phases > 1) { /* or they have been cast */
-            drogue_rays_aim(rays, e, (8 * k + 4) / phases % 8);
-            drogue_inner_shade_cross(rays, image, &grey, about);
+            drogue_rays_aim(rays, e, (8 * k + 4) / phases % 8, 0, DROGUE_RAYS / 2);
+            drogue_inner_shade_cross(rays, image, &grey, about, 1);
         }
         drogue_ray_sums_add_edges(&s, &bins, rays, v, within);
     }
@@ -140,7 +142,7 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     drogue_real_root(&t, &t);
     out->std_px_q16 = drogue_real_to_q16(t);
     out->rms_px_q16 = drogue_ray_sums_rms(&s);
-    out->rays = (s.rays + (uint32_t)phases / 2) / (uint32_t)phases;
+    out->rays = ((uint32_t)every * s.rays + (uint32_t)phases / 2) / (uint32_t)phases;
     out->grown_px_q16 = drogue_q16_add(v[2], INWARD);
     out->x_px_q16 = drogue_q16_add(e->xc_px_q16, v[0]);
     out->y_px_q16 = drogue_q16_add(e->yc_px_q16, v[1]);
@@ -181,20 +183,19 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
     for (i = 0; i < expected->count; i++) { /* bound: 2 */
         const drogue_ellipse *e = &expected->disc[i];
         const drogue_q16 reach = drogue_q16_add(gate_px_q16, drogue_q16_add(e->a_px_q16 / 16, DROGUE_Q16(2, 1)));
-        const int32_t every = e->a_px_q16 < SMALL ? 2 : 1;
         drogue_q16 v[3] = {0, 0, 0};
         drogue_ray_sums s;
-        drogue_rays_cast(rays, image, e, reach, 4, every, config->min_inner_contrast, 0);
+        drogue_rays_cast(rays, image, e, reach, 4, EVERY, config->min_inner_contrast, 0);
         if (drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(gate_px_q16, DROGUE_Q16(1, 1)),
                                    larger(DROGUE_Q16(3, 2), reach / 16), 1) &&
             s.slopes_q8 > steepest) {
             steepest = s.slopes_q8;
             if (magnitude(v[2]) > drogue_q16_add(e->a_px_q16 / 64, DROGUE_Q16(1, 2))) {
-                prefer_size(v, rays, RAYS / 4 / (uint32_t)every);
+                prefer_size(v, rays, RAYS / 4 / EVERY);
             }
             memcpy(best, v, sizeof best);
             which = i;
-            if (every == 1 && 4 * s.rays >= 3 * RAYS &&
+            if (4 * s.rays * EVERY >= 3 * RAYS &&
                 drogue_square_sum(v[0], v[1]) <= drogue_square_sum(gate_px_q16, 0)) {
                 break; /* seen in its place: the other pose's need not be sought */
             }

@@ -141,12 +141,18 @@ static void describe(drogue_inner_part *part, const drogue_inner_edge *edge, con
     part->contrast = edge->contrast;
 }
 
-/* By which share the disc is not of its size, beyond what blur and what touches it move its edge by. */
-static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *expected)
+#define LARGER_Q16 DROGUE_Q16(1, 64)    /* of its size: a disc is seen to that */
+#define SMALLER_PX_Q16 DROGUE_Q16(1, 2) /* by as much blur and what touches the disc move its edge */
+
+drogue_q16 drogue_inner_doubt(const drogue_inner_edge *edge, const drogue_ellipse *expected)
 {
-    const drogue_q16 off_px_q16 = edge->grown_px_q16 < 0 ? -edge->grown_px_q16 : edge->grown_px_q16;
-    const drogue_q16 beyond = drogue_q16_sub(off_px_q16, DROGUE_INNER_SEEN_TO_PX_Q16);
-    return beyond > 0 ? drogue_q16_div(beyond, expected->a_px_q16) : 0;
+    const drogue_q16 smaller_px_q16 = drogue_q16_sub(-SMALLER_PX_Q16, edge->grown_px_q16);
+    const drogue_q16 share = drogue_q16_div(edge->grown_px_q16, expected->a_px_q16);
+    const drogue_q16 beyond = drogue_q16_sub(share, LARGER_Q16);
+    if (smaller_px_q16 > 0) {
+        return drogue_q16_div(smaller_px_q16, expected->a_px_q16) / 2;
+    }
+    return beyond > LARGER_Q16 ? share : beyond > 0 ? 2 * beyond : 0;
 }
 
 void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge *edge, const drogue_region *region,
@@ -170,7 +176,7 @@ void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge
         evidence->too_large = 0; /* too small, beyond the lens model, or behind the camera for one of the poses */
         choice.index = 0;
     }
-    evidence->doubt_q16 = doubt_of(edge, disc);
+    evidence->doubt_q16 = drogue_inner_doubt(edge, disc);
     evidence->nearer = choice.index;
     evidence->ambiguity_q16 = weighed->std_px_q16 > 0 ? choice.ambiguity_q16 : DROGUE_Q16_ONE;
     if (weighed->std_px_q16 == 0) { /* what is dark orders the poses, but is not to be believed */

@@ -103,6 +103,7 @@ static drogue_status collect(context *c, const drogue_ellipse *ellipse, const dr
     }
     memset(&c->room->support, 0, sizeof c->room->support);
     c->room->support.bright_bins = bright_bins;
+    c->room->support.axis_rad_q16 = ellipse->angle_rad_q16;
     c->room->own = c->room->sum;
     if (stride > 1) {
         drogue_moments_clear(&c->room->own.moments);

@@ -25,7 +25,9 @@
 #define OUTSIDE (MIDDLE + 5)     /* slopes from there on are of what is behind the drogue */
 #define OUTSIDES 4               /* of them, whose differences show noise */
 #define NOISY_Q24 (1 << 26)      /* px: more noise is not told apart */
-#define LEAST_Q24 (11 << 16)     /* px: what the pixels' grid makes of any edge */
+#define LEAST_Q24 (8 << 16)      /* px: what the pixels' grid makes of any edge */
+#define TWO_SETS DROGUE_Q16(24, 1)  /* px: of a larger outline twice, */
+#define FOUR_SETS DROGUE_Q16(64, 1) /* of one larger still four times the rays are read */
 #define TAPS 7
 #define SMEARED_Q32 (1u << 30) /* px^4: square of a smear of half a px^2; of less an edge has a steepest place */
 #define MOST_Q24 (1 << 21)     /* semi-axes, of a harmonic */
@@ -40,6 +42,15 @@ static int32_t blurred(const int32_t slope[SLOPES], int32_t i)
         sum += tap_q7[k] * (slope[i - 1 - k] + slope[i + 1 + k]);
     }
     return sum;
+}
+
+static void see(int32_t seen[SLOPES], const int32_t slope[SLOPES])
+{
+    int32_t i;
+    seen[0] = 0; /* what a peak is to be higher than */
+    for (i = DROGUE_SLOPE_FIRST; i <= DROGUE_SLOPE_LAST; i++) {
+        seen[i] = blurred(slope, i);
+    }
 }
 
 /* Less a quarter of the second difference, times 4: what blur of half a pixel took. */
@@ -80,7 +91,7 @@ static int32_t as_seen_q20(const int32_t seen[SLOPES], int32_t best, int32_t at_
 }
 
 /* Standard deviation by noise of a sharpened peak's place, px Q24, from how sharp it is and how slopes differ outside:
- * five times the variance of white noise, since most outlines are moved by less than noise would. */
+ * three times the variance of white noise, since most outlines are moved by less than noise would. */
 static int32_t noise_q24(const int32_t slope[SLOPES], int32_t bend)
 {
     uint64_t squares = 0;
@@ -91,7 +102,7 @@ static int32_t noise_q24(const int32_t slope[SLOPES], int32_t bend)
         squares += drogue_square_sum(slope[i + 2] - slope[i], 0);
     }
     half = drogue_clz_u64(squares | 1u) / 2; /* the root to 32 bits, below 2^21 before */
-    noise = drogue_isqrt_u64(squares << (2 * half)) * (INT64_C(1) << 25);
+    noise = drogue_isqrt_u64(squares << (2 * half)) * (INT64_C(25) << 20);
     noise = drogue_div_round_s64(noise, (int64_t)bend << half);
     return noise < NOISY_Q24 ? (int32_t)noise : NOISY_Q24;
 }
@@ -126,15 +137,14 @@ static int32_t moved_by(int32_t *noise_px_q24, const int32_t slope[SLOPES], cons
     return as_seen_q20(seen, best, at_q20) - vertex_q20(curve, is, 1);
 }
 
-/* Slopes along a group's rays where the outline has points, 'middle' of them within it, rising from bright to dark or the
- * other way as its bin. */
+/* Add slopes along a group's rays where the outline has points, 'middle' of them within it, rising from bright to dark or
+ * the other way as its bin. */
 static void add_slopes(int32_t slope[], int32_t slopes, int32_t middle, const drogue_ray rays[DROGUE_RAYS],
                        int32_t group, const drogue_image *view, const drogue_support *support)
 {
     int32_t grey[DROGUE_SMEARED_SLOPES + 2];
     int32_t i;
     int32_t k;
-    memset(slope, 0, (size_t)slopes * sizeof *slope);
     for (k = group * GROUP; k < (group + 1) * GROUP; k++) {
         const int32_t bin = k * DROGUE_SUPPORT_BINS / DROGUE_RAYS;
         const uint32_t bright = support->bright_bins >> bin & 1u;
@@ -144,6 +154,27 @@ static void add_slopes(int32_t slope[], int32_t slopes, int32_t middle, const dr
                 slope[i] += bright ? grey[i] - grey[i + 2] : grey[i + 2] - grey[i];
             }
         }
+    }
+}
+
+/* Slopes of a group and of the one across as the mean of as many sets of rays as the outline is large for: the noise of a few
+ * rays is more than that of its edge points. */
+static void read_slopes(int32_t slope[2][SLOPES], const drogue_outline *outline, drogue_ray rays[DROGUE_RAYS],
+                        int32_t group, const drogue_image *view)
+{
+    const int32_t two = outline->fitted.a_px_q16 >= TWO_SETS;
+    const int32_t shift = outline->fitted.a_px_q16 >= FOUR_SETS ? 2 : two;
+    int32_t set;
+    int32_t i;
+    memset(slope, 0, 2 * sizeof slope[0]);
+    for (set = 0; set < 1 << shift; set++) { /* bound: 4 */
+        drogue_rays_aim(rays, &outline->fitted, (8 * set + 4) >> shift, group * GROUP, (group + 1) * GROUP);
+        add_slopes(slope[0], SLOPES, MIDDLE, rays, group, view, &outline->support);
+        add_slopes(slope[1], SLOPES, MIDDLE, rays, group + GROUPS / 2, view, &outline->support);
+    }
+    for (i = 0; i < SLOPES; i++) {
+        slope[0][i] = (int32_t)drogue_shr_round_s64(slope[0][i], shift);
+        slope[1][i] = (int32_t)drogue_shr_round_s64(slope[1][i], shift);
     }
 }
 
@@ -209,8 +240,8 @@ static uint64_t squares_left(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], cons
     return squares_q48;
 }
 
-/* Variance of a wave, px^2 Q48, a quarter of what it is of a group's mean: by the three degrees of freedom that the
- * harmonics leave, by noise, and by the grid; as of a round outline. */
+/* Variance of a wave, px^2 Q48, a quarter of what it is of a group's mean: by half of what the three degrees of freedom
+ * show that the harmonics leave, some of which lies beside the outline, by noise, and by the grid; as of a round outline. */
 static uint64_t variance_of(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t c_px_q24[5],
                             const int32_t noise_px_q24[GROUPS])
 {
@@ -219,7 +250,7 @@ static uint64_t variance_of(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], const
     for (i = 0; i < GROUPS; i++) {
         noise_q48 += drogue_square_sum(noise_px_q24[i], 0);
     }
-    return squares_left(off_px_q24, c_px_q24) / (12 * BINS * BINS) + noise_q48 / (4 * GROUPS) +
+    return squares_left(off_px_q24, c_px_q24) / (24 * BINS * BINS) + noise_q48 / (4 * GROUPS) +
            drogue_square_sum(LEAST_Q24, 0);
 }
 
@@ -254,6 +285,7 @@ static void find_smeared(int32_t moved_q20[GROUPS], const drogue_ray rays[DROGUE
     int32_t i;
     for (i = 0; i < GROUPS; i++) {
         int32_t slope[DROGUE_SMEARED_SLOPES];
+        memset(slope, 0, sizeof slope);
         add_slopes(slope, DROGUE_SMEARED_SLOPES, DROGUE_SMEARED_MIDDLE, rays, i, view, support);
         drogue_find_lobe(&lobe[i], slope);
     }
@@ -272,23 +304,23 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
     int32_t c_px_q24[5];
     uint64_t variance_q48;
     int smeared;
+    int32_t across;
     int32_t i;
-    drogue_rays_aim(rays, &outline->fitted, 4);
-    for (i = 0; i < GROUPS; i++) {
-        int32_t slope[SLOPES];
-        int32_t seen[SLOPES];
-        int32_t k;
-        add_slopes(slope, SLOPES, MIDDLE, rays, i, view, &outline->support);
-        seen[0] = 0; /* what a peak is to be higher than */
-        for (k = DROGUE_SLOPE_FIRST; k <= DROGUE_SLOPE_LAST; k++) {
-            seen[k] = blurred(slope, k);
+    for (i = 0; i < GROUPS / 2; i++) {
+        int32_t slope[2][SLOPES];
+        read_slopes(slope, outline, rays, i, view);
+        for (across = 0; across < 2; across++) {
+            const int32_t group = i + across * (GROUPS / 2);
+            int32_t seen[SLOPES];
+            see(seen, slope[across]);
+            moved_q20[group] = moved_by(&noise_px_q24[group], slope[across], seen);
+            variance_px2_q16[group] = drogue_edge_variance(slope[across], seen);
         }
-        moved_q20[i] = moved_by(&noise_px_q24[i], slope, seen);
-        variance_px2_q16[i] = drogue_edge_variance(slope, seen);
     }
     drogue_find_smear(outline->support.smear_px2_q16, variance_px2_q16);
     smeared = is_smeared(outline);
     if (smeared) {
+        drogue_rays_aim(rays, &outline->fitted, 4, 0, DROGUE_RAYS / 2);
         find_smeared(moved_q20, rays, view, &outline->support);
     }
     drogue_turn_wave(outline->support.smear_px2_q16, outline->fitted.angle_rad_q16);

@@ -145,15 +145,16 @@ static inline int32_t scaled(drogue_q16 length_px_q16, int32_t by_q30)
     return (int32_t)drogue_shr_round_s64(drogue_product(length_px_q16, by_q30), 30);
 }
 
-/* Every so many-th ray, with the one across. */
-static void aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase, int32_t every)
+/* Every so many-th ray from one on to before another, with the one across. */
+static void aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase, int32_t from, int32_t to,
+                int32_t every)
 {
     const int64_t turn_q29 = 52707179; /* 2 pi / 64 */
     int32_t sin_q30;
     int32_t cos_q30;
     int32_t k;
     drogue_sincos_q30(&sin_q30, &cos_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
-    for (k = 0; k < DROGUE_RAYS / 2; k += every) { /* bound: 32 */
+    for (k = from; k < to; k += every) { /* bound: 32 */
         int32_t s_q30;
         int32_t c_q30;
         int32_t u; /* offset from the centre along the axes, px Q16, then the normal along them */
@@ -180,7 +181,10 @@ static void aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t p
     }
 }
 
-void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase) { aim(rays, e, phase, 1); }
+void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase, int32_t from, int32_t to)
+{
+    aim(rays, e, phase, from, to, 1);
+}
 
 void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *e,
                       drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least, int either)
@@ -190,7 +194,7 @@ void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, c
     const drogue_q16 step = HALF < least_step ? least_step : HALF;
     const int32_t out = drogue_clamp_s32(reach / step + 1, 1, SAMPLES / 2);
     int32_t k;
-    aim(rays, e, phase, every);
+    aim(rays, e, phase, 0, DROGUE_RAYS / 2, every);
     for (k = 0; k < DROGUE_RAYS; k++) {
         rays[k].count = 0;
         if (k % every == 0) {

@@ -127,18 +127,18 @@ static void add_spread(drogue_joint *joint, const drogue_pose *other)
     add_half_square(joint, apart_q16, -16);
 }
 
-#define CONTRADICTED_Q16 DROGUE_Q16(1, 32) /* of its size: as if an inner part that contradicts were so far off */
+#define CONTRADICTED_Q16 DROGUE_Q16(1, 64) /* of its size: as if an inner part that contradicts were so far off */
 
-/* An inner part that is not of its size may be that of a larger outline: as likely as not, the distance is off by half as
- * much. */
+/* An inner part that is not of its size may be that of a larger outline: half the square of that share of the distance, since
+ * where it is one, the distance is off by about twice as much. */
 static void add_doubt(drogue_joint *joint, drogue_q16 share_q16)
 {
-    int64_t doubt_q33[5] = {0, 0, 0, 0, 0};
+    int64_t doubt_q32[5] = {0, 0, 0, 0, 0};
     int i;
     for (i = 0; i < 3; i++) {
-        doubt_q33[i] = drogue_product(joint->pose.position_m_q16[i], share_q16);
+        doubt_q32[i] = drogue_product(joint->pose.position_m_q16[i], share_q16);
     }
-    add_half_square(joint, doubt_q33, -33);
+    add_half_square(joint, doubt_q32, -32);
 }
 
 /* What outline and inner part disagree by, beyond what is usual, is in both: chi2 times their covariance. */

@@ -19,9 +19,20 @@ static int32_t cosine_q30(uint32_t j)
 
 #define HARMONICS 4
 
+/* By how many bins an axis is turned against that from which a support counts them: what was put back may have turned a round
+ * outline, or an axis past where angles begin anew. */
+static uint32_t bins_between(const drogue_support *support, drogue_q16 axis_rad_q16)
+{
+    const int64_t a_radian_q16 = 333772; /* 32 over 2 pi */
+    const int64_t turn_rad_q16 = (int64_t)axis_rad_q16 - support->axis_rad_q16;
+    return (uint32_t)drogue_shr_round_s64(turn_rad_q16 * a_radian_q16, 32) % DROGUE_SUPPORT_BINS;
+}
+
 /* Normal equations of the fit, points times products of the basis functions 1, cos t, sin t, cos 2t, sin 2t: sums of cos mt and
- * sin mt; 'scatter' is the squared residual of the bins' means. Returns the number of bins that hold points. */
-static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, const drogue_support *support)
+ * sin mt, t from the axis that is turned by so many bins; 'scatter' is the squared residual of the bins' means. Returns the
+ * number of bins that hold points. */
+static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, const drogue_support *support,
+                        uint32_t turned)
 {
     int64_t c_q30[HARMONICS + 1] = {0};
     int64_t s_q30[HARMONICS + 1] = {0};
@@ -45,7 +56,7 @@ static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, cons
         drogue_real_quotient(&square, &square, &points);
         drogue_real_sum(scatter, scatter, &square);
         for (m = 0; m <= HARMONICS; m++) { /* the middle of bin k is 2 k + 1 64ths of a turn */
-            const uint32_t turn = m * (2 * k + 1);
+            const uint32_t turn = m * (2 * (k + DROGUE_SUPPORT_BINS - turned) + 1);
             c_q30[m] += drogue_product((int32_t)n, cosine_q30(turn));
             s_q30[m] += drogue_product((int32_t)n, cosine_q30(turn - 16));
         }
@@ -130,14 +141,17 @@ static void add_smear(real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *
 drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
                                               drogue_q16 shading_q16, drogue_q16 blur_px2_q16)
 {
+    const real grid_px2 = {1288490189, -32}; /* 0.3 px^2 over the semi-axis: what the pixels' grid makes of all edges */
     real *covariance = outline->covariance;
     real information[DROGUE_PACKED_MAX];
     real scatter;
     real variance;
     real a;
     real t;
+    int32_t pull_q24[5];
     int i;
-    const int32_t bins = sum_bins(information, &scatter, support);
+    const uint32_t turned = bins_between(support, outline->ellipse.angle_rad_q16);
+    const int32_t bins = sum_bins(information, &scatter, support, turned);
     if (bins <= DROGUE_JOINT_FIT || support->gradient == 0 ||
         drogue_cholesky_factor(information, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
@@ -160,16 +174,22 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
         real *own = &covariance[DROGUE_PACKED(i, i)];
         drogue_real_sum(own, own, &variance);
     }
-    /* blur over the product of the semi-axes */
-    drogue_real_set_q16(&variance, blur_px2_q16);
+    /* blur and grid over the product of the semi-axes */
     drogue_real_set_q16(&t, outline->ellipse.b_px_q16);
-    drogue_real_product(&t, &a, &t);
-    square_ratio(&variance, &variance, &t);
+    drogue_real_product(&a, &a, &t);
+    drogue_real_set_q16(&variance, blur_px2_q16);
+    square_ratio(&variance, &variance, &a);
     drogue_real_sum(&covariance[0], &covariance[0], &variance);
+    square_ratio(&a, &grid_px2, &a);
+    memcpy(pull_q24, support->pull_q24, sizeof pull_q24);
+    if (turned > 0) {
+        drogue_turn_harmonics(pull_q24, drogue_q16_sub(outline->ellipse.angle_rad_q16, support->axis_rad_q16));
+    }
     for (i = 0; i < DROGUE_JOINT_FIT; i++) { /* of what lies beside it and was put back, half remains */
         real *own = &covariance[DROGUE_PACKED(i, i)];
-        drogue_real_set(&variance, support->pull_q24[i], -25);
+        drogue_real_set(&variance, pull_q24[i], -25);
         drogue_real_product(&variance, &variance, &variance);
+        drogue_real_sum(&variance, &variance, &a);
         drogue_real_sum(own, own, &variance);
     }
     add_smear(covariance, &outline->ellipse, support);

@@ -49,7 +49,7 @@ int stage_angle_valid(const drogue_ellipse *e);
 int stage_mask(drogue_mask *mask, const int32_t *words);
 
 /* Support with the given counts and sums, all bins dark; 0 when out of range. */
-int stage_support_of_words(drogue_support *support, const int32_t *bins, int32_t gradient);
+int stage_support_of_words(drogue_support *support, const int32_t *bins, int32_t gradient, int32_t axis);
 
 /* The outputs of stage 'frame'. */
 void stage_put_result(int32_t frame[38], int32_t detail[17], int64_t covariance[15], int64_t std[4],

@@ -116,7 +116,7 @@ int stage_support(stage_run *r)
     return 0;
 }
 
-int stage_support_of_words(drogue_support *support, const int32_t *bins, int32_t gradient)
+int stage_support_of_words(drogue_support *support, const int32_t *bins, int32_t gradient, int32_t axis)
 {
     uint32_t k;
     memset(support, 0, sizeof *support);
@@ -129,6 +129,7 @@ int stage_support_of_words(drogue_support *support, const int32_t *bins, int32_t
         support->points += (uint32_t)bins[2 * k];
     }
     support->gradient = (uint64_t)gradient;
+    support->axis_rad_q16 = axis;
     return gradient >= 0;
 }
 
@@ -175,7 +176,7 @@ int stage_joint(stage_run *r)
         outline.ellipse.a_px_q16 < outline.ellipse.b_px_q16 || camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 ||
         p[0] <= 0 || p[1] < 0 || p[6] < -DROGUE_Q16_HALF_PI || p[6] > DROGUE_Q16_HALF_PI ||
         p[7] < -DROGUE_Q16_HALF_PI || p[7] > DROGUE_Q16_HALF_PI || p[10] < 0 || p[11] < 0 || p[12] < 0 || p[14] < 0 ||
-        p[14] > 16 || !stage_support_of_words(&support, stage_input32(r, 2), p[13])) {
+        p[14] > 16 || !stage_support_of_words(&support, stage_input32(r, 2), p[13], stage_input32(r, 0)[4])) {
         return CONF_E_MALFORMED;
     }
     disc[0] = (int32_t)drogue_inner_disc_image(&image, &start, &camera, &model);

@@ -63,6 +63,7 @@ bool random_task(Task *t, int seed, const drogue_camera *camera)
         t->model_support.sum[(std::size_t)k] = sum / 65536.0L;
     }
     t->support.gradient = 150u * t->support.points;
+    t->support.axis_rad_q16 = t->outline.ellipse.angle_rad_q16;
     t->model_support.points = (int)t->support.points;
     t->model_support.gradient = (reference::Real)t->support.gradient;
     if (drogue_pose_from_ellipse(pair, &t->outline.ellipse, camera, t->model.rim_radius_m_q16) != DROGUE_OK ||

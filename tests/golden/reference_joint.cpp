@@ -287,7 +287,7 @@ bool outline_covariance(Covariance &out, const Ellipse &e, const Support &s, Rea
     out(0, 0) += static_cast<double>(blurred * blurred);
     for (int i = 0; i < PARAMETERS; i++) {
         const Real left = s.pull[static_cast<size_t>(i)] / 2;
-        out(i, i) += static_cast<double>(left * left);
+        out(i, i) += static_cast<double>(left * left + 0.09L / (e.a * e.a * e.b * e.b)); /* and 0.3 px^2 by the grid */
     }
     {
         const auto c2 = static_cast<double>(std::cos(2 * e.angle)), s2 = static_cast<double>(std::sin(2 * e.angle));

@@ -250,8 +250,6 @@ void add_refusals(Set &set)
         w.bins[k] = 0;
     }
     add_words(set, "no-residuals", Tier::boundary, {"degenerate"}, w);
-    w.params[11] = w.params[12] = 0;
-    add_words(set, "no-uncertainty", Tier::must_reject, {"degenerate"}, w);
     w = good;
     w.params[8] = INT32_MAX;
     w.params[9] = INT32_MIN;

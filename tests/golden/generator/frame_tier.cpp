@@ -259,6 +259,10 @@ drogue_result library_of(const std::vector<Array> &exact)
     drogue_result r = {};
     r.region = {static_cast<int32_t>(d[0]), static_cast<int32_t>(d[1]), static_cast<int32_t>(d[2]),
                 static_cast<int32_t>(d[3])};
+    r.ellipse.a_px_q16 = static_cast<int32_t>(w[SEEN + 2]);
+    r.ellipse.angle_rad_q16 = static_cast<int32_t>(w[SEEN + 4]);
+    r.ideal.a_px_q16 = static_cast<int32_t>(w[IDEAL + 2]);
+    r.ideal.angle_rad_q16 = static_cast<int32_t>(w[IDEAL + 4]);
     for (size_t k = 0; k < 3; k++) {
         r.pose.position_m_q16[k] = static_cast<int32_t>(w[POSE + k]);
         r.pose.axis_q16[k] = static_cast<int32_t>(w[POSE + 3 + k]);

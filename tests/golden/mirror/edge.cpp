@@ -215,9 +215,10 @@ bool find_shade(Shade &out, const Rays &rays, const drogue_image &view, const Of
 }
 
 /* Where the grey passes the level, as the rays' edges. */
-void cross(Rays &rays, const drogue_image &view, const Shade &shade, const Offset &v)
+void cross(Rays &rays, const drogue_image &view, const Shade &shade, const Offset &v, size_t every)
 {
-    for (drogue_ray &r : rays) {
+    for (size_t k = 0; k < rays.size(); k += every) {
+        drogue_ray &r = rays[k];
         const Real at = along(r, v), level = 256 * (along(r, shade.dark) + shade.rise);
         const Profile p = profile_of(r, view, at);
         r.count = 0;
@@ -250,8 +251,9 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     if (at.b_px_q16 < 65536) {
         return out;
     }
-    const int phases = std::min(std::max(at.a_px_q16 / (10 * 65536), 1), 8);
-    Rays rays = cast(view, at, 0, 1, least);
+    const int phases = std::min(std::max(at.a_px_q16 / (20 * 65536), 1), 8);
+    const int every = at.a_px_q16 < 10 * 65536 ? 2 : 1;
+    Rays rays = cast(view, at, 0, every, least);
     Offset v = {0, 0, 0};
     Shade shade;
     Sums s;
@@ -265,7 +267,7 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     out.contrast = grey(s.slopes, DROGUE_RAY_WEIGHT * 256);
     out.level = grey(s.levels, 256);
     const Real size = v[2];
-    cross(rays, view, shade, v);
+    cross(rays, view, shade, v, static_cast<size_t>(every));
     within = 1.5;
     if (!narrow(s, v, within, rays)) {
         return out;
@@ -273,8 +275,8 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     s = Sums();
     for (int k = 0; k < phases; k++) {
         if (phases > 1) {
-            drogue_rays_aim(rays.data(), &at, (8 * k + 4) / phases % 8);
-            cross(rays, view, shade, {v[0], v[1], size});
+            drogue_rays_aim(rays.data(), &at, (8 * k + 4) / phases % 8, 0, DROGUE_RAYS / 2);
+            cross(rays, view, shade, {v[0], v[1], size}, 1);
         }
         add_rays(s, rays, v, within, true);
     }
@@ -304,7 +306,7 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
         out.which = 1 - out.which;
         out.grown += real(reached.a_px_q16) - real(other.a_px_q16);
     }
-    out.rays = (s.rays + phases / 2) / phases;
+    out.rays = (every * s.rays + phases / 2) / phases;
     return out;
 }
 
@@ -320,18 +322,17 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     Real steepest = 0;
     for (uint32_t i = 0; i < expected.count; i++) {
         const Real reach = gate + real(expected.disc[i].a_px_q16) / 16 + 2;
-        const int every = expected.disc[i].a_px_q16 < 20 * 65536 ? 2 : 1;
-        const Rays rays = cast(view, expected.disc[i], reference::q16(reach), every, least);
+        const Rays rays = cast(view, expected.disc[i], reference::q16(reach), 2, least);
         Offset v = {0, 0, 0};
         Sums s;
         if (settle(s, v, rays, gate + 1, std::max<Real>(1.5, reach / 16), true) && s.slopes > steepest) {
             steepest = s.slopes;
             if (std::fabs(v[2]) > real(expected.disc[i].a_px_q16) / 64 + 0.5L) {
-                prefer_size(v, rays, DROGUE_RAYS / 4 / every);
+                prefer_size(v, rays, DROGUE_RAYS / 8);
             }
             first = v;
             place.which = static_cast<int>(i);
-            if (every == 1 && 4 * s.rays >= 3 * DROGUE_RAYS && std::hypot(v[0], v[1]) <= gate) {
+            if (8 * s.rays >= 3 * DROGUE_RAYS && std::hypot(v[0], v[1]) <= gate) {
                 break;
             }
         }

@@ -184,7 +184,7 @@ void find_inner(Result &out, Ellipse &expected, const Frame &f, const std::array
         expected = {real(e.xc_px_q16), real(e.yc_px_q16), real(e.a_px_q16), real(e.b_px_q16), 0, true};
         out.area = std::acos(Real(-1)) * (expected.a + out.part.grown) * (expected.b + out.part.grown);
         const drogue_q16 grown = known ? edge.grown_px_q16 : reference::q16(out.part.grown);
-        out.larger_q16 = grown > DROGUE_INNER_SEEN_TO_PX_Q16 ? drogue_q16_div(grown, e.a_px_q16) : 0;
+        out.larger_q16 = grown > 0 ? drogue_q16_div(grown, e.a_px_q16) : 0;
     }
 }
 
@@ -313,7 +313,7 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
     if (out.has_inner) {
         out.covariance *= std::max(1.0, t.agree ? t.joint.chi2 : static_cast<double>(real(config.max_chi2_q16)));
     }
-    const Real share = (t.agree ? f.doubt : 1 / 32.0L) / 2; /* that of a larger outline? */
+    const Real share = t.agree ? f.doubt : 1 / 64.0L; /* that of a larger outline? */
     for (int i = 0; i < 3 && out.has_inner; i++) {
         for (int j = 0; j < 3; j++) {
             out.covariance(i, j) += static_cast<double>(out.pose.position[static_cast<size_t>(i)] *
@@ -342,6 +342,39 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
 
 namespace {
 
+/* What a disc's size puts in doubt: its share where it is too large by 1/32 and more, half of it where it is too small by more
+ * than half a pixel. */
+Real size_doubt(Real grown, Real a)
+{
+    return std::max({std::min(grown / a, 2 * (grown / a - 1 / 64.0L)), (-grown - 0.5L) / a / 2, Real(0)});
+}
+
+/* Bins and harmonics as from another axis, to a whole bin; halfway between two, to that of the library. */
+void turn(reference::Support &s, Real from, Real to, const drogue_ellipse &library)
+{
+    const Real per_radian = reference::SUPPORT_BINS / 2 / std::acos(Real(-1)), bins = (to - from) * per_radian;
+    const bool halfway = std::fabs(std::remainder(bins - 0.5L, 1)) < 0.01L && library.a_px_q16 > 0;
+    const auto whole =
+        static_cast<int>(std::lround(halfway ? (real(library.angle_rad_q16) - from) * per_radian : bins));
+    const int n = (whole + reference::SUPPORT_BINS) % reference::SUPPORT_BINS;
+    if (n == 0) {
+        return;
+    }
+    std::rotate(s.count.begin(), s.count.begin() + n, s.count.end());
+    std::rotate(s.sum.begin(), s.sum.begin() + n, s.sum.end());
+    s.bright = s.bright >> n | s.bright << (reference::SUPPORT_BINS - n);
+    s.pull = turned(s.pull, to - from);
+}
+
+/* Where angles begin anew it is the library's way that is taken. */
+void take_way(Ellipse &e, const drogue_ellipse &library)
+{
+    if (std::fabs(std::fabs(e.angle) - std::acos(Real(0))) < 0x1p-12L && library.a_px_q16 > 0) {
+        const Real as = real(library.angle_rad_q16);
+        e.angle = as + std::remainder(e.angle - as, std::acos(Real(-1)));
+    }
+}
+
 /* From the outline to the pose; the doubt in it. */
 Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue_result *library)
 {
@@ -360,12 +393,18 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
     out.seen.yc += out.region.y;
     out.ideal =
         distorts(camera) ? ideal_of(out.outline, *f.front, task.config, f.follow, camera, out.region.tl()) : out.seen;
+    if (library != nullptr) {
+        take_way(out.seen, library->ellipse);
+        take_way(out.ideal, library->ideal);
+    }
     std::array<Pose, 2> pair;
     if (!out.ideal.ok || !reference::poses(out.ideal, camera, task.model.rim_radius, pair)) {
         out.status = out.ideal.ok ? DROGUE_E_DOMAIN : DROGUE_E_NO_ELLIPSE;
         return DOUBTED;
     }
     from = {out.ideal, out.outline.support, {{0, 0}, 0}, false, false, 0};
+    turn(from.support, f.follow.library != nullptr ? real(f.decided.support.axis_rad_q16) : out.outline.fitted.angle,
+         out.ideal.angle, library != nullptr ? library->ideal : drogue_ellipse{});
     if (task.model.inner_radius > 0) {
         Ellipse expected = {0, 0, 0, 0, 0, false};
         find_inner(out, expected, f, pair, task);
@@ -379,8 +418,8 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
             from.trusted = from.trusted && !out.too_large;
         }
         out.larger_q16 = from.trusted || out.too_large ? out.larger_q16 : 0;
-        from.doubt = from.trusted ? std::max<Real>(std::fabs(out.part.grown) - 0.5L, 0) / expected.a : 0;
-        doubt = !from.trusted ? 1 : std::fabs(out.part.grown) <= 0.5L ? 0 : std::fabs(out.part.grown) / expected.a;
+        from.doubt = from.trusted ? size_doubt(out.part.grown, expected.a) : 0;
+        doubt = from.trusted ? from.doubt : 1;
     }
     finish(out, task, from, library);
     return doubt;
@@ -422,7 +461,7 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
 /* The tries of drogue_measure(), in its order. */
 Result measure(const Task &asked, const drogue_result *library, Features *features)
 {
-    constexpr Real SURE = 0.03L;
+    constexpr Real SURE = 1 / 256.0L;
     Task task = asked;
     Frame f;
     Result best;
@@ -500,7 +539,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    const bool asks_beyond = best.status == DROGUE_OK && real(best.larger_q16) > SURE && real(best.larger_q16) <= 0.15L;
+    const bool asks_beyond = best.status == DROGUE_OK && least > SURE && best.larger_q16 > 0 && real(best.larger_q16) <= 0.15L;
     if (asks_beyond && task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
         room = room == DROGUE_SECOND_NONE ? DROGUE_SECOND_FULL : room;
     } else if (asks_beyond) {

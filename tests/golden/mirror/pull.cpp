@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "drogue/rays.h"
 
@@ -37,6 +38,21 @@ std::array<Real, N> slopes(const Support &s, const drogue_ray *rays, int group, 
         }
     }
     return sum;
+}
+
+/* The mean over as many sets of rays as the outline is large for, in whole numbers. */
+Curve mean_slopes(const Support &s, const drogue_ellipse &aim, int group, const drogue_image &view)
+{
+    const int sets = aim.a_px_q16 >= 64 * 65536 ? 4 : aim.a_px_q16 >= 24 * 65536 ? 2 : 1;
+    std::array<drogue_ray, DROGUE_RAYS> rays;
+    Curve mean = {};
+    for (int k = 0; k < sets; k++) {
+        drogue_rays_aim(rays.data(), &aim, (8 * k + 4) / sets, 0, DROGUE_RAYS / 2);
+        const Curve one = slopes<SLOPES>(s, rays.data(), group, view, MIDDLE);
+        std::transform(one.begin(), one.end(), mean.begin(), mean.begin(), std::plus<Real>());
+    }
+    std::transform(mean.begin(), mean.end(), mean.begin(), [=](Real sum) { return std::floor(sum / sets + 0.5L); });
+    return mean;
 }
 
 /* A Gaussian of variance 1.33 px^2, in 1/128. */
@@ -144,7 +160,7 @@ Moved moved(const Curve &slope, const Curve &seen)
     for (size_t i = MIDDLE + 5; i < MIDDLE + 9; i++) {
         squares += (slope[i + 2] - slope[i]) * (slope[i + 2] - slope[i]);
     }
-    out.noise = std::min<Real>(2 * std::sqrt(squares) / (4 * (2 * sharp[is] - sharp[is - 1] - sharp[is + 1])), 4);
+    out.noise = std::min<Real>(25 / 16.0L * std::sqrt(squares) / (4 * (2 * sharp[is] - sharp[is - 1] - sharp[is + 1])), 4);
     if (seen[best] > seen[best - 2] && seen[best] >= seen[best + 2]) {
         const Real wide = vertex(seen, best, 2);
         from = wide + (wide - at) / 4;
@@ -271,7 +287,7 @@ std::array<Real, 5> harmonics(const std::array<Real, GROUPS> &off, const Ellipse
         left += mean * mean;
     }
     for (size_t i = 0; i < 5; i++) {
-        const Real variance = smeared ? 0 : (left / 12 + noise / (e.b * e.b)) / (i > 0 ? 1 : 2);
+        const Real variance = smeared ? 0 : (left / 24 + noise / (e.b * e.b)) / (i > 0 ? 1 : 2);
         c[i] = variance > 0 ? c[i] * (c[i] * c[i]) / (c[i] * c[i] + variance) : c[i];
         c[i] = std::clamp<Real>(c[i], -0.125L, 0.125L);
     }
@@ -313,16 +329,14 @@ std::array<Real, 5> turned(const std::array<Real, 5> &p, Real turn)
 
 void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const drogue_config &config)
 {
-    std::array<drogue_ray, DROGUE_RAYS> rays;
     std::array<Real, GROUPS> off, variance;
-    Real noise = 121 / 65536.0L;
+    Real noise = 64 / 65536.0L;
     o.ellipse = o.fitted;
     o.support.pull = {};
     o.support.smear = {};
     if (o.support.points > 0) {
-        drogue_rays_aim(rays.data(), &aim, 4);
         for (int g = 0; g < GROUPS; g++) {
-            const Curve slope = slopes<SLOPES>(o.support, rays.data(), g, view, MIDDLE), seen = blurred(slope);
+            const Curve slope = mean_slopes(o.support, aim, g, view), seen = blurred(slope);
             const Moved edge = moved(slope, seen);
             off[static_cast<size_t>(g)] = edge.by;
             noise += edge.noise * edge.noise / (4 * GROUPS);
@@ -332,6 +346,8 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
         const bool smeared = std::hypot(o.support.smear[0], o.support.smear[1]) > 0.5L && o.fitted.b >= 24;
         if (smeared) {
             std::array<Lobe, GROUPS> lobe;
+            std::array<drogue_ray, DROGUE_RAYS> rays;
+            drogue_rays_aim(rays.data(), &aim, 4, 0, DROGUE_RAYS / 2);
             for (int g = 0; g < GROUPS; g++) {
                 lobe[static_cast<size_t>(g)] =
                     lobe_of(slopes<LONG_SLOPES>(o.support, rays.data(), g, view, LONG_MIDDLE));

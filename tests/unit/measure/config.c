@@ -44,7 +44,7 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.inner_rms_px_q16, q16_of(0.65));
     ck_assert_int_eq(c.inner_size_px_q16, q16_of(1));
     ck_assert_int_eq(c.inner_size_q16, q16_of(0.1));
-    ck_assert_int_eq(c.outline_shading_q16, q16_of(2.4));
+    ck_assert_int_eq(c.outline_shading_q16, q16_of(1.6));
     ck_assert_int_eq(c.optics_blur_std_px2_q16, q16_of(0.2));
     ck_assert_int_eq(c.inner_std_px_q16, q16_of(0.05));
     ck_assert_int_eq(c.inner_std_share_q16, q16_of(0.005));

@@ -58,6 +58,7 @@ static void refit_noisy(double m[5], drogue_joint_outline *outline, const ellips
     drogue_support_judge(&support, &outline->ellipse, DROGUE_POLARITY_BOTH, 1);
     MUST(support.bright_bins == 0, "polarity");
     memset(&support, 0, sizeof support);
+    support.axis_rad_q16 = outline->ellipse.angle_rad_q16;
     for (i = 0; i < count; i++) {
         band_point p;
         MUST(point_holds(&p, &frame, &band, &edges[i]) && point_add(&support, &p, &edges[i]), "point %u left out",
@@ -137,14 +138,14 @@ START_TEST(shading_and_blur_are_added)
 {
     const drogue_support s = support_of(32);
     drogue_joint_outline base = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}, {0}, 0}, more = base;
-    double plain[15], share = 2.0 / 600 / 100, blur = 0.5 / (100 * 80);
+    double plain[15], share = 2.0 / 600 / 100, blur = 0.5 / (100 * 80), grid = 0.3 / (100 * 80);
     int i, j;
     ck_assert_int_eq(drogue_joint_outline_covariance(&base, &s, 0, 0), DROGUE_OK);
     for (i = 0; i < DROGUE_PACKED_MAX; i++) {
         plain[i] = (double)quad_of(base.covariance[i]);
     }
     /* a mean of 20 points of +-66 LSB each: m0 is known to 66 / sqrt(32) LSB, or 32 / 27 of that in variance */
-    ck_assert(fabs(plain[0] - pow(66.0 / 65536, 2) / 27) < 1e-6 * plain[0]);
+    ck_assert(fabs(plain[0] - pow(66.0 / 65536, 2) / 27 - grid * grid) < 1e-6 * plain[0]);
     ck_assert_int_eq(drogue_joint_outline_covariance(&more, &s, 2 * 65536, 32768), DROGUE_OK);
     for (i = 0; i < 5; i++) {
         for (j = 0; j <= i; j++) {
@@ -222,6 +223,41 @@ START_TEST(hostile_smear)
 }
 END_TEST
 
+/* What was put back turned the outline: its covariance is that of bins that count from where its axis is now. */
+START_TEST(bins_count_from_their_axis)
+{
+    static const drogue_q16 from[2] = {0, 90000};
+    int turn, i, k;
+    for (turn = -15; turn <= 15; turn++) {
+        drogue_joint_outline outline = {{0, 0, 100 * 65536, 95 * 65536, 0}, {{0, 0}}, {0}, 0}, as_counted = outline;
+        drogue_support s = support_of(20), turned = s;
+        s.bright_bins = turned.bright_bins = 0x000F000Fu;
+        for (k = 0; k < 32; k++) {
+            s.bin[k].count[1] = s.bin[k].count[0] + (uint32_t)k;
+            s.bin[k].sum_q16 += 1000 * (k % 3);
+            s.pull_q24[k % 5] = 20000 + 5000 * (k % 5);
+        }
+        s.axis_rad_q16 = turn < -7 || turn > 7 ? (turn < 0 ? from[1] : -from[1]) : from[0];
+        outline.ellipse.angle_rad_q16 = s.axis_rad_q16 + (drogue_q16)lround(turn * 65536 * TEST_PI / 16);
+        turned = s;
+        turned.bright_bins = 0;
+        for (k = 0; k < 32; k++) {
+            turned.bin[k] = s.bin[(k + turn) & 31];
+            turned.bright_bins |= (s.bright_bins >> ((k + turn) & 31) & 1u) << k;
+        }
+        turned.axis_rad_q16 = as_counted.ellipse.angle_rad_q16 = outline.ellipse.angle_rad_q16;
+        drogue_turn_harmonics(turned.pull_q24, outline.ellipse.angle_rad_q16 - s.axis_rad_q16);
+        ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_OK);
+        ck_assert_int_eq(drogue_joint_outline_covariance(&as_counted, &turned, 65536, 0), DROGUE_OK);
+        for (i = 0; i < DROGUE_PACKED_MAX; i++) {
+            const double own = (double)quad_of(outline.covariance[i]), other = (double)quad_of(as_counted.covariance[i]);
+            MUST(fabs(own - other) < 1e-6 * (double)quad_of(outline.covariance[0]), "%d bins: entry %d: %g, %g", turn, i,
+                 own, other);
+        }
+    }
+}
+END_TEST
+
 START_TEST(degenerate_support)
 {
     drogue_joint_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}, {0}, 0};
@@ -238,14 +274,16 @@ START_TEST(degenerate_support)
     s = support_of(32);
     s.bright_bins = UINT32_MAX; /* the points are of the other polarity */
     ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
-    { /* six bins side by side, nearly all points in one: too little for five parameters */
+    { /* six bins side by side, nearly all points in one: too little for five parameters, and the covariance says so */
         static const uint32_t count[6] = {2120, 9334, 69, 6, 29922, 3};
         memset(&s, 0, sizeof s);
         s.gradient = 1000;
         for (k = 0; k < 6; k++) {
             s.bin[9 + k].count[0] = count[k];
+            s.bin[9 + k].sum_q16 = (k & 1 ? -66 : 66) * (int32_t)count[k];
         }
-        ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+        ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_OK);
+        ck_assert(quad_of(outline.covariance[0]) > 100);
     }
     s = support_of(6); /* the most points that one bin's sum can hold, all at the end of their range */
     for (k = 0; k < 6; k++) {
@@ -259,5 +297,6 @@ START_TEST(degenerate_support)
 END_TEST
 
 SUITE_MAIN("joint_outline", covariance_of_independent_noise, covariance_of_noise_shared_within_bins,
-           covariance_of_a_partial_outline, shading_and_blur_are_added, smear_is_doubt_across_two_sides,
+           covariance_of_a_partial_outline, shading_and_blur_are_added,
+           bins_count_from_their_axis, smear_is_doubt_across_two_sides,
            smear_of_any_size_and_direction, hostile_smear, degenerate_support)
