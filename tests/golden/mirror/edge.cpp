@@ -332,7 +332,7 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
             }
             first = v;
             place.which = static_cast<int>(i);
-            if (8 * s.rays >= 3 * DROGUE_RAYS && std::hypot(v[0], v[1]) <= gate) {
+            if (16 * s.rays >= 7 * DROGUE_RAYS && std::hypot(v[0], v[1]) <= gate) {
                 break;
             }
         }
