@@ -30,18 +30,23 @@ static void clear(drogue_result *out)
  * rays. */
 enum { FIRST, FIRST_LARGER, LOWER, LOWER_LARGER, BEYOND };
 
-static void begin_try(drogue_frame *f, int what)
+static void begin_try(drogue_frame *f)
 {
     f->doubt_q16 = DROGUE_Q16_MAX;
-    f->tried = what;
-    f->too_large = 0;
     f->larger_q16 = 0;
+}
+
+/* What was tried is in the result from here on. */
+static drogue_status judge(drogue_frame *f, int what)
+{
+    f->out->tried = what;
+    return drogue_frame_judge(f);
 }
 
 static drogue_status try_out(drogue_frame *f, const drogue_region *region, int what, int looked)
 {
     drogue_status status = DROGUE_OK;
-    begin_try(f, what);
+    begin_try(f);
     if (!looked) {
         clear(f->out);
         status = drogue_frame_outline(f, region);
@@ -56,7 +61,7 @@ static drogue_status try_out(drogue_frame *f, const drogue_region *region, int w
             return DROGUE_E_NO_ELLIPSE;
         }
     }
-    return status == DROGUE_OK ? drogue_frame_judge(f) : status;
+    return status == DROGUE_OK ? judge(f, what) : status;
 }
 
 /* 1 when there are thresholds lower than the configured ones. */
@@ -96,7 +101,6 @@ typedef struct best_try {
     drogue_q16 least_q16; /* its doubt; DROGUE_Q16_MAX: it has no outline */
     drogue_status status;
     drogue_second_look second_look;
-    int32_t too_large;
     drogue_q16 larger_q16;
     drogue_region region;  /* where its edges were looked for */
     drogue_result *result; /* the workspace's, which leaves the stack free */
@@ -108,7 +112,6 @@ static void keep_try(best_try *best, const drogue_frame *f, int what, drogue_sta
     best->least_q16 = f->doubt_q16;
     best->status = status;
     best->second_look = f->second_look;
-    best->too_large = f->too_large;
     best->larger_q16 = f->larger_q16;
     best->region = f->asked;
     *best->result = *f->out;
@@ -133,7 +136,6 @@ static void return_to(const best_try *best, drogue_frame *f, const drogue_region
     *f->out = *best->result;
     f->out->list = list;
     f->second_look = best->second_look;
-    f->too_large = best->too_large;
 }
 
 /* TOO_WIDE or FULL when a try had too little room: with more another might stand. */
@@ -160,14 +162,14 @@ static void try_beyond(best_try *best, drogue_frame *f)
     const drogue_ellipse was = best->result->ellipse;
     const drogue_region region = best->region;
     drogue_status status;
-    begin_try(f, BEYOND);
+    begin_try(f);
     clear(f->out);
     f->second_look = best->second_look;
     status = drogue_frame_beyond(f, &region, &was, best->larger_q16);
     if (status == DROGUE_OK) {
         f->outline.quality = best->result->quality; /* of the arcs that it was found from */
         f->outline.cluster_members = best->result->cluster_members;
-        status = drogue_frame_judge(f);
+        status = judge(f, BEYOND);
     }
     if (status == DROGUE_OK && f->doubt_q16 < best->least_q16 - CLEARLY_Q16) {
         keep_try(best, f, BEYOND, status);
@@ -221,7 +223,8 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     if (room != DROGUE_SECOND_NONE) {
         f->second_look = room;
     }
-    if (best.status == DROGUE_OK && f->too_large) { /* an edge within the drogue: the canopy's or its wall's */
+    if (best.status == DROGUE_OK && best.least_q16 == DROGUE_Q16_ONE &&
+        best.larger_q16 > 0) { /* an edge within the drogue: the canopy's or its wall's */
         refuse(f->out);
         return DROGUE_E_NO_ELLIPSE;
     }

@@ -36,6 +36,7 @@ static void find_inner(drogue_evidence *evidence, drogue_frame *f)
     drogue_inner_expected expected;
     drogue_inner_edge edge;
     memset(&inner, 0, sizeof inner);
+    f->doubt_q16 = DROGUE_Q16_ONE;
     drogue_inner_expect(&expected, evidence->poses, f->setup, out->region.x_px, out->region.y_px);
     if (drogue_inner_edge_find(&edge, f->workspace->rays, &f->view, &expected, outline, f->setup->config) ==
         DROGUE_OK) {
@@ -46,13 +47,10 @@ static void find_inner(drogue_evidence *evidence, drogue_frame *f)
         out->inner = inner.part;
         out->has_inner = inner.weighed.std_px_q16 > 0;
         out->ambiguity_q16 = inner.ambiguity_q16;
-        f->too_large = inner.too_large;
-    }
-    f->doubt_q16 = DROGUE_Q16_ONE;
-    if (out->has_inner || f->too_large) {
-        const drogue_ellipse *disc = &expected.disc[edge.which];
-        f->doubt_q16 = out->has_inner ? drogue_inner_doubt(&edge, disc) : DROGUE_Q16_ONE;
-        f->larger_q16 = edge.grown_px_q16 > 0 ? drogue_q16_div(edge.grown_px_q16, disc->a_px_q16) : 0;
+        f->doubt_q16 = out->has_inner ? inner.doubt_q16 : DROGUE_Q16_ONE;
+        if ((out->has_inner || inner.too_large) && edge.grown_px_q16 > 0) {
+            f->larger_q16 = drogue_q16_div(edge.grown_px_q16, expected.disc[edge.which].a_px_q16);
+        }
     }
 }
 
@@ -79,7 +77,6 @@ drogue_status drogue_frame_judge(drogue_frame *f)
     drogue_status status;
     drogue_outline_pull(&f->outline, f->workspace->rays, &f->view, f->setup->config);
     describe(out, &f->outline);
-    out->tried = f->tried;
     if (drogue_camera_distorts(f->setup->camera)) {
         status = drogue_outline_undistorted(&out->ideal, &f->outline, f->workspace, &out->list, f->setup,
                                             out->region.x_px, out->region.y_px);

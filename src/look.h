@@ -17,12 +17,11 @@ typedef struct drogue_frame {
     drogue_second_look second_look;
     int32_t canny_low;
     int32_t canny_high;
-    int32_t tried;
     drogue_region asked;   /* where edges were looked for last */
     int32_t others;        /* the workspace holds edges of another region than the view */
-    int32_t too_large;     /* the inner disc is seen, but too large for the outline */
     drogue_q16 larger_q16; /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
-    drogue_q16 doubt_q16;  /* of the inner disc's size, drogue_inner_doubt(); 1 and more: not seen, or no outline */
+    drogue_q16 doubt_q16;  /* in the inner disc's size, as in drogue_inner_evidence; 1: not seen, or too large for
+                              the outline; more: no outline */
 } drogue_frame;
 
 /* Find the edges of a region with the frame's thresholds; the view becomes the region's pixels. */

@@ -17,7 +17,7 @@ typedef struct drogue_evidence {
     uint32_t nearer;               /* index of the one whose projected inner centre is nearer; either without one */
     const drogue_support *support; /* of the outline's last fit */
     drogue_joint_inner inner;      /* std_px_q16 is 0 when there is none */
-    drogue_q16 doubt_q16;          /* of the distance, by the inner part's size: drogue_inner_doubt() */
+    drogue_q16 doubt_q16;          /* of the distance, by the inner part's size, as in drogue_inner_evidence */
 } drogue_evidence;
 
 /* The pose that a result gives. */

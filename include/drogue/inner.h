@@ -84,17 +84,6 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[DRO
 drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse *expected,
                             const drogue_ellipse *outline, const drogue_config *config);
 
-drogue_q16 drogue_inner_doubt(const drogue_inner_edge *edge, const drogue_ellipse *expected);
-
-/* By what share the disc's size puts the distance in doubt. A disc that is too large may be that of a larger outline than the
- * one found, and is so in one of eight; one that is too small hardly ever says more than that its edge is blurred or touched.
- *
- *  expected  the disc that the edge is compared with
- *  return    the share of its semi-axis by which the disc is larger, from 1/32 on, and nothing below 1/64; half of that by
- *            which it is smaller by more than half a pixel
- */
-drogue_q16 drogue_inner_doubt(const drogue_inner_edge *edge, const drogue_ellipse *expected);
-
 /* The inner part as evidence between the poses. */
 typedef struct drogue_inner_evidence {
     drogue_inner_part part;     /* px of the whole image; zero when it is not believed */
@@ -104,10 +93,11 @@ typedef struct drogue_inner_evidence {
     int32_t
         too_large;   /* 1: a disc is seen that would be believed but for its size, which is too large for the outline */
     uint32_t nearer; /* index of the pose whose projected inner centre is nearer, believed or not */
-    drogue_q16 doubt_q16; /* drogue_inner_doubt() */
+    drogue_q16 doubt_q16; /* share by which the disc's size puts the distance in doubt */
 } drogue_inner_evidence;
 
-/* Weigh the disc, and see which pose it is nearer to.
+/* Weigh the disc, and see which pose it is nearer to. Its size puts the distance in doubt by the share by which it is too large,
+ * if 1/32 or more, and not at all below 1/64; by half of that by which it is too small, beyond half a pixel.
  *
  *  region             pixel (0, 0) of it is where coordinates of the region begin
  *  expected, outline  region coordinates: the discs, the ellipse as seen

@@ -30,7 +30,7 @@ typedef struct drogue_support {
                              cos 2t, sin 2t over the eccentric angle t */
     int32_t smear_px2_q16[2]; /* motion blur: variance along the motion less that across it, px^2, times cosine and sine
                                  of twice its angle from +x; less what edges differ by without: 0 where none stands out */
-    drogue_q16 axis_rad_q16; /* from which the bins count, the angle of the ellipse that they are about */
+    drogue_q16 axis_rad_q16;  /* from which the bins count, the angle of the ellipse that they are about */
     uint32_t covered; /* bins that hold enough points, less the changes of polarity round the outline beyond none */
 } drogue_support;
 
@@ -59,9 +59,6 @@ void drogue_support_basis(int64_t basis_q30[5], uint32_t k);
 
 /* A wave of twice the angle, by its cosine's and its sine's part, with all angles larger by so much; saturates. */
 void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16);
-
-/* Coefficients of 1, cos t, sin t, cos 2t, sin 2t where angles count from an axis turned by so much, [-pi, pi]. */
-void drogue_turn_harmonics(int32_t c[5], drogue_q16 turn_rad_q16);
 
 #ifdef __cplusplus
 }

@@ -195,8 +195,7 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
             }
             memcpy(best, v, sizeof best);
             which = i;
-            if (8 * s.rays * EVERY >= 7 * RAYS &&
-                drogue_square_sum(v[0], v[1]) <= drogue_square_sum(gate_px_q16, 0)) {
+            if (8 * s.rays * EVERY >= 7 * RAYS && drogue_square_sum(v[0], v[1]) <= drogue_square_sum(gate_px_q16, 0)) {
                 break; /* seen in its place: the other pose's need not be sought */
             }
         }

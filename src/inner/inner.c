@@ -144,7 +144,9 @@ static void describe(drogue_inner_part *part, const drogue_inner_edge *edge, con
 #define LARGER_Q16 DROGUE_Q16(1, 64)    /* of its size: a disc is seen to that */
 #define SMALLER_PX_Q16 DROGUE_Q16(1, 2) /* by as much blur and what touches the disc move its edge */
 
-drogue_q16 drogue_inner_doubt(const drogue_inner_edge *edge, const drogue_ellipse *expected)
+/* A disc that is too large may be that of a larger outline than the one found, and is so in one of eight; one that is too
+ * small hardly ever says more than that its edge is blurred or touched. */
+static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *expected)
 {
     const drogue_q16 smaller_px_q16 = drogue_q16_sub(-SMALLER_PX_Q16, edge->grown_px_q16);
     const drogue_q16 share = drogue_q16_div(edge->grown_px_q16, expected->a_px_q16);
@@ -176,7 +178,7 @@ void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge
         evidence->too_large = 0; /* too small, beyond the lens model, or behind the camera for one of the poses */
         choice.index = 0;
     }
-    evidence->doubt_q16 = drogue_inner_doubt(edge, disc);
+    evidence->doubt_q16 = doubt_of(edge, disc);
     evidence->nearer = choice.index;
     evidence->ambiguity_q16 = weighed->std_px_q16 > 0 ? choice.ambiguity_q16 : DROGUE_Q16_ONE;
     if (weighed->std_px_q16 == 0) { /* what is dark orders the poses, but is not to be believed */

@@ -21,11 +21,11 @@
 #define NEAR DROGUE_SLOPE_NEAR
 #define HALF DROGUE_Q16(1, 2) /* px between slopes */
 #define ONE_Q20 (1 << 20)
-#define FAR (12 * (ONE_Q20 / 5)) /* slopes: so far from there, 1.2 px, lies the sharpened one */
-#define OUTSIDE (MIDDLE + 5)     /* slopes from there on are of what is behind the drogue */
-#define OUTSIDES 4               /* of them, whose differences show noise */
-#define NOISY_Q24 (1 << 26)      /* px: more noise is not told apart */
-#define LEAST_Q24 (8 << 16)      /* px: what the pixels' grid makes of any edge */
+#define FAR (12 * (ONE_Q20 / 5))    /* slopes: so far from there, 1.2 px, lies the sharpened one */
+#define OUTSIDE (MIDDLE + 5)        /* slopes from there on are of what is behind the drogue */
+#define OUTSIDES 4                  /* of them, whose differences show noise */
+#define NOISY_Q24 (1 << 26)         /* px: more noise is not told apart */
+#define LEAST_Q24 (8 << 16)         /* px: what the pixels' grid makes of any edge */
 #define TWO_SETS DROGUE_Q16(24, 1)  /* px: of a larger outline twice, */
 #define FOUR_SETS DROGUE_Q16(64, 1) /* of one larger still four times the rays are read */
 #define TAPS 7

@@ -129,15 +129,3 @@ void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16)
     wave[0] = drogue_sat_s32(turned[0]);
     wave[1] = drogue_sat_s32(turned[1]);
 }
-
-void drogue_turn_harmonics(int32_t c[5], drogue_q16 turn_rad_q16)
-{
-    int32_t s_q30;
-    int32_t c_q30;
-    int64_t wave[2];
-    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(turn_rad_q16, 13));
-    drogue_rotate_q30(wave, c[1], c[2], c_q30, -s_q30);
-    c[1] = (int32_t)wave[0];
-    c[2] = (int32_t)wave[1];
-    drogue_turn_wave(c + 3, -turn_rad_q16);
-}

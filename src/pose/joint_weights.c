@@ -148,10 +148,9 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
     real variance;
     real a;
     real t;
-    int32_t pull_q24[5];
     int i;
-    const uint32_t turned = bins_between(support, outline->ellipse.angle_rad_q16);
-    const int32_t bins = sum_bins(information, &scatter, support, turned);
+    const int32_t bins =
+        sum_bins(information, &scatter, support, bins_between(support, outline->ellipse.angle_rad_q16));
     if (bins <= DROGUE_JOINT_FIT || support->gradient == 0 ||
         drogue_cholesky_factor(information, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
@@ -181,13 +180,9 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
     square_ratio(&variance, &variance, &a);
     drogue_real_sum(&covariance[0], &covariance[0], &variance);
     square_ratio(&a, &grid_px2, &a);
-    memcpy(pull_q24, support->pull_q24, sizeof pull_q24);
-    if (turned > 0) {
-        drogue_turn_harmonics(pull_q24, drogue_q16_sub(outline->ellipse.angle_rad_q16, support->axis_rad_q16));
-    }
     for (i = 0; i < DROGUE_JOINT_FIT; i++) { /* of what lies beside it and was put back, half remains */
         real *own = &covariance[DROGUE_PACKED(i, i)];
-        drogue_real_set(&variance, pull_q24[i], -25);
+        drogue_real_set(&variance, support->pull_q24[i], -25);
         drogue_real_product(&variance, &variance, &variance);
         drogue_real_sum(&variance, &variance, &a);
         drogue_real_sum(own, own, &variance);

@@ -83,6 +83,10 @@ Arguments parse(int argc, char **argv)
 void declare_known(Report &report)
 {
     report.known_missed(
+        "normalised error squared, mean",
+        "the covariance allows for shading beside the rim, which the drogue of these scenes hardly has. With 0.6 for "
+        "outline_shading it is 4.2 here, but 2.9 to 3.5 a degree of freedom where the light changes, and courses lose frames");
+    report.known_missed(
         "circle boards: z, mean",
         "every board but one reads 0.2 to 0.35 % near: the discs are that much larger than the truth has "
         "them, in the hand-labelled ellipses too; about its mean z scatters by 0.14 %");

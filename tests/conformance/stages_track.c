@@ -167,7 +167,8 @@ int stage_decide(stage_run *r)
     config.optics_blur_std_px2_q16 = p[24];
     config.max_chi2_q16 = p[25];
     config.min_chi2_gap_q16 = p[26];
-    if (!drogue_config_valid(&config) || !stage_support_of_words(&support, stage_input32(r, 2), p[27], stage_input32(r, 0)[4]) || p[22] < 0 ||
+    if (!drogue_config_valid(&config) ||
+        !stage_support_of_words(&support, stage_input32(r, 2), p[27], stage_input32(r, 0)[4]) || p[22] < 0 ||
         p[28] < 0 || camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 || p[0] <= 0 || p[1] < 0 ||
         !stage_angle_valid(&evidence.ideal) || evidence.ideal.b_px_q16 < DROGUE_Q16_ONE ||
         evidence.ideal.a_px_q16 < evidence.ideal.b_px_q16) {

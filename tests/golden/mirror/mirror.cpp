@@ -349,7 +349,7 @@ Real size_doubt(Real grown, Real a)
     return std::max({std::min(grown / a, 2 * (grown / a - 1 / 64.0L)), (-grown - 0.5L) / a / 2, Real(0)});
 }
 
-/* Bins and harmonics as from another axis, to a whole bin; halfway between two, to that of the library. */
+/* Bins as from another axis, to a whole bin; halfway between two, to that of the library. */
 void turn(reference::Support &s, Real from, Real to, const drogue_ellipse &library)
 {
     const Real per_radian = reference::SUPPORT_BINS / 2 / std::acos(Real(-1)), bins = (to - from) * per_radian;
@@ -363,7 +363,6 @@ void turn(reference::Support &s, Real from, Real to, const drogue_ellipse &libra
     std::rotate(s.count.begin(), s.count.begin() + n, s.count.end());
     std::rotate(s.sum.begin(), s.sum.begin() + n, s.sum.end());
     s.bright = s.bright >> n | s.bright << (reference::SUPPORT_BINS - n);
-    s.pull = turned(s.pull, to - from);
 }
 
 /* Where angles begin anew it is the library's way that is taken. */
@@ -539,7 +538,8 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    const bool asks_beyond = best.status == DROGUE_OK && least > SURE && best.larger_q16 > 0 && real(best.larger_q16) <= 0.15L;
+    const bool asks_beyond =
+        best.status == DROGUE_OK && least > SURE && best.larger_q16 > 0 && real(best.larger_q16) <= 0.15L;
     if (asks_beyond && task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
         room = room == DROGUE_SECOND_NONE ? DROGUE_SECOND_FULL : room;
     } else if (asks_beyond) {

@@ -160,7 +160,8 @@ Moved moved(const Curve &slope, const Curve &seen)
     for (size_t i = MIDDLE + 5; i < MIDDLE + 9; i++) {
         squares += (slope[i + 2] - slope[i]) * (slope[i + 2] - slope[i]);
     }
-    out.noise = std::min<Real>(25 / 16.0L * std::sqrt(squares) / (4 * (2 * sharp[is] - sharp[is - 1] - sharp[is + 1])), 4);
+    out.noise =
+        std::min<Real>(25 / 16.0L * std::sqrt(squares) / (4 * (2 * sharp[is] - sharp[is - 1] - sharp[is + 1])), 4);
     if (seen[best] > seen[best - 2] && seen[best] >= seen[best + 2]) {
         const Real wide = vertex(seen, best, 2);
         from = wide + (wide - at) / 4;
