@@ -156,6 +156,13 @@ static int asks_beyond(const best_try *best)
            best->larger_q16 <= BEYOND_Q16;
 }
 
+/* Is the inner disc seen, but too large for the best outline? Then that is an edge within the drogue: the canopy's or its
+ * wall's. */
+static int too_large(const best_try *best)
+{
+    return best->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE && best->larger_q16 > 0;
+}
+
 /* Look for the outline that the inner disc is of the size for. */
 static void try_beyond(best_try *best, drogue_frame *f)
 {
@@ -223,8 +230,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     if (room != DROGUE_SECOND_NONE) {
         f->second_look = room;
     }
-    if (best.status == DROGUE_OK && best.least_q16 == DROGUE_Q16_ONE &&
-        best.larger_q16 > 0) { /* an edge within the drogue: the canopy's or its wall's */
+    if (too_large(&best)) {
         refuse(f->out);
         return DROGUE_E_NO_ELLIPSE;
     }

@@ -124,7 +124,7 @@ void drogue_inner_shade_cross(drogue_ray rays[RAYS], const drogue_image *image, 
                               const drogue_q16 v_px_q16[3], int32_t every)
 {
     int32_t k;
-    for (k = 0; k < RAYS; k += every) {
+    for (k = 0; k < RAYS; k += every) { /* bound: 64 */
         drogue_ray *r = &rays[k];
         const drogue_q16 from = begin_of(drogue_ray_along(r, v_px_q16));
         const int32_t level_q16 = drogue_ray_along(r, grey->dark_q16) + grey->rise_q16;

@@ -21,13 +21,12 @@
 #define NEAR DROGUE_SLOPE_NEAR
 #define HALF DROGUE_Q16(1, 2) /* px between slopes */
 #define ONE_Q20 (1 << 20)
-#define FAR (12 * (ONE_Q20 / 5))    /* slopes: so far from there, 1.2 px, lies the sharpened one */
-#define OUTSIDE (MIDDLE + 5)        /* slopes from there on are of what is behind the drogue */
-#define OUTSIDES 4                  /* of them, whose differences show noise */
-#define NOISY_Q24 (1 << 26)         /* px: more noise is not told apart */
-#define LEAST_Q24 (8 << 16)         /* px: what the pixels' grid makes of any edge */
-#define TWO_SETS DROGUE_Q16(24, 1)  /* px: of a larger outline twice, */
-#define FOUR_SETS DROGUE_Q16(64, 1) /* of one larger still four times the rays are read */
+#define FAR (12 * (ONE_Q20 / 5))   /* slopes: so far from there, 1.2 px, lies the sharpened one */
+#define OUTSIDE (MIDDLE + 5)       /* slopes from there on are of what is behind the drogue */
+#define OUTSIDES 4                 /* of them, whose differences show noise */
+#define NOISY_Q24 (1 << 26)        /* px: more noise is not told apart */
+#define LEAST_Q24 (8 << 16)        /* px: what the pixels' grid makes of any edge */
+#define TWO_SETS DROGUE_Q16(24, 1) /* px: of a larger outline twice as many rays are read */
 #define TAPS 7
 #define SMEARED_Q32 (1u << 30) /* px^4: square of a smear of half a px^2; of less an edge has a steepest place */
 #define MOST_Q24 (1 << 21)     /* semi-axes, of a harmonic */
@@ -137,10 +136,10 @@ static int32_t moved_by(int32_t *noise_px_q24, const int32_t slope[SLOPES], cons
     return as_seen_q20(seen, best, at_q20) - vertex_q20(curve, is, 1);
 }
 
-/* Add slopes along a group's rays where the outline has points, 'middle' of them within it, rising from bright to dark or
- * the other way as its bin. */
-static void add_slopes(int32_t slope[], int32_t slopes, int32_t middle, const drogue_ray rays[DROGUE_RAYS],
-                       int32_t group, const drogue_image *view, const drogue_support *support)
+/* Add grey along a group's rays where the outline has points, 'middle' samples and one of them within it, so that it falls
+ * outwards: as it is or negative, as its bin. */
+static void add_grey(int32_t sum[], int32_t samples, int32_t middle, const drogue_ray rays[DROGUE_RAYS], int32_t group,
+                     const drogue_image *view, const drogue_support *support)
 {
     int32_t grey[DROGUE_SMEARED_SLOPES + 2];
     int32_t i;
@@ -149,32 +148,36 @@ static void add_slopes(int32_t slope[], int32_t slopes, int32_t middle, const dr
         const int32_t bin = k * DROGUE_SUPPORT_BINS / DROGUE_RAYS;
         const uint32_t bright = support->bright_bins >> bin & 1u;
         if (support->bin[bin].count[bright] > 0) {
-            drogue_ray_read(grey, &rays[k], view, -(middle + 1) * rays[k].step_px_q16, slopes + 2);
-            for (i = 0; i < slopes; i++) { /* bound: DROGUE_SMEARED_SLOPES */
-                slope[i] += bright ? grey[i] - grey[i + 2] : grey[i + 2] - grey[i];
+            const int32_t sign = bright ? 1 : -1;
+            drogue_ray_read(grey, &rays[k], view, -(middle + 1) * rays[k].step_px_q16, samples);
+            for (i = 0; i < samples; i++) { /* bound: DROGUE_SMEARED_SLOPES + 2 */
+                sum[i] += sign * grey[i];
             }
         }
     }
 }
 
-/* Slopes of a group and of the one across as the mean of as many sets of rays as the outline is large for: the noise of a few
+/* Slopes of a group and of the one across, the mean over the sets of rays that the outline is large for: the noise of a few
  * rays is more than that of its edge points. */
 static void read_slopes(int32_t slope[2][SLOPES], const drogue_outline *outline, drogue_ray rays[DROGUE_RAYS],
                         int32_t group, const drogue_image *view)
 {
-    const int32_t two = outline->fitted.a_px_q16 >= TWO_SETS;
-    const int32_t shift = outline->fitted.a_px_q16 >= FOUR_SETS ? 2 : two;
+    const int32_t shift = outline->fitted.a_px_q16 >= TWO_SETS;
+    int32_t sum[2][SLOPES + 2];
     int32_t set;
+    int32_t across;
     int32_t i;
-    memset(slope, 0, 2 * sizeof slope[0]);
-    for (set = 0; set < 1 << shift; set++) { /* bound: 4 */
+    memset(sum, 0, sizeof sum);
+    for (set = 0; set < 1 << shift; set++) { /* bound: 2 */
         drogue_rays_aim(rays, &outline->fitted, (8 * set + 4) >> shift, group * GROUP, (group + 1) * GROUP);
-        add_slopes(slope[0], SLOPES, MIDDLE, rays, group, view, &outline->support);
-        add_slopes(slope[1], SLOPES, MIDDLE, rays, group + GROUPS / 2, view, &outline->support);
+        for (across = 0; across < 2; across++) {
+            add_grey(sum[across], SLOPES + 2, MIDDLE, rays, group + across * (GROUPS / 2), view, &outline->support);
+        }
     }
-    for (i = 0; i < SLOPES; i++) {
-        slope[0][i] = (int32_t)drogue_shr_round_s64(slope[0][i], shift);
-        slope[1][i] = (int32_t)drogue_shr_round_s64(slope[1][i], shift);
+    for (across = 0; across < 2; across++) {
+        for (i = 0; i < SLOPES; i++) {
+            slope[across][i] = (int32_t)drogue_shr_round_s64(sum[across][i] - sum[across][i + 2], shift);
+        }
     }
 }
 
@@ -284,9 +287,13 @@ static void find_smeared(int32_t moved_q20[GROUPS], const drogue_ray rays[DROGUE
     int32_t moved_q16[GROUPS];
     int32_t i;
     for (i = 0; i < GROUPS; i++) {
-        int32_t slope[DROGUE_SMEARED_SLOPES];
+        int32_t slope[DROGUE_SMEARED_SLOPES + 2];
+        int32_t k;
         memset(slope, 0, sizeof slope);
-        add_slopes(slope, DROGUE_SMEARED_SLOPES, DROGUE_SMEARED_MIDDLE, rays, i, view, support);
+        add_grey(slope, DROGUE_SMEARED_SLOPES + 2, DROGUE_SMEARED_MIDDLE, rays, i, view, support);
+        for (k = 0; k < DROGUE_SMEARED_SLOPES; k++) {
+            slope[k] -= slope[k + 2];
+        }
         drogue_find_lobe(&lobe[i], slope);
     }
     drogue_find_smeared(moved_q16, lobe);

@@ -43,7 +43,7 @@ std::array<Real, N> slopes(const Support &s, const drogue_ray *rays, int group, 
 /* The mean over as many sets of rays as the outline is large for, in whole numbers. */
 Curve mean_slopes(const Support &s, const drogue_ellipse &aim, int group, const drogue_image &view)
 {
-    const int sets = aim.a_px_q16 >= 64 * 65536 ? 4 : aim.a_px_q16 >= 24 * 65536 ? 2 : 1;
+    const int sets = aim.a_px_q16 >= 24 * 65536 ? 2 : 1;
     std::array<drogue_ray, DROGUE_RAYS> rays;
     Curve mean = {};
     for (int k = 0; k < sets; k++) {
