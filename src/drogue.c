@@ -80,6 +80,7 @@ static int lower_thresholds(drogue_frame *f)
 }
 
 #define SURE_Q16 DROGUE_Q16(1, 256)    /* of less doubt nothing else is tried */
+#define LEAST_Q16 DROGUE_Q16(2, 100)   /* by less the disc is too large for no other outline along rays */
 #define BEYOND_Q16 DROGUE_Q16(15, 100) /* by more than this it is too large for anything beyond the outline */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 
@@ -152,7 +153,7 @@ static drogue_second_look short_of_room(const drogue_frame *f, drogue_status sta
 /* Is the inner disc too large for the best outline, by no more than one about it explains? */
 static int asks_beyond(const best_try *best)
 {
-    return best->status == DROGUE_OK && best->least_q16 > SURE_Q16 && best->larger_q16 > 0 &&
+    return best->status == DROGUE_OK && best->least_q16 > SURE_Q16 && best->larger_q16 > LEAST_Q16 &&
            best->larger_q16 <= BEYOND_Q16;
 }
 
@@ -211,7 +212,8 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
             status != DROGUE_E_NO_ARCS) {
             return status;
         }
-        if (what == FIRST || f->doubt_q16 < best.least_q16 - CLEARLY_Q16) {
+        if (what == FIRST ||
+            (f->doubt_q16 < best.least_q16 - CLEARLY_Q16 && (status == DROGUE_OK || best.status != DROGUE_OK))) {
             keep_try(&best, f, what, status);
         }
         if (room == DROGUE_SECOND_NONE) {

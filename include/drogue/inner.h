@@ -45,10 +45,10 @@ typedef struct drogue_inner_edge {
     drogue_q16 grown_px_q16; /* by how much its semi-axes are larger than expected */
     drogue_q16 std_px_q16;   /* standard deviation of either coordinate, from the rays' residuals */
     drogue_q16 rms_px_q16;   /* of the residuals */
-    uint32_t rays;           /* that agree */
-    uint32_t which;          /* of the expected discs: the nearer one */
-    uint8_t level;           /* mean grey at the edge */
-    uint8_t contrast;        /* mean step of grey across the edge */
+    uint32_t rays;    /* that agree, of 64; a disc under 10 px is measured by half of them, and each counts twice */
+    uint32_t which;   /* of the expected discs: the nearer one */
+    uint8_t level;    /* mean grey at the edge */
+    uint8_t contrast; /* mean step of grey across the edge */
 } drogue_inner_edge;
 
 /* Squared distance of its centre from an expected one, px^2 Q32. */

@@ -40,10 +40,11 @@ typedef struct drogue_joint {
 /* Covariance of an outline's parameters from the residuals of its bins, whose scatter about the ellipse measures noise
  * and shape together however far they are correlated along the edge.
  *
- *  support  of the last fit
+ *  support  of the last fit, its bins from any axis
  *  shading  what the residuals cannot show, as light that changes along the outline, moves an edge by this over its
  *           gradient (|gx| + |gy|, grey levels * 8): px times that unit, standard deviation in every parameter
- *  blur     standard deviation of half the variance of the optics' blur, px^2 Q16: moves the whole outline in or out
+ *  blur     standard deviation of half the variance of the optics' blur, px^2 Q16: moves the whole outline in or out. What the
+ *           pixels' grid does, 0.3 px^2 over the semi-axis, is in every parameter
  *  return   DROGUE_OK; DROGUE_E_DEGENERATE when too few bins hold points
  *  source   the fit's normal equations; (50) of the paper in closed form
  */

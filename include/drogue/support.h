@@ -57,6 +57,13 @@ static inline drogue_q16 drogue_support_cover(const drogue_support *support)
 /* 1, cos t, sin t, cos 2t, sin 2t in the middle of a bin. */
 void drogue_support_basis(int64_t basis_q30[5], uint32_t k);
 
+/* By how many bins an axis is turned against that from which a support counts them, [0, 31]. */
+uint32_t drogue_support_bins_to(const drogue_support *support, drogue_q16 axis_rad_q16);
+
+/* Count the bins from another axis, to a whole bin: a fit may have turned a round outline, or an axis past where angles begin
+ * anew. */
+void drogue_support_turn(drogue_support *support, drogue_q16 axis_rad_q16);
+
 /* A wave of twice the angle, by its cosine's and its sine's part, with all angles larger by so much; saturates. */
 void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16);
 

@@ -58,7 +58,7 @@ static void keep_beyond(drogue_ray rays[RAYS], const drogue_q16 first_px_q16[3])
     int32_t k;
     for (k = 0; k < RAYS; k++) {
         drogue_ray *r = &rays[k];
-        const drogue_q16 at = drogue_ray_along(r, first_px_q16);
+        const drogue_q16 at = r->count > 0 ? drogue_ray_along(r, first_px_q16) : 0;
         uint32_t kept = 0;
         uint32_t i;
         for (i = 0; i < r->count; i++) { /* bound: DROGUE_RAY_EDGES */

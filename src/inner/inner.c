@@ -154,7 +154,7 @@ static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *
     if (smaller_px_q16 > 0) {
         return drogue_q16_div(smaller_px_q16, expected->a_px_q16) / 2;
     }
-    return beyond > LARGER_Q16 ? share : beyond > 0 ? 2 * beyond : 0;
+    return beyond > LARGER_Q16 ? drogue_clamp_s32(share, 0, DROGUE_Q16_ONE - 1) : beyond > 0 ? 2 * beyond : 0;
 }
 
 void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge *edge, const drogue_region *region,

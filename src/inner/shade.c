@@ -59,13 +59,15 @@ static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const 
             int32_t side;
             for (side = 0; side < 2; side++) {
                 const int32_t at = k + side * (RAYS / 2);
-                const int32_t off = dark_q16[at] - drogue_ray_along(&rays[at], plane_q16);
+                const int32_t off = dark_q16[at] < 0 ? 0 : dark_q16[at] - drogue_ray_along(&rays[at], plane_q16);
                 if (dark_q16[at] >= 0 && off <= within && off >= -within) {
                     weight[side] = 1;
                     off_q16[side] = off;
                 }
             }
-            drogue_ray_sums_add(&s, &rays[k], weight, off_q16);
+            if (weight[0] + weight[1] > 0) {
+                drogue_ray_sums_add(&s, &rays[k], weight, off_q16);
+            }
         }
         if (!drogue_ray_sums_solve(plane_q16, normal, &s, 1)) {
             return 0;
@@ -94,7 +96,7 @@ int drogue_inner_shade_find(drogue_inner_shade *out, const drogue_ray rays[RAYS]
     uint32_t count = 0;
     int32_t k;
     for (k = 0; k < RAYS; k++) {
-        const drogue_q16 at = drogue_ray_along(&rays[k], v_px_q16);
+        const drogue_q16 at = rays[k].count > 0 ? drogue_ray_along(&rays[k], v_px_q16) : 0;
         dark_q16[k] = -1;
         if (drogue_ray_chosen(&rays[k], at, within_px_q16) >= 0) {
             const int32_t part_q15 = drogue_q16_sub(drogue_q16_add(at, FROM), begin_of(at));

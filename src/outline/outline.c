@@ -238,6 +238,7 @@ static void refit(drogue_outline *outline, context *x)
         } /* else collect again with the polarities that the counts show */
         stride = 1;
     }
+    drogue_support_turn(&outline->support, outline->ellipse.angle_rad_q16);
     outline->cover_q16 = drogue_support_cover(&outline->support);
     outline->polarity = outline->support.bright_bins == 0            ? DROGUE_POLARITY_DARK
                         : outline->support.bright_bins == UINT32_MAX ? DROGUE_POLARITY_BRIGHT

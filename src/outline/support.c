@@ -2,6 +2,8 @@
 /* Support of an ellipse by all edge points. */
 #include "drogue/support.h"
 
+#include <string.h>
+
 /* Length of bin k of a quadrant, px Q16: (b + (a - b) sin^2) pi / 16, within 8 % for axis ratios from 0.4. */
 static int64_t bin_length_q16(const drogue_ellipse *e, uint32_t k)
 {
@@ -128,4 +130,27 @@ void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16)
     drogue_rotate_q30(turned, wave[0], wave[1], (int32_t)twice_q30[0], (int32_t)twice_q30[1]);
     wave[0] = drogue_sat_s32(turned[0]);
     wave[1] = drogue_sat_s32(turned[1]);
+}
+
+uint32_t drogue_support_bins_to(const drogue_support *support, drogue_q16 axis_rad_q16)
+{
+    const int64_t a_radian_q16 = 333772; /* 32 over 2 pi */
+    const int64_t turn_rad_q16 = (int64_t)axis_rad_q16 - support->axis_rad_q16;
+    return (uint32_t)drogue_shr_round_s64(turn_rad_q16 * a_radian_q16, 32) % DROGUE_SUPPORT_BINS;
+}
+
+void drogue_support_turn(drogue_support *support, drogue_q16 axis_rad_q16)
+{
+    const uint32_t turn = drogue_support_bins_to(support, axis_rad_q16);
+    drogue_support_bin bin[DROGUE_SUPPORT_BINS];
+    uint32_t k;
+    support->axis_rad_q16 = axis_rad_q16;
+    if (turn == 0) {
+        return;
+    }
+    memcpy(bin, support->bin, sizeof bin);
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        support->bin[k] = bin[(k + turn) % DROGUE_SUPPORT_BINS];
+    }
+    support->bright_bins = turned(support->bright_bins, DROGUE_SUPPORT_BINS - (int)turn);
 }

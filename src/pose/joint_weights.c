@@ -19,15 +19,6 @@ static int32_t cosine_q30(uint32_t j)
 
 #define HARMONICS 4
 
-/* By how many bins an axis is turned against that from which a support counts them: what was put back may have turned a round
- * outline, or an axis past where angles begin anew. */
-static uint32_t bins_between(const drogue_support *support, drogue_q16 axis_rad_q16)
-{
-    const int64_t a_radian_q16 = 333772; /* 32 over 2 pi */
-    const int64_t turn_rad_q16 = (int64_t)axis_rad_q16 - support->axis_rad_q16;
-    return (uint32_t)drogue_shr_round_s64(turn_rad_q16 * a_radian_q16, 32) % DROGUE_SUPPORT_BINS;
-}
-
 /* Normal equations of the fit, points times products of the basis functions 1, cos t, sin t, cos 2t, sin 2t: sums of cos mt and
  * sin mt, t from the axis that is turned by so many bins; 'scatter' is the squared residual of the bins' means. Returns the
  * number of bins that hold points. */
@@ -150,7 +141,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
     real t;
     int i;
     const int32_t bins =
-        sum_bins(information, &scatter, support, bins_between(support, outline->ellipse.angle_rad_q16));
+        sum_bins(information, &scatter, support, drogue_support_bins_to(support, outline->ellipse.angle_rad_q16));
     if (bins <= DROGUE_JOINT_FIT || support->gradient == 0 ||
         drogue_cholesky_factor(information, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;

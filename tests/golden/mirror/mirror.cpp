@@ -528,7 +528,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
                 return best;
             }
         }
-        if (doubt < least - 1 / 256.0L) {
+        if (doubt < least - 1 / 256.0L && (status == DROGUE_OK || best.status != DROGUE_OK)) {
             least = doubt;
             best = out;
             decided = f.decided;
@@ -538,8 +538,8 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    const bool asks_beyond =
-        best.status == DROGUE_OK && least > SURE && best.larger_q16 > 0 && real(best.larger_q16) <= 0.15L;
+    const bool asks_beyond = best.status == DROGUE_OK && least > SURE &&
+                             best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.15L;
     if (asks_beyond && task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
         room = room == DROGUE_SECOND_NONE ? DROGUE_SECOND_FULL : room;
     } else if (asks_beyond) {

@@ -309,5 +309,41 @@ START_TEST(any_bits)
 }
 END_TEST
 
+/* Of 30 px: what the disc's size says of the distance. */
+START_TEST(doubt_by_size)
+{
+    static const double grown[][2] = {{0, 0},
+                                      {0.45, 0},
+                                      {-0.5, 0},
+                                      {30 / 64.0 + 0.06, 0.004},
+                                      {0.7, 0.01542},
+                                      {1.5, 0.05},
+                                      {30 / 32.0, 1 / 32.0},
+                                      {-1.1, 0.01},
+                                      {-3.5, 0.05},
+                                      {29.99, 0.9997},
+                                      {40, 0.99999}};
+    const drogue_region region = {100, 200, 400, 300};
+    const pose_real p = {{0, 0, 6, 0, 0}};
+    const drogue_pose poses[2] = {pose_of(&p), pose_of(&p)};
+    const field f = usual_field();
+    size_t i;
+    for (i = 0; i < sizeof grown / sizeof grown[0]; i++) {
+        finding g = usual_finding();
+        const drogue_setup setup = {&f.camera, &f.model, &g.config};
+        drogue_inner_expected expected;
+        drogue_inner_evidence evidence;
+        memset(&expected, 0, sizeof expected);
+        expected.count = 1;
+        expected.disc[0] = g.expected;
+        g.edge.grown_px_q16 = q16_of(grown[i][0]);
+        drogue_inner_weigh(&evidence, &g.edge, &region, &expected, &g.outline, poses, &setup);
+        MUST(fabs(real_of_q16(evidence.doubt_q16) - grown[i][1]) < 3.0 / 65536, "%g px: %g", grown[i][0],
+             real_of_q16(evidence.doubt_q16));
+        ck_assert_int_lt(evidence.doubt_q16, DROGUE_Q16_ONE);
+    }
+}
+END_TEST
+
 SUITE_MAIN("inner", expected_where_the_poses_show_it, poses_that_show_none, standard_deviation, reasons_not_to_believe,
-           no_evidence, flat_where_the_lens_folds, any_bits)
+           no_evidence, doubt_by_size, flat_where_the_lens_folds, any_bits)

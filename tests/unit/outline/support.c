@@ -367,6 +367,40 @@ START_TEST(basis_of_every_bin)
 }
 END_TEST
 
+/* From any axis to any other one: each bin stays where it is in the picture, to a whole bin. */
+START_TEST(turned_to_another_axis)
+{
+    uint64_t rng = 11;
+    int i;
+    uint32_t k;
+    for (i = 0; i < 2000; i++) {
+        const double from = rng_real(&rng, -TEST_PI / 2, TEST_PI / 2), to = rng_real(&rng, -TEST_PI / 2, TEST_PI / 2);
+        const double off = (to - from) * 16 / TEST_PI;
+        const int32_t whole = (int32_t)lround(off);
+        drogue_support before, after;
+        memset(&before, 0, sizeof before);
+        for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+            before.bin[k].count[0] = k;
+            before.bin[k].sum_q16 = -(int32_t)k;
+        }
+        before.bright_bins = (uint32_t)rng_u64(&rng);
+        before.axis_rad_q16 = q16_of(from);
+        after = before;
+        drogue_support_turn(&after, q16_of(to));
+        ck_assert_int_eq(after.axis_rad_q16, q16_of(to));
+        if (fabs(fabs(off - whole) - 0.5) < 0.001) {
+            continue; /* halfway between two bins */
+        }
+        for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+            const uint32_t was = (k + (uint32_t)whole) % DROGUE_SUPPORT_BINS;
+            MUST(after.bin[k].count[0] == was && after.bin[k].sum_q16 == -(int32_t)was &&
+                     (after.bright_bins >> k & 1u) == (before.bright_bins >> was & 1u),
+                 "%g to %g: bin %u", from, to, (unsigned)k);
+        }
+    }
+}
+END_TEST
+
 SUITE_MAIN("support", bins_of_random_directions, bins_of_axes_and_diagonals, bins_are_alike, counts_against_brute_force,
            outlines_of_one_polarity, outlines_of_two_halves, random_polarity_is_penalised, partial_outlines,
-           thin_outlines_cover_nothing, sums, basis_of_every_bin)
+           thin_outlines_cover_nothing, sums, basis_of_every_bin, turned_to_another_axis)
