@@ -6,7 +6,7 @@ void drogue_config_default(drogue_config *config)
 {
     config->canny_low = 30;
     config->canny_high = 80;
-    config->canny_least = 16;
+    config->canny_least = 8;
     config->smooth = 1;
     config->min_arc_px = 10;
     config->min_arc_share_q16 = DROGUE_Q16(1, 8);
@@ -37,8 +37,8 @@ void drogue_config_default(drogue_config *config)
     config->inner_gate_q16 = DROGUE_Q16(5, 100);
     config->min_inner_cover_q16 = DROGUE_Q16(5, 10);
     config->inner_rms_px_q16 = DROGUE_Q16(65, 100);
-    config->inner_size_px_q16 = DROGUE_Q16(1, 1);
-    config->inner_size_q16 = DROGUE_Q16(1, 10);
+    config->inner_size_px_q16 = DROGUE_Q16(5, 4);
+    config->inner_size_q16 = DROGUE_Q16(7, 100);
     config->outline_shading_q16 = DROGUE_Q16(16, 10);
     config->optics_blur_std_px2_q16 = DROGUE_Q16(2, 10);
     config->inner_std_px_q16 = DROGUE_Q16(5, 100);

@@ -28,7 +28,10 @@ static void clear(drogue_result *out)
 /* What may be tried, in this order: the configured thresholds of Canny or those of the region's own noise, and of either
  * the outline found or a larger one about it; then, where the inner disc is too large for the best of them, one along
  * rays. */
-enum { FIRST, FIRST_LARGER, LOWER, LOWER_LARGER, BEYOND };
+enum { FIRST, FIRST_LARGER, OWN, OWN_LARGER, BEYOND };
+
+#define RAISES 2      /* at most, of thresholds of the noise that fill a table */
+#define LARGEST 2040 /* L1 Sobel magnitude that there is */
 
 static void begin_try(drogue_frame *f)
 {
@@ -51,7 +54,7 @@ static drogue_status try_out(drogue_frame *f, const drogue_region *region, int w
         clear(f->out);
         status = drogue_frame_outline(f, region);
     }
-    if (status == DROGUE_OK && (what == FIRST_LARGER || what == LOWER_LARGER)) {
+    if (status == DROGUE_OK && (what == FIRST_LARGER || what == OWN_LARGER)) {
         const drogue_region used = f->out->region;
         const drogue_edge_list list = f->out->list;
         clear(f->out);
@@ -64,19 +67,37 @@ static drogue_status try_out(drogue_frame *f, const drogue_region *region, int w
     return status == DROGUE_OK ? judge(f, what) : status;
 }
 
-/* 1 when there are thresholds lower than the configured ones. */
-static int lower_thresholds(drogue_frame *f)
+static int is_full(drogue_status status)
+{
+    return status == DROGUE_E_LABELS_FULL || status == DROGUE_E_EDGES_FULL || status == DROGUE_E_ARCS_FULL;
+}
+
+static int32_t raised(int32_t high) { return high + high / 2 + 1; }
+
+/* Look with the thresholds of the region's own noise, as far apart as the configured ones: higher ones where these filled a
+ * table, else lower ones; raised by half where they fill one themselves. 0 when there are none to try. */
+static int try_own(drogue_status *status, drogue_frame *f, const drogue_region *region, int full)
 {
     const drogue_config *config = f->setup->config;
     int32_t high = drogue_noise_threshold(f->workspace->histogram, &f->view);
+    int k;
     high = high < config->canny_least ? config->canny_least : high;
-    f->canny_low = config->canny_low;
-    f->canny_high = config->canny_high;
-    if (high < config->canny_high) {
+    if (full && high <= config->canny_high) {
+        high = raised(drogue_clamp_s32(config->canny_high, 0, LARGEST));
+    }
+    if (config->canny_least == config->canny_high) {
+        return 0;
+    }
+    for (k = 0; k <= RAISES && (full ? high <= LARGEST : high < config->canny_high); k++) { /* bound: 3 */
         f->canny_low = (int32_t)((int64_t)high * config->canny_low / config->canny_high);
         f->canny_high = high;
+        *status = try_out(f, region, OWN, 0);
+        if (!is_full(*status)) {
+            return 1;
+        }
+        high = raised(high);
     }
-    return high < config->canny_high;
+    return k > 0;
 }
 
 #define SURE_Q16 DROGUE_Q16(1, 256)    /* of less doubt nothing else is tried */
@@ -124,8 +145,8 @@ static void return_to(const best_try *best, drogue_frame *f, const drogue_region
     const drogue_config *config = f->setup->config;
     const int found = best->result->ellipse.a_px_q16 > 0; /* its arcs are in the list of that outline, pose or not */
     drogue_edge_list list;
-    if (found && (last == BEYOND || (best->what < LOWER && last >= LOWER))) {
-        if (best->what < LOWER) {
+    if (found && (last == BEYOND || (best->what < OWN && last >= OWN))) {
+        if (best->what < OWN) {
             f->canny_low = config->canny_low;
             f->canny_high = config->canny_high;
         }
@@ -142,12 +163,9 @@ static void return_to(const best_try *best, drogue_frame *f, const drogue_region
 /* TOO_WIDE or FULL when a try had too little room: with more another might stand. */
 static drogue_second_look short_of_room(const drogue_frame *f, drogue_status status)
 {
-    switch (status) {
-    case DROGUE_E_LABELS_FULL:
-    case DROGUE_E_EDGES_FULL:
-    case DROGUE_E_ARCS_FULL: return DROGUE_SECOND_FULL;
-    default: return f->second_look >= DROGUE_SECOND_TOO_WIDE ? f->second_look : DROGUE_SECOND_NONE;
-    }
+    return is_full(status)                              ? DROGUE_SECOND_FULL
+           : f->second_look >= DROGUE_SECOND_TOO_WIDE ? f->second_look
+                                                      : DROGUE_SECOND_NONE;
 }
 
 /* Is the inner disc too large for the best outline, by no more than one about it explains? */
@@ -199,17 +217,18 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     f->canny_low = config->canny_low;
     f->canny_high = config->canny_high;
     for (what = FIRST; what < BEYOND && best.least_q16 > SURE_Q16; what++) {
-        const int larger = what == FIRST_LARGER || what == LOWER_LARGER;
+        const int larger = what == FIRST_LARGER || what == OWN_LARGER;
         if (larger && status != DROGUE_OK) {
             continue;
         }
-        if (what == LOWER && !lower_thresholds(f)) {
+        if (what != OWN) {
+            status = try_out(f, region, what, larger);
+        } else if (!try_own(&status, f, region, is_full(best.status))) {
             break;
         }
-        status = try_out(f, region, what, larger);
         last = what;
         if (what == FIRST && status != DROGUE_OK && status != DROGUE_E_NO_ELLIPSE && status != DROGUE_E_NO_EDGES &&
-            status != DROGUE_E_NO_ARCS) {
+            status != DROGUE_E_NO_ARCS && !is_full(status)) {
             return status;
         }
         if (what == FIRST ||

@@ -28,19 +28,33 @@ typedef struct drogue_decision {
     int64_t covariance_q48[5][5];  /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric; saturated: at most 2^15 */
     int64_t position_std_m_q32[3]; /* roots of its first three diagonal entries, Q32 */
     int64_t axis_std_rad_q32;      /* root mean square angle between measured and true axis, Q32 */
+    drogue_q16 doubt_q16;          /* that is in the covariance, as drogue_doubt_covariance() takes it */
 } drogue_decision;
 
 /* Solve for outline and inner part together; for the outline alone when they contradict each other or there is no inner
  * part to be believed. Where there is one, the covariance is chi2 times as large where that, 0.5 on average of frames that
- * are as supposed, is above 1, and max_chi2 times where they contradict each other; and half the square of the share by
- * which the inner part's size puts the distance in doubt is added, of the distance, or 1.1 % where they contradict each other. Where
- * the model has an inner part and none is to be believed, the outline may be another edge than the rim, or partly: 1.1 % of
- * its size is added to every parameter of the outline.
+ * are as supposed, is above 1, and max_chi2 times where they contradict each other; and what the inner part's size puts in
+ * doubt is added, at least 1/64 where they contradict each other. Where the model has an inner part and none is to be
+ * believed, the outline may be another edge than the rim, or partly: 1.1 % of its size is added to every parameter of the
+ * outline.
  *
  *  out     undefined on failure
  *  return  DROGUE_OK, DROGUE_E_DOMAIN
  */
 drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup);
+
+#define DROGUE_DOUBT_PACKED 6 /* x, y, z: the first entries of a packed covariance that begins with them */
+
+/* What a doubt adds to the covariance. An inner part that is not of its size may be that of a larger outline: half the
+ * square of that share of the position, since where it is one, the distance is off by about twice as much. The larger
+ * outline lies in another plane and is the more likely the larger the share is: sideways half the square of twice that
+ * share's square of the rim's radius.
+ *
+ *  added      out, m^2
+ *  doubt_q16  share of the distance, [0, 1)
+ */
+void drogue_doubt_covariance(drogue_real added[DROGUE_DOUBT_PACKED], const drogue_q16 position_m_q16[3],
+                             drogue_q16 doubt_q16, drogue_q16 rim_radius_m_q16);
 
 #ifdef __cplusplus
 }

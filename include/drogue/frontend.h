@@ -45,7 +45,7 @@ typedef struct drogue_capacity {
     ((size_t)(width_px) * (sizeof(drogue_merge) + 16u) + \
      DROGUE_HALF(width_px) * (5u * 2u + 3u * 4u + 4u * 4u + 32u + 4u) + 5u * 4u + 7u * 8u)
 #define DROGUE_SCRATCH_BYTES ((size_t)6656) /* that the outline, the candidates and the rays need at most */
-#define DROGUE_KEPT_BYTES ((size_t)464)     /* a result, wherever the memory begins: drogue.h checks that it fits */
+#define DROGUE_KEPT_BYTES ((size_t)472)     /* a result, wherever the memory begins: drogue.h checks that it fits */
 
 /* Bytes of memory for a workspace: usable in a static array's size. */
 #define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                         \
@@ -168,11 +168,13 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row);
  */
 drogue_status drogue_frontend_end(drogue_edge_list *list, drogue_frontend *frontend);
 
-/* Upper threshold that noise alone does not pass: twelve standard deviations of the noise, which the lower quartile of
- * the second differences along every second row gives.
+/* Upper threshold that noise alone hardly passes: ten standard deviations of white noise that means of 3 x 3 px show as
+ * much of, whose second differences along every third row are summed by blocks; one in ten blocks shows less. Noise of a
+ * codec or a sharpened image counts as what smoothing leaves of it.
  *
  *  histogram  work area, 256 counts
- *  return     L1 Sobel magnitude, grey levels * 8; 0 where a quarter of the differences is 0
+ *  return     L1 Sobel magnitude, grey levels * 8, below 700; 0 for less noise than a tenth of a level, and of an image under
+ *             17 x 3 px
  */
 int32_t drogue_noise_threshold(uint32_t *histogram, const drogue_image *image);
 

@@ -95,50 +95,67 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
     return drogue_real_order(&best->chi2, &limit) <= 0;
 }
 
-/* Add half the square of a vector times 2^exponent. */
-static void add_half_square(drogue_joint *joint, const int64_t v[5], int32_t exponent)
-{
-    int i;
-    int j;
-    for (i = 0; i < 5; i++) {
-        for (j = 0; j <= i; j++) {
-            drogue_real *sum = &joint->covariance[DROGUE_PACKED(i, j)];
-            drogue_real t;
-            drogue_real factor;
-            drogue_real_set(&t, v[i], exponent);
-            drogue_real_set(&factor, v[j], exponent - 1);
-            drogue_real_product(&t, &t, &factor);
-            drogue_real_sum(sum, sum, &t);
-        }
-    }
-}
-
 /* Unresolved, the truth is as likely the one pose as the other: half the square of what lies between them. */
 static void add_spread(drogue_joint *joint, const drogue_pose *other)
 {
     const drogue_pose *p = &joint->pose;
     int64_t apart_q16[5];
     int i;
+    int j;
     for (i = 0; i < 3; i++) {
         apart_q16[i] = (int64_t)other->position_m_q16[i] - p->position_m_q16[i];
     }
     apart_q16[3] = (int64_t)other->yaw_rad_q16 - p->yaw_rad_q16;
     apart_q16[4] = (int64_t)other->pitch_rad_q16 - p->pitch_rad_q16;
-    add_half_square(joint, apart_q16, -16);
+    for (i = 0; i < 5; i++) {
+        for (j = 0; j <= i; j++) {
+            drogue_real *sum = &joint->covariance[DROGUE_PACKED(i, j)];
+            drogue_real own;
+            drogue_real half;
+            drogue_real_set(&own, apart_q16[i], -16);
+            drogue_real_set(&half, apart_q16[j], -17);
+            drogue_real_product(&own, &own, &half);
+            drogue_real_sum(sum, sum, &own);
+        }
+    }
 }
 
 #define CONTRADICTED_Q16 DROGUE_Q16(1, 64) /* of its size: as if an inner part that contradicts were so far off */
 
-/* An inner part that is not of its size may be that of a larger outline: half the square of that share of the distance, since
- * where it is one, the distance is off by about twice as much. */
-static void add_doubt(drogue_joint *joint, drogue_q16 share_q16)
+void drogue_doubt_covariance(drogue_real added[DROGUE_DOUBT_PACKED], const drogue_q16 position_m_q16[3],
+                             drogue_q16 doubt_q16, drogue_q16 rim_radius_m_q16)
 {
-    int64_t doubt_q32[5] = {0, 0, 0, 0, 0};
+    drogue_real sideways;
+    drogue_real share;
     int i;
+    int j;
     for (i = 0; i < 3; i++) {
-        doubt_q32[i] = drogue_product(joint->pose.position_m_q16[i], share_q16);
+        for (j = 0; j <= i; j++) {
+            drogue_real own;
+            drogue_real half;
+            drogue_real_set(&own, drogue_product(position_m_q16[i], doubt_q16), -32);
+            drogue_real_set(&half, drogue_product(position_m_q16[j], doubt_q16), -33);
+            drogue_real_product(&added[DROGUE_PACKED(i, j)], &own, &half);
+        }
     }
-    add_half_square(joint, doubt_q32, -32);
+    drogue_real_set_q16(&share, doubt_q16);
+    drogue_real_set(&sideways, drogue_product(rim_radius_m_q16, doubt_q16), -32);
+    drogue_real_product(&sideways, &sideways, &share);
+    drogue_real_product(&sideways, &sideways, &sideways);
+    drogue_real_shift(&sideways, 1);
+    for (i = 0; i < 2; i++) {
+        drogue_real_sum(&added[DROGUE_PACKED(i, i)], &added[DROGUE_PACKED(i, i)], &sideways);
+    }
+}
+
+static void add_doubt(drogue_joint *joint, drogue_q16 doubt_q16, drogue_q16 rim_radius_m_q16)
+{
+    drogue_real added[DROGUE_DOUBT_PACKED];
+    int i;
+    drogue_doubt_covariance(added, joint->pose.position_m_q16, doubt_q16, rim_radius_m_q16);
+    for (i = 0; i < DROGUE_DOUBT_PACKED; i++) {
+        drogue_real_sum(&joint->covariance[i], &joint->covariance[i], &added[i]);
+    }
 }
 
 /* What outline and inner part disagree by, beyond what is usual, is in both: chi2 times their covariance. */
@@ -197,15 +214,15 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
             return DROGUE_E_DOMAIN;
         }
     }
+    out->doubt_q16 = has_inner(evidence) ? evidence->doubt_q16 : 0;
     if (has_inner(evidence)) {
         drogue_real chi2 = joint.chi2;
-        drogue_q16 doubt_q16 = evidence->doubt_q16;
         if (!agree) {
             drogue_real_set_q16(&chi2, setup->config->max_chi2_q16);
-            doubt_q16 = CONTRADICTED_Q16;
+            out->doubt_q16 = out->doubt_q16 > CONTRADICTED_Q16 ? out->doubt_q16 : CONTRADICTED_Q16;
         }
         widen(&joint, chi2);
-        add_doubt(&joint, doubt_q16);
+        add_doubt(&joint, out->doubt_q16, setup->model->rim_radius_m_q16);
     }
     out->orientation_resolved = resolved;
     out->pose = joint.pose;

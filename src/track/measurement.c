@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include "drogue/decide.h"
+
 /* Noise from the configured standard deviations. */
 static void configured_noise(drogue_measurement *m, const drogue_track_config *c)
 {
@@ -58,15 +60,18 @@ static void twins_apart(int64_t apart_q16[DROGUE_PARAMETERS], const drogue_resul
     }
 }
 
-/* Noise from the result's covariance, without the distance of the twins: the filter follows one of them. The pose's twin
- * has the same variances and the same correlations of position; those of its angles are its own, not known, and count as
- * none. */
-static void measured_noise(drogue_measurement *m, const drogue_result *result, int twin, const drogue_track_config *c)
+/* Noise from the result's covariance, without the distance of the twins: the filter follows one of them; and without the
+ * doubt by the inner part's size, which is no noise: it lasts from frame to frame. The pose's twin has the same variances
+ * and the same correlations of position; those of its angles are its own, not known, and count as none. */
+static void measured_noise(drogue_measurement *m, const drogue_result *result, int twin, drogue_q16 rim_radius_m_q16,
+                           const drogue_track_config *c)
 {
     int64_t apart_q16[DROGUE_PARAMETERS];
+    drogue_real doubt[DROGUE_DOUBT_PACKED];
     int p;
     int q;
     twins_apart(apart_q16, result);
+    drogue_doubt_covariance(doubt, result->pose.position_m_q16, result->doubt_q16, rim_radius_m_q16);
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         const int64_t own_q48 = result->covariance_q48[order[p]][order[p]];
         drogue_real *variance = &m->noise[DROGUE_PACKED(p, p)];
@@ -78,6 +83,13 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
         drogue_real_product(variance, variance, variance);
         drogue_real_set(&own, own_q48 > 0 ? own_q48 : 0, -48);
         drogue_real_difference(&own, &own, &m->apart[p]);
+        if (p <= DROGUE_Z) {
+            m->doubt[p] = doubt[DROGUE_PACKED(p, p)];
+            if (drogue_real_order(&m->doubt[p], &own) > 0) { /* of a result that somebody else made */
+                m->doubt[p] = own;
+            }
+            drogue_real_difference(&own, &own, &m->doubt[p]);
+        }
         drogue_real_sum(variance, &own, variance);
         drogue_real_root(&own, variance);
         m->std_q16[p] = drogue_at_least_one(drogue_real_to_q16(own));
@@ -86,6 +98,9 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
             drogue_real_set(both, result->covariance_q48[order[p]][order[q]], -48);
             drogue_real_set(&own, half_product_q48(apart_q16, p, q), -48);
             drogue_real_difference(both, both, &own);
+            if (p <= DROGUE_Z) {
+                drogue_real_difference(both, both, &doubt[DROGUE_PACKED(p, q)]);
+            }
         }
     }
 }
@@ -127,7 +142,7 @@ void drogue_measurement_read(drogue_measurement *m, const drogue_result *result,
     m->value_q16[DROGUE_PITCH] = pose->pitch_rad_q16;
     m->value_q16[DROGUE_YAW] = pose->yaw_rad_q16;
     if (result->covariance_q48[0][0] > 0) {
-        measured_noise(m, result, twin, c);
+        measured_noise(m, result, twin, model->rim_radius_m_q16, c);
     } else {
         configured_noise(m, c);
     }

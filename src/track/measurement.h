@@ -11,6 +11,7 @@ typedef struct drogue_measurement {
     drogue_q16 std_q16[DROGUE_PARAMETERS];
     drogue_real noise[DROGUE_PACKED_MAX]; /* covariance in the filter's order */
     drogue_real apart[DROGUE_PARAMETERS]; /* what the distance of the twins adds to the variances */
+    drogue_real doubt[DROGUE_Z + 1];      /* what the inner part's size adds to those of x, y, z */
     int solid;                            /* shows the inner part, or the model has none */
 } drogue_measurement;
 

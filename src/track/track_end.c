@@ -99,12 +99,16 @@ static void correct(drogue_kalman *filter, const drogue_measurement *m, const dr
     drogue_kalman_correct(filter, own.value_q16, own.std_q16);
 }
 
-/* What the estimate's standard deviations keep of a measurement: as long as the orientation is open it may be the twin. */
+/* What the estimate's standard deviations keep of a measurement: its doubt, and as long as the orientation is open it may
+ * be the twin. */
 static void keep_noise(drogue_track *track, const drogue_measurement *m)
 {
     int p;
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         track->noise[p] = m->noise[DROGUE_PACKED(p, p)];
+        if (p <= DROGUE_Z) {
+            drogue_real_sum(&track->noise[p], &track->noise[p], &m->doubt[p]);
+        }
         if (!track->orientation_known) {
             drogue_real_sum(&track->noise[p], &track->noise[p], &m->apart[p]);
         }

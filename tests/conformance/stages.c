@@ -225,7 +225,7 @@ static const stage_spec stages[] = {
     {"acquire", stage_acquire, {{"image", 0, 0, 0}, {"camera", 32, 9, 0}, {"model", 32, 3, 0}, {"params", 32, 8, 0}}},
     {"track",
      stage_track,
-     {{"setup", 32, 16, 0}, {"config", 32, 24, 0}, {"frames", 32, 16, 1}, {"covariance", 64, 15, 1}}},
+     {{"setup", 32, 16, 0}, {"config", 32, 24, 0}, {"frames", 32, 17, 1}, {"covariance", 64, 15, 1}}},
 };
 
 int conf_stage_count(void) { return (int)(sizeof stages / sizeof stages[0]); }

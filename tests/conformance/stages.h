@@ -118,7 +118,7 @@ enum {
  *               reconsider_frames known_frames min_region max_region (whole) gate position_gate region_scale region_sigmas
  *               lateral depth angle (std) position angle (floor) process std 5 process_step lasting_share start std of rate
  *               and acceleration; frames: dt_us status second_look has_inner resolved (whole) cover, pose (x y z yaw
- *               pitch), alternative (5); covariance (64 bits, Q48) of each frame as of 'joint'
+ *               pitch), alternative (5), doubt; covariance (64 bits, Q48) of each frame as of 'joint'
  *               -> states (whole): per frame status of drogue_track_init(), region 4 search reach 4 of
  *                  drogue_track_begin(), state missed gated orientation_known open_frames turned trial agreeing
  *                  second_known; estimates: per frame position 3 velocity 3 axis 3 yaw pitch resolved; std (64 bits,

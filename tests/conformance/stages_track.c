@@ -301,6 +301,7 @@ static void read_result(drogue_result *result, const int32_t *f, const int64_t *
     result->has_inner = f[3];
     result->orientation_resolved = f[4];
     result->cover_q16 = f[5];
+    result->doubt_q16 = f[16];
     result->pose = pose_of(f + 6);
     result->alternative = pose_of(f + 11);
     for (i = 0; i < 5; i++) {
@@ -315,7 +316,7 @@ int stage_track(stage_run *r)
     const int32_t *s = stage_input32(r, 0);
     const int32_t *frame = stage_input32(r, 2);
     const int64_t *covariance = (const int64_t *)r->in[3].data;
-    const size_t count = r->in[2].count / 16;
+    const size_t count = r->in[2].count / 17;
     const drogue_camera camera = stage_camera(s);
     const drogue_model model = model_of(s + 9);
     const drogue_region first = region_of(s + 12);
@@ -338,7 +339,7 @@ int stage_track(stage_run *r)
     for (i = 0; status != DROGUE_OK && i < count; i++) {
         out[19 * i] = (int32_t)status;
     }
-    for (i = 0; status == DROGUE_OK && i < count; i++, frame += 16, covariance += 15) {
+    for (i = 0; status == DROGUE_OK && i < count; i++, frame += 17, covariance += 15) {
         drogue_region region;
         drogue_result result;
         drogue_track_estimate e;

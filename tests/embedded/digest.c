@@ -69,7 +69,7 @@ uint64_t digest_result(uint64_t d, const drogue_result *r)
     d = add_inner_part(d, &r->inner);
     d = add_pose(d, &r->pose);
     d = add_pose(d, &r->alternative);
-    d = add(add(d, r->orientation_resolved), r->ambiguity_q16);
+    d = add(add(add(d, r->orientation_resolved), r->ambiguity_q16), r->doubt_q16);
     for (i = 0; i < 5; i++) {
         for (k = 0; k < 5; k++) {
             d = add(d, r->covariance_q48[i][k]);

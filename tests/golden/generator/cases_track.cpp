@@ -22,6 +22,7 @@ struct Seen {
     Five off_twin = {0.004, -0.003, 0.01, -0.5, 0.42}; /* the other pose less this one */
     int64_t dt_us = 40000, status = DROGUE_OK, look = DROGUE_SECOND_NONE, inner = 1, resolved = 1;
     double cover = 1;
+    double doubt = 0; /* share of the distance */
     Five std = {0.0015, 0.0015, 0.02, 0.012, 0.011}; /* all 0: no covariance */
     double with_z = 0; /* correlation of x and y with z, of yaw and pitch with each other */
 };
@@ -47,15 +48,25 @@ struct Script {
         for (size_t k = 0; k < 5; k++) {
             frames.push_back(q16(s.pose[k] + s.off_twin[k]));
         }
+        frames.push_back(q16(s.doubt));
         for (size_t i = 0; i < 5; i++) {
             for (size_t j = 0; j <= i; j++) {
                 const bool together = (i == 2 && j < 2) || (i == 4 && j == 3);
                 const double share = i == j ? 1 : together ? s.with_z : 0;
                 const double apart = s.resolved != 0 || s.std[0] == 0 ? 0 : s.off_twin[i] * s.off_twin[j] / 2;
-                covariance.push_back(
-                    static_cast<int64_t>(std::floor(std::ldexp(share * s.std[i] * s.std[j] + apart, 48) + 0.5)));
+                const double doubted = s.std[0] == 0 ? 0 : doubted_by(i, j);
+                covariance.push_back(static_cast<int64_t>(
+                    std::floor(std::ldexp(share * s.std[i] * s.std[j] + apart + doubted, 48) + 0.5)));
             }
         }
+    }
+
+    /* What the inner part's size adds to an entry of the covariance. */
+    double doubted_by(size_t i, size_t j) const
+    {
+        const double doubt = std::floor(seen.doubt * 65536 + 0.5) / 65536;
+        const double along = i < 3 && j < 3 ? doubt * doubt * seen.pose[i] * seen.pose[j] / 2 : 0;
+        return along + (i == j && i < 2 ? 2 * std::pow(doubt * doubt * rim, 2) : 0);
     }
 
     /* So many frames of a truth that moves, measured with noise of the given share of the deviations. */
@@ -166,6 +177,41 @@ void add_following(Set &set)
     s.seen.std = {0.00002, 0.00002, 0.00002, 0.00002, 0.00002}; /* below the floors */
     s.follow(random, 8, [](double) { return Five{0.1, 0.2, 5, 0.1, 0}; });
     add_script(set, "sharper-than-the-floors", Tier::boundary, {}, s);
+}
+
+/* A disc that is not of its size: doubted are all frames, some, or by more than the covariance has. */
+void add_doubted(Set &set)
+{
+    accuracy::Random random = set.random("doubted");
+    Script s;
+    s.seen.doubt = 0.09;
+    s.seen.with_z = 0.9;
+    s.follow(random, 20, approach);
+    add_script(set, "doubted", Tier::ordinary, {}, s);
+    s = Script();
+    for (const double doubt : {0.0, 0.02, 0.14, 0.0, 0.999}) {
+        s.seen.doubt = doubt;
+        s.follow(random, 4, [](double) { return Five{0.5, -0.3, 9, 0.2, -0.15}; });
+    }
+    add_script(set, "doubt-changes", Tier::ordinary, {}, s);
+    s = Script();
+    s.seen.doubt = 0.05;
+    s.seen.resolved = 0;
+    s.stay(4);
+    s.seen.resolved = 1;
+    s.stay(2);
+    s.seen.resolved = 0;
+    s.seen.off_twin = {0.002, 0.001, -0.003, 0.01, 0.02};
+    s.stay(4);
+    add_script(set, "doubted-unresolved", Tier::ordinary, {"twin-pose"}, s);
+    s = Script();
+    s.seen.doubt = 0.05;
+    s.stay(4);
+    for (int64_t &c : s.covariance) { /* less than the doubt: it does not hold that */
+        c /= 4;
+    }
+    s.stay(3);
+    add_script(set, "doubt-not-held", Tier::boundary, {}, s);
 }
 
 void add_missing(Set &set)
@@ -487,6 +533,7 @@ void add_track(Set &set)
 {
     set.begin("track");
     add_following(set);
+    add_doubted(set);
     add_missing(set);
     add_gates(set);
     add_twins(set);

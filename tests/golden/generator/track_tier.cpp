@@ -54,6 +54,7 @@ drogue_result result_of(const int64_t *f, const int64_t *covariance)
     r.has_inner = as_int(f[3]);
     r.orientation_resolved = as_int(f[4]);
     r.cover_q16 = as_int(f[5]);
+    r.doubt_q16 = as_int(f[16]);
     for (drogue_pose *pose : {&r.pose, &r.alternative}) {
         const int64_t *at = f + (pose == &r.pose ? 6 : 11);
         for (size_t k = 0; k < 3; k++) {
@@ -87,7 +88,7 @@ bool valid(const Words &w)
 Tiers track_tier(const Arrays &in, const Arrays &exact)
 {
     const Words &s = in[0].words, &f = in[2].words;
-    const size_t count = f.size() / 16;
+    const size_t count = f.size() / 17;
     Words states(19 * count, 0), estimates(12 * count, 0), std(6 * count, 0);
     if (!valid(in[1].words)) {
         for (size_t i = 0; i < count; i++) {
@@ -101,10 +102,10 @@ Tiers track_tier(const Arrays &in, const Arrays &exact)
                       {q(9), q(10), q(11)}, first);
     size_t at = 0;
     for (size_t i = 0; i < count; i++) {
-        const drogue_region r = t.begin(static_cast<uint32_t>(f[16 * i]));
+        const drogue_region r = t.begin(static_cast<uint32_t>(f[17 * i]));
         const int64_t search = t.search;
         const drogue_region reach = t.reach;
-        t.end(result_of(&f[16 * i], &in[3].words[15 * i]));
+        t.end(result_of(&f[17 * i], &in[3].words[15 * i]));
         for (const int64_t v : {int64_t{DROGUE_OK}, int64_t{r.x_px}, int64_t{r.y_px}, int64_t{r.width_px},
                                 int64_t{r.height_px}, search, int64_t{reach.x_px}, int64_t{reach.y_px},
                                 int64_t{reach.width_px}, int64_t{reach.height_px}, int64_t{t.state}, int64_t{t.missed},

@@ -281,6 +281,18 @@ void finish(Result &out, const Task &task, const Features &f, const drogue_resul
     decide(out, task, f, pair, placed ? static_cast<size_t>(choice.index) : 0, library);
 }
 
+std::array<std::array<Real, 3>, 3> doubt_covariance(const std::array<Real, 3> &position, Real doubt, Real rim_radius)
+{
+    std::array<std::array<Real, 3>, 3> added;
+    for (size_t i = 0; i < 3; i++) {
+        for (size_t j = 0; j < 3; j++) {
+            added[i][j] = position[i] * position[j] * doubt * doubt / 2;
+        }
+        added[i][i] += i < 2 ? 2 * std::pow(doubt * doubt * rim_radius, 2) : 0;
+    }
+    return added;
+}
+
 void decide(Result &out, const Task &task, const Features &f, const std::array<Pose, 2> &pair, size_t nearer,
             const drogue_result *library)
 {
@@ -313,12 +325,11 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
     if (out.has_inner) {
         out.covariance *= std::max(1.0, t.agree ? t.joint.chi2 : static_cast<double>(real(config.max_chi2_q16)));
     }
-    const Real share = t.agree ? f.doubt : 1 / 64.0L; /* that of a larger outline? */
-    for (int i = 0; i < 3 && out.has_inner; i++) {
+    out.doubt = !out.has_inner ? 0 : t.agree ? f.doubt : std::max<Real>(f.doubt, 1 / 64.0L);
+    const auto doubted = doubt_covariance(out.pose.position, out.doubt, task.model.rim_radius);
+    for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
-            out.covariance(i, j) += static_cast<double>(out.pose.position[static_cast<size_t>(i)] *
-                                                        out.pose.position[static_cast<size_t>(j)] * share * share) /
-                                    2;
+            out.covariance(i, j) += static_cast<double>(doubted[static_cast<size_t>(i)][static_cast<size_t>(j)]);
         }
     }
     if (!t.resolved) { /* the truth is as likely the other pose */
@@ -455,6 +466,42 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     return f.front->list.edge_count > 0 && enlarge(out.outline, *f.front, f.mask, task.config, f.follow);
 }
 
+bool is_full(drogue_status status)
+{
+    return status == DROGUE_E_LABELS_FULL || status == DROGUE_E_EDGES_FULL || status == DROGUE_E_ARCS_FULL;
+}
+
+void find(Result &out, Frame &f, const Task &task, const drogue_result *library)
+{
+    out.status = outline_twice(out, f, task, library);
+    f.region = out.region;
+    f.outline = out.outline;
+    f.second_look = out.second_look;
+}
+
+/* With the thresholds of the region's own noise; raised while they fill a table. */
+bool try_own(Result &out, Frame &f, Task &task, const Task &asked, bool full, const drogue_result *library)
+{
+    const drogue_config &c = asked.config;
+    const auto raised = [](int32_t high) { return high + high / 2 + 1; };
+    uint32_t histogram[256];
+    const drogue_image view = {f.view.data, f.view.cols, f.view.rows, static_cast<int32_t>(f.view.step)};
+    int32_t high = std::max(drogue_noise_threshold(histogram, &view), c.canny_least);
+    high = full && high <= c.canny_high ? raised(std::min(c.canny_high, 2040)) : high;
+    bool tried = false;
+    for (int k = 0; k < 3 && c.canny_least < c.canny_high && (full ? high <= 2040 : high < c.canny_high); k++) {
+        task.config.canny_low = static_cast<int32_t>(static_cast<int64_t>(high) * c.canny_low / c.canny_high);
+        task.config.canny_high = high;
+        find(out, f, task, library);
+        tried = true;
+        if (!is_full(out.status)) {
+            break;
+        }
+        high = raised(high);
+    }
+    return tried;
+}
+
 } // namespace
 
 /* The tries of drogue_measure(), in its order. */
@@ -482,19 +529,12 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         if (larger && status != DROGUE_OK) {
             continue;
         }
+        out.outline.arcs.fill(DROGUE_NO_ARC);
         if (what == 2) {
-            uint32_t histogram[256];
-            const drogue_image view = {f.view.data, f.view.cols, f.view.rows, static_cast<int32_t>(f.view.step)};
-            const int32_t high = std::max(drogue_noise_threshold(histogram, &view), asked.config.canny_least);
-            if (high >= asked.config.canny_high) {
+            if (!try_own(out, f, task, asked, is_full(best.status), library)) {
                 break;
             }
-            task.config.canny_low =
-                static_cast<int32_t>(static_cast<int64_t>(high) * asked.config.canny_low / asked.config.canny_high);
-            task.config.canny_high = high;
-        }
-        out.outline.arcs.fill(DROGUE_NO_ARC);
-        if (larger) {
+        } else if (larger) {
             out.region = f.region;
             out.outline = f.outline;
             out.second_look = f.second_look;
@@ -504,10 +544,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             out.status =
                 enlarge(out.outline, *f.front, f.mask, task.config, f.follow) ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
         } else {
-            out.status = outline_twice(out, f, task, library);
-            f.region = out.region;
-            f.outline = out.outline;
-            f.second_look = out.second_look;
+            find(out, f, task, library);
         }
         out.tried = what;
         if (out.status == DROGUE_OK) {
@@ -515,16 +552,14 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         }
         status = out.status;
         if (room == DROGUE_SECOND_NONE) {
-            const bool full =
-                status == DROGUE_E_LABELS_FULL || status == DROGUE_E_EDGES_FULL || status == DROGUE_E_ARCS_FULL;
-            room = full                                        ? DROGUE_SECOND_FULL
+            room = is_full(status)                             ? DROGUE_SECOND_FULL
                    : out.second_look >= DROGUE_SECOND_TOO_WIDE ? out.second_look
                                                                : DROGUE_SECOND_NONE;
         }
         if (what == 0) {
             best = out;
             if (status != DROGUE_OK && status != DROGUE_E_NO_ELLIPSE && status != DROGUE_E_NO_EDGES &&
-                status != DROGUE_E_NO_ARCS) {
+                status != DROGUE_E_NO_ARCS && !is_full(status)) {
                 return best;
             }
         }

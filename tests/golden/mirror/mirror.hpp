@@ -42,6 +42,7 @@ struct Result {
     reference::Covariance covariance = {};
     std::array<Real, 3> position_std = {};
     Real axis_std = 0;
+    Real doubt = 0; /* in the covariance */
 };
 
 /* What the last part of a measurement starts from, for those who ask how far its result moves with it. */
@@ -64,6 +65,9 @@ Result measure(const Task &task, const drogue_result *library = nullptr, Feature
 
 /* The poses, their choice and covariance from the features; 'out' has what comes before. */
 void finish(Result &out, const Task &task, const Features &features, const drogue_result *library = nullptr);
+
+/* What a doubt adds to the covariance of the position. */
+std::array<std::array<Real, 3>, 3> doubt_covariance(const std::array<Real, 3> &position, Real doubt, Real rim_radius);
 
 /* The choice between the two poses, the one that is nearer to the inner part given; 'out' has has_inner. */
 void decide(Result &out, const Task &task, const Features &features, const std::array<reference::Pose, 2> &pair,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mirror.hpp"
+
 namespace mirror {
 
 namespace {
@@ -221,6 +223,8 @@ Measured Tracker::read(const drogue_result &r, bool twin) const
     if (r.covariance_q48[0][0] > 0) {
         Five apart = values(r.alternative); /* of the twins, where the covariance holds half its square */
         const Five own = values(r.pose);
+        const auto doubt =
+            doubt_covariance({own[0], own[1], own[2]}, real(r.doubt_q16), real(model_.rim_radius_m_q16));
         for (size_t p = 0; p < 5; p++) {
             apart[p] = std::clamp<Real>(apart[p] - own[p], -64, 64);
         }
@@ -235,9 +239,12 @@ Measured Tracker::read(const drogue_result &r, bool twin) const
             for (size_t q = 0; q < 5; q++) {
                 const bool known = p == q || !twin || std::max(p, q) <= Z;
                 m.noise[p][q] = known ? entry(p, q) - apart[p] * apart[q] / 2 : 0;
+                m.noise[p][q] -= std::max(p, q) <= Z ? doubt[p][q] : 0;
             }
             m.apart[p] = squared(apart[p]) / 2;
-            m.noise[p][p] = std::max<Real>(entry(p, p), 0) - m.apart[p] + squared(floor);
+            const Real own = std::max<Real>(entry(p, p), 0) - m.apart[p];
+            m.doubt[p] = p <= Z ? std::min(doubt[p][p], own) : 0;
+            m.noise[p][p] = own - m.doubt[p] + squared(floor);
         }
     } else {
         const Real z = m.value[Z], lateral = rounded(real(config_.lateral_std_q16) * z);
@@ -289,7 +296,7 @@ void Tracker::correct(Filter &f, const Measured &m) const
 void Tracker::keep_noise(const Measured &m)
 {
     for (size_t p = 0; p < 5; p++) {
-        noise_[p] = m.noise[p][p] + (orientation_known ? 0 : m.apart[p]);
+        noise_[p] = m.noise[p][p] + m.doubt[p] + (orientation_known ? 0 : m.apart[p]);
     }
 }
 

@@ -26,7 +26,7 @@ struct Filter {
 
 /* A frame's result: one of the two poses as the filter takes it. */
 struct Measured {
-    Five value = {}, std = {}, apart = {};
+    Five value = {}, std = {}, apart = {}, doubt = {};
     std::array<std::array<Real, 5>, 5> noise = {};
     bool solid = false;
 };

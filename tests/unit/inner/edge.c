@@ -256,21 +256,6 @@ START_TEST(rays_meet_the_edge)
 }
 END_TEST
 
-START_TEST(noise_of_an_image)
-{
-    uint32_t histogram[256];
-    uint64_t rng = 3;
-    int sigma;
-    for (sigma = 1; sigma <= 8; sigma++) {
-        int32_t threshold;
-        draw_disc(100, 100, 60);
-        add_noise(&rng, sigma);
-        threshold = drogue_noise_threshold(histogram, &image);
-        MUST(fabs(threshold / 12.0 - sigma) < 0.15 * sigma + 0.3, "sigma %d: threshold %d", sigma, threshold);
-    }
-}
-END_TEST
-
 SUITE_MAIN("edge", place_and_size, noise_shows_in_the_standard_deviation, what_touches_it_costs_rays_alone,
            neither_light_nor_a_ring_moves_it, the_size_decides_between_two_edges, one_edge_of_another_size_stays,
-           nothing_there, rays_meet_the_edge, noise_of_an_image)
+           nothing_there, rays_meet_the_edge)
