@@ -30,7 +30,7 @@ static void clear(drogue_result *out)
  * rays. */
 enum { FIRST, FIRST_LARGER, OWN, OWN_LARGER, BEYOND };
 
-#define RAISES 2      /* at most, of thresholds of the noise that fill a table */
+#define RAISES 2     /* at most, of thresholds of the noise that fill a table */
 #define LARGEST 2040 /* L1 Sobel magnitude that there is */
 
 static void begin_try(drogue_frame *f)
@@ -163,7 +163,7 @@ static void return_to(const best_try *best, drogue_frame *f, const drogue_region
 /* TOO_WIDE or FULL when a try had too little room: with more another might stand. */
 static drogue_second_look short_of_room(const drogue_frame *f, drogue_status status)
 {
-    return is_full(status)                              ? DROGUE_SECOND_FULL
+    return is_full(status)                            ? DROGUE_SECOND_FULL
            : f->second_look >= DROGUE_SECOND_TOO_WIDE ? f->second_look
                                                       : DROGUE_SECOND_NONE;
 }

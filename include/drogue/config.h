@@ -29,7 +29,7 @@ typedef struct drogue_cluster_config {
 typedef struct drogue_config {
     int32_t canny_low;             /* 30, L1 Sobel magnitude (grey levels * 8): lower links weaker edges */
     int32_t canny_high;            /* 80, same unit: an edge needs one pixel above it */
-    int32_t canny_least;           /* 16, same unit, [0, canny_high]: least upper threshold of a second try, when the
+    int32_t canny_least;           /* 8, same unit, [0, canny_high]: least upper threshold of a second try, when the
                                       first finds no outline or doubts it; canny_high: no second try */
     int32_t smooth;                /* 1: smooth before the gradient; 0 for images that are smooth already */
     uint32_t min_arc_px;           /* 10 edge points, Th_length: shorter arcs are not fitted */
@@ -61,8 +61,9 @@ typedef struct drogue_config {
     drogue_q16 inner_gate_q16;     /* this share of the major semi-axis of where a pose expects it */
     drogue_q16 min_inner_cover_q16; /* 0.5: and when this share of the rays across its edge agrees */
     drogue_q16 inner_rms_px_q16;    /* 0.65 px: and these lie about it by no more, root mean square */
-    drogue_q16 inner_size_px_q16; /* 1 px, 0.1: and its semi-axis is the expected one within so many pixels and this */
-    drogue_q16 inner_size_q16;    /* share */
+    drogue_q16
+        inner_size_px_q16;     /* 1.25 px, 0.07: and its semi-axis is the expected one within so many pixels and this */
+    drogue_q16 inner_size_q16; /* share */
     drogue_q16 outline_shading_q16; /* 1.6 px grey * 8: error of the outline that its own residuals cannot show, over
                                        the gradient along it (joint.h) */
     drogue_q16 optics_blur_std_px2_q16; /* 0.2 px^2: uncertainty of half the variance of the optics' blur */

@@ -158,6 +158,7 @@ void members_of_measurement(const member_sink *s, const measurement *m)
     s->end(s->state);
     put_flag(s, "orientation_resolved", r->orientation_resolved, known);
     put_q16(s, "ambiguity", r->ambiguity_q16, known);
+    put_q16(s, "doubt", r->doubt_q16, known);
     put_uncertainty(s, r, known);
 }
 

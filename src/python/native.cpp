@@ -185,6 +185,7 @@ py::dict from_result(const drogue_result &r)
     d["alternative"] = from_pose(r.alternative);
     d["orientation_resolved"] = r.orientation_resolved != 0;
     d["ambiguity"] = q16(r.ambiguity_q16);
+    d["doubt"] = q16(r.doubt_q16);
     d["covariance"] = covariance;
     d["position_std_m"] = position_std;
     d["axis_std_rad"] = std::ldexp(static_cast<double>(r.axis_std_rad_q32), -32);

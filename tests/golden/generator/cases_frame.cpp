@@ -126,6 +126,11 @@ void add_disturbed_scenes(Set &set)
     accuracy::Scene s = scene_at(31, 0.9, -0.7, 12, 12, -8);
     s.sensor.noise = 9;
     add_frame(set, "strong-noise", Tier::stress, {"noise"}, photograph(s, region_of(s), 0));
+    for (const double noise : {18, 30}) { /* fills a table: thresholds of its own strength, once and raised */
+        s.sensor.noise = noise;
+        add_frame(set, "noise-fills-a-table-" + std::to_string(static_cast<int>(noise)), Tier::stress, {"noise"},
+                  photograph(s, region_of(s), 0));
+    }
     s = scene_at(32, -0.6, 0.5, 12, -14, 6);
     s.sensor.motion_length_px = 6;
     s.sensor.motion_angle_rad = 0.6;

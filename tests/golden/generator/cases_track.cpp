@@ -22,7 +22,7 @@ struct Seen {
     Five off_twin = {0.004, -0.003, 0.01, -0.5, 0.42}; /* the other pose less this one */
     int64_t dt_us = 40000, status = DROGUE_OK, look = DROGUE_SECOND_NONE, inner = 1, resolved = 1;
     double cover = 1;
-    double doubt = 0; /* share of the distance */
+    double doubt = 0;                                /* share of the distance */
     Five std = {0.0015, 0.0015, 0.02, 0.012, 0.011}; /* all 0: no covariance */
     double with_z = 0; /* correlation of x and y with z, of yaw and pitch with each other */
 };

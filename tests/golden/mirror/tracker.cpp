@@ -223,8 +223,7 @@ Measured Tracker::read(const drogue_result &r, bool twin) const
     if (r.covariance_q48[0][0] > 0) {
         Five apart = values(r.alternative); /* of the twins, where the covariance holds half its square */
         const Five own = values(r.pose);
-        const auto doubt =
-            doubt_covariance({own[0], own[1], own[2]}, real(r.doubt_q16), real(model_.rim_radius_m_q16));
+        const auto doubt = doubt_covariance({own[0], own[1], own[2]}, real(r.doubt_q16), real(model_.rim_radius_m_q16));
         for (size_t p = 0; p < 5; p++) {
             apart[p] = std::clamp<Real>(apart[p] - own[p], -64, 64);
         }

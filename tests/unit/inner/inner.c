@@ -168,13 +168,13 @@ START_TEST(reasons_not_to_believe)
     finding f = usual_finding();
     int k;
     ck_assert(std_of(&f) > 0);
-    for (k = -1; k <= 1; k += 2) { /* a tenth and a pixel larger or smaller */
-        f.edge.grown_px_q16 = k * q16_of(3.99);
+    for (k = -1; k <= 1; k += 2) { /* 7 % and 5/4 px larger or smaller */
+        f.edge.grown_px_q16 = k * q16_of(3.34);
         ck_assert(std_of(&f) > 0);
-        f.edge.grown_px_q16 = k * q16_of(4.01);
+        f.edge.grown_px_q16 = k * q16_of(3.36);
         ck_assert_int_eq(drogue_inner_std(&f.edge, &f.expected, &f.outline, &f.config), k > 0 ? -1 : 0);
     }
-    f.edge.grown_px_q16 = q16_of(4.01);
+    f.edge.grown_px_q16 = q16_of(3.36);
     f.edge.rays = 25; /* too large, and too little of it: no disc */
     ck_assert(std_of(&f) == 0);
     f = usual_finding();

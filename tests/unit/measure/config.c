@@ -39,11 +39,11 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.min_inner_contrast, 6);
     ck_assert_int_eq(c.inner_gate_px_q16, q16_of(1.5));
     ck_assert_int_eq(c.inner_gate_q16, q16_of(0.05));
-    ck_assert_int_eq(c.canny_least, 16);
+    ck_assert_int_eq(c.canny_least, 8);
     ck_assert_int_eq(c.min_inner_cover_q16, q16_of(0.5));
     ck_assert_int_eq(c.inner_rms_px_q16, q16_of(0.65));
-    ck_assert_int_eq(c.inner_size_px_q16, q16_of(1));
-    ck_assert_int_eq(c.inner_size_q16, q16_of(0.1));
+    ck_assert_int_eq(c.inner_size_px_q16, q16_of(1.25));
+    ck_assert_int_eq(c.inner_size_q16, q16_of(0.07));
     ck_assert_int_eq(c.outline_shading_q16, q16_of(1.6));
     ck_assert_int_eq(c.optics_blur_std_px2_q16, q16_of(0.2));
     ck_assert_int_eq(c.inner_std_px_q16, q16_of(0.05));

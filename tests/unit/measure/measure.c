@@ -397,6 +397,42 @@ START_TEST(full_tables)
 }
 END_TEST
 
+/* Where noise fills a table, thresholds of its own strength are tried, raised twice if need be. */
+START_TEST(noise_that_fills_a_table)
+{
+    static const struct {
+        double noise;
+        uint32_t edges;
+        int found, tried;
+    } cases[] = {{0, 1500, 1, 0}, {12, 1500, 1, 2}, {20, 1500, 1, 2}, {20, 900, 1, 2}, {20, 300, 0, 0}};
+    drogue_config config;
+    size_t i;
+    int k;
+    for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        test_workspace t = test_workspace_of(WIDTH, cases[i].edges, 4096, 512);
+        drogue_result r;
+        uint64_t rng = 21;
+        draw(&usual);
+        for (k = 0; k < WIDTH * HEIGHT; k++) {
+            pixels[k] = (uint8_t)fmin(fmax(pixels[k] + cases[i].noise * rng_normal(&rng), 0), 255);
+        }
+        drogue_config_default(&config);
+        MUST(measure(&r, &t, &config, &model, &whole) == (cases[i].found ? DROGUE_OK : DROGUE_E_EDGES_FULL) &&
+                 r.tried == cases[i].tried,
+             "case %zu: %s, tried %d", i, drogue_status_name(r.status), r.tried);
+        MUST((r.second_look == DROGUE_SECOND_FULL) == (cases[i].tried == 2 || !cases[i].found), "case %zu: %s", i,
+             drogue_second_look_name(r.second_look));
+        MUST(!cases[i].found || axis_error(&r.pose, &usual) < 0.05, "case %zu: axis %g off", i,
+             axis_error(&r.pose, &usual));
+        config.canny_least = config.canny_high; /* no second try */
+        MUST(measure(&r, &t, &config, &model, &whole) ==
+                 (cases[i].tried == 0 && cases[i].found ? DROGUE_OK : DROGUE_E_EDGES_FULL),
+             "case %zu: %s", i, drogue_status_name(r.status));
+        test_workspace_free(&t);
+    }
+}
+END_TEST
+
 START_TEST(nothing_to_measure)
 {
     test_workspace t = usual_workspace();
@@ -784,7 +820,7 @@ END_TEST
 SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline,
            a_canopy_so_narrow_that_its_inner_edge_is_found, without_inner_part, regions_of_one_image,
            ring_of_a_clipped_region, arguments, regions_that_miss, images_beyond_the_coordinates, full_tables,
-           nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide, inner_part_that_contradicts,
-           covariance_of_the_result, off_centre_region, second_look_that_fails, second_look_is_told,
-           background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
+           noise_that_fills_a_table, nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide,
+           inner_part_that_contradicts, covariance_of_the_result, off_centre_region, second_look_that_fails,
+           second_look_is_told, background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
            capacity_by_macro_is_capacity_by_function)
