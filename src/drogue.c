@@ -46,6 +46,14 @@ static drogue_status judge(drogue_frame *f, int what)
     return drogue_frame_judge(f);
 }
 
+/* Both thresholds, as far apart as the configured ones. */
+static void set_thresholds(drogue_frame *f, int32_t high)
+{
+    const drogue_config *config = f->setup->config;
+    f->canny_low = config->canny_high > 0 ? (int32_t)((int64_t)high * config->canny_low / config->canny_high) : 0;
+    f->canny_high = high;
+}
+
 static drogue_status try_out(drogue_frame *f, const drogue_region *region, int what, int looked)
 {
     drogue_status status = DROGUE_OK;
@@ -74,30 +82,36 @@ static int is_full(drogue_status status)
 
 static int32_t raised(int32_t high) { return high + high / 2 + 1; }
 
-/* Look with the thresholds of the region's own noise, as far apart as the configured ones: higher ones where these filled a
- * table, else lower ones; raised by half where they fill one themselves. 0 when there are none to try. */
-static int try_own(drogue_status *status, drogue_frame *f, const drogue_region *region, int full)
+/* May it be tried? Lower thresholds than the configured ones, or where these filled a table higher ones. */
+static int is_other(int32_t high, const drogue_frame *f, int full)
+{
+    const drogue_config *config = f->setup->config;
+    return config->canny_least < config->canny_high && (full ? high <= LARGEST : high < config->canny_high);
+}
+
+/* Upper threshold of the region's own noise. */
+static int32_t own_threshold(const drogue_frame *f, int full)
 {
     const drogue_config *config = f->setup->config;
     int32_t high = drogue_noise_threshold(f->workspace->histogram, &f->view);
-    int k;
     high = high < config->canny_least ? config->canny_least : high;
     if (full && high <= config->canny_high) {
         high = raised(drogue_clamp_s32(config->canny_high, 0, LARGEST));
     }
-    if (config->canny_least == config->canny_high) {
-        return 0;
-    }
-    for (k = 0; k <= RAISES && (full ? high <= LARGEST : high < config->canny_high); k++) { /* bound: 3 */
-        f->canny_low = (int32_t)((int64_t)high * config->canny_low / config->canny_high);
-        f->canny_high = high;
-        *status = try_out(f, region, OWN, 0);
-        if (!is_full(*status)) {
-            return 1;
-        }
+    return high;
+}
+
+/* Look with other thresholds, raised where they fill a table. */
+static drogue_status try_own(drogue_frame *f, const drogue_region *region, int32_t high, int full)
+{
+    drogue_status status;
+    int raises = 0;
+    do { /* bound: RAISES + 1 */
+        set_thresholds(f, high);
+        status = try_out(f, region, OWN, 0);
         high = raised(high);
-    }
-    return k > 0;
+    } while (is_full(status) && raises++ < RAISES && is_other(high, f, full));
+    return status;
 }
 
 #define SURE_Q16 DROGUE_Q16(1, 256)    /* of less doubt nothing else is tried */
@@ -121,8 +135,6 @@ static void refuse(drogue_result *out)
 typedef struct best_try {
     int what;
     drogue_q16 least_q16; /* its doubt; DROGUE_Q16_MAX: it has no outline */
-    drogue_status status;
-    drogue_second_look second_look;
     drogue_q16 larger_q16;
     drogue_region region;  /* where its edges were looked for */
     drogue_result *result; /* the workspace's, which leaves the stack free */
@@ -132,23 +144,21 @@ static void keep_try(best_try *best, const drogue_frame *f, int what, drogue_sta
 {
     best->what = what;
     best->least_q16 = f->doubt_q16;
-    best->status = status;
-    best->second_look = f->second_look;
     best->larger_q16 = f->larger_q16;
     best->region = f->asked;
     *best->result = *f->out;
+    best->result->status = status;
+    best->result->second_look = f->second_look;
 }
 
 /* What was best stands, and its edges are in the workspace again; where nothing was found they are those of the last try. */
 static void return_to(const best_try *best, drogue_frame *f, const drogue_region *region, int last)
 {
-    const drogue_config *config = f->setup->config;
     const int found = best->result->ellipse.a_px_q16 > 0; /* its arcs are in the list of that outline, pose or not */
     drogue_edge_list list;
     if (found && (last == BEYOND || (best->what < OWN && last >= OWN))) {
         if (best->what < OWN) {
-            f->canny_low = config->canny_low;
-            f->canny_high = config->canny_high;
+            set_thresholds(f, f->setup->config->canny_high);
         }
         (void)drogue_frame_edges(f, &best->region);
     } else if (!found && f->others) {
@@ -157,7 +167,7 @@ static void return_to(const best_try *best, drogue_frame *f, const drogue_region
     list = f->out->list;
     *f->out = *best->result;
     f->out->list = list;
-    f->second_look = best->second_look;
+    f->second_look = best->result->second_look;
 }
 
 /* TOO_WIDE or FULL when a try had too little room: with more another might stand. */
@@ -171,7 +181,7 @@ static drogue_second_look short_of_room(const drogue_frame *f, drogue_status sta
 /* Is the inner disc too large for the best outline, by no more than one about it explains? */
 static int asks_beyond(const best_try *best)
 {
-    return best->status == DROGUE_OK && best->least_q16 > SURE_Q16 && best->larger_q16 > LEAST_Q16 &&
+    return best->result->status == DROGUE_OK && best->least_q16 > SURE_Q16 && best->larger_q16 > LEAST_Q16 &&
            best->larger_q16 <= BEYOND_Q16;
 }
 
@@ -179,7 +189,7 @@ static int asks_beyond(const best_try *best)
  * wall's. */
 static int too_large(const best_try *best)
 {
-    return best->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE && best->larger_q16 > 0;
+    return best->result->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE && best->larger_q16 > 0;
 }
 
 /* Look for the outline that the inner disc is of the size for. */
@@ -190,7 +200,7 @@ static void try_beyond(best_try *best, drogue_frame *f)
     drogue_status status;
     begin_try(f);
     clear(f->out);
-    f->second_look = best->second_look;
+    f->second_look = best->result->second_look;
     status = drogue_frame_beyond(f, &region, &was, best->larger_q16);
     if (status == DROGUE_OK) {
         f->outline.quality = best->result->quality; /* of the arcs that it was found from */
@@ -206,7 +216,6 @@ static void try_beyond(best_try *best, drogue_frame *f)
  * nearest to its size stands. */
 static drogue_status measure(drogue_frame *f, const drogue_region *region)
 {
-    const drogue_config *config = f->setup->config;
     drogue_status status = DROGUE_OK;
     drogue_second_look room = DROGUE_SECOND_NONE;
     best_try best;
@@ -214,25 +223,29 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     int what;
     best.least_q16 = DROGUE_Q16_MAX;
     best.result = f->workspace->kept;
-    f->canny_low = config->canny_low;
-    f->canny_high = config->canny_high;
+    set_thresholds(f, f->setup->config->canny_high);
     for (what = FIRST; what < BEYOND && best.least_q16 > SURE_Q16; what++) {
         const int larger = what == FIRST_LARGER || what == OWN_LARGER;
         if (larger && status != DROGUE_OK) {
             continue;
         }
-        if (what != OWN) {
+        if (what == OWN) {
+            const int full = is_full(best.result->status);
+            const int32_t high = own_threshold(f, full);
+            if (!is_other(high, f, full)) {
+                break;
+            }
+            status = try_own(f, region, high, full);
+        } else {
             status = try_out(f, region, what, larger);
-        } else if (!try_own(&status, f, region, is_full(best.status))) {
-            break;
         }
         last = what;
         if (what == FIRST && status != DROGUE_OK && status != DROGUE_E_NO_ELLIPSE && status != DROGUE_E_NO_EDGES &&
             status != DROGUE_E_NO_ARCS && !is_full(status)) {
             return status;
         }
-        if (what == FIRST ||
-            (f->doubt_q16 < best.least_q16 - CLEARLY_Q16 && (status == DROGUE_OK || best.status != DROGUE_OK))) {
+        if (what == FIRST || (f->doubt_q16 < best.least_q16 - CLEARLY_Q16 &&
+                              (status == DROGUE_OK || best.result->status != DROGUE_OK))) {
             keep_try(&best, f, what, status);
         }
         if (room == DROGUE_SECOND_NONE) {
@@ -255,7 +268,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
         refuse(f->out);
         return DROGUE_E_NO_ELLIPSE;
     }
-    return best.status;
+    return best.result->status;
 }
 
 static int valid(const drogue_image *image, const drogue_setup *setup)

@@ -25,10 +25,10 @@ typedef struct drogue_decision {
     drogue_pose pose;              /* unresolved: the nearer one */
     drogue_pose alternative;       /* the other one that the outline allows */
     int32_t orientation_resolved;  /* 1: the inner part decided between the two */
+    drogue_q16 doubt_q16;          /* that is in the covariance, by drogue_doubt_add() */
     int64_t covariance_q48[5][5];  /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric; saturated: at most 2^15 */
     int64_t position_std_m_q32[3]; /* roots of its first three diagonal entries, Q32 */
     int64_t axis_std_rad_q32;      /* root mean square angle between measured and true axis, Q32 */
-    drogue_q16 doubt_q16;          /* that is in the covariance, as drogue_doubt_covariance() takes it */
 } drogue_decision;
 
 /* Solve for outline and inner part together; for the outline alone when they contradict each other or there is no inner
@@ -45,16 +45,16 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
 
 #define DROGUE_DOUBT_PACKED 6 /* x, y, z: the first entries of a packed covariance that begins with them */
 
-/* What a doubt adds to the covariance. An inner part that is not of its size may be that of a larger outline: half the
- * square of that share of the position, since where it is one, the distance is off by about twice as much. The larger
- * outline lies in another plane and is the more likely the larger the share is: sideways half the square of twice that
- * share's square of the rim's radius.
+/* Add a doubt to a covariance. An inner part that is not of its size may be that of a larger outline: half the square of
+ * that share of the position, since where it is one, the distance is off by about twice as much. The larger outline lies
+ * in another plane and is the more likely the larger the share is: sideways half the square of twice that share's square of
+ * the rim's radius.
  *
- *  added      out, m^2
- *  doubt_q16  share of the distance, [0, 1)
+ *  covariance  m^2, in and out
+ *  doubt_q16   share of the distance, [0, 1)
  */
-void drogue_doubt_covariance(drogue_real added[DROGUE_DOUBT_PACKED], const drogue_q16 position_m_q16[3],
-                             drogue_q16 doubt_q16, drogue_q16 rim_radius_m_q16);
+void drogue_doubt_add(drogue_real covariance[DROGUE_DOUBT_PACKED], const drogue_q16 position_m_q16[3],
+                      drogue_q16 doubt_q16, drogue_q16 rim_radius_m_q16);
 
 #ifdef __cplusplus
 }

@@ -99,75 +99,63 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
 static void add_spread(drogue_joint *joint, const drogue_pose *other)
 {
     const drogue_pose *p = &joint->pose;
-    int64_t apart_q16[5];
+    drogue_real apart[5];
+    drogue_real half;
     int i;
     int j;
     for (i = 0; i < 3; i++) {
-        apart_q16[i] = (int64_t)other->position_m_q16[i] - p->position_m_q16[i];
+        drogue_real_set(&apart[i], (int64_t)other->position_m_q16[i] - p->position_m_q16[i], -16);
     }
-    apart_q16[3] = (int64_t)other->yaw_rad_q16 - p->yaw_rad_q16;
-    apart_q16[4] = (int64_t)other->pitch_rad_q16 - p->pitch_rad_q16;
+    drogue_real_set(&apart[3], (int64_t)other->yaw_rad_q16 - p->yaw_rad_q16, -16);
+    drogue_real_set(&apart[4], (int64_t)other->pitch_rad_q16 - p->pitch_rad_q16, -16);
     for (i = 0; i < 5; i++) {
         for (j = 0; j <= i; j++) {
             drogue_real *sum = &joint->covariance[DROGUE_PACKED(i, j)];
-            drogue_real own;
-            drogue_real half;
-            drogue_real_set(&own, apart_q16[i], -16);
-            drogue_real_set(&half, apart_q16[j], -17);
-            drogue_real_product(&own, &own, &half);
-            drogue_real_sum(sum, sum, &own);
+            drogue_real_product(&half, &apart[i], &apart[j]);
+            drogue_real_shift(&half, -1);
+            drogue_real_sum(sum, sum, &half);
         }
     }
 }
 
 #define CONTRADICTED_Q16 DROGUE_Q16(1, 64) /* of its size: as if an inner part that contradicts were so far off */
 
-void drogue_doubt_covariance(drogue_real added[DROGUE_DOUBT_PACKED], const drogue_q16 position_m_q16[3],
-                             drogue_q16 doubt_q16, drogue_q16 rim_radius_m_q16)
+void drogue_doubt_add(drogue_real covariance[DROGUE_DOUBT_PACKED], const drogue_q16 position_m_q16[3],
+                      drogue_q16 doubt_q16, drogue_q16 rim_radius_m_q16)
 {
-    drogue_real sideways;
-    drogue_real share;
+    drogue_real own;
+    drogue_real other;
     int i;
     int j;
     for (i = 0; i < 3; i++) {
         for (j = 0; j <= i; j++) {
-            drogue_real own;
-            drogue_real half;
+            drogue_real *sum = &covariance[DROGUE_PACKED(i, j)];
             drogue_real_set(&own, drogue_product(position_m_q16[i], doubt_q16), -32);
-            drogue_real_set(&half, drogue_product(position_m_q16[j], doubt_q16), -33);
-            drogue_real_product(&added[DROGUE_PACKED(i, j)], &own, &half);
+            drogue_real_set(&other, drogue_product(position_m_q16[j], doubt_q16), -33); /* half of it */
+            drogue_real_product(&own, &own, &other);
+            drogue_real_sum(sum, sum, &own);
         }
     }
-    drogue_real_set_q16(&share, doubt_q16);
-    drogue_real_set(&sideways, drogue_product(rim_radius_m_q16, doubt_q16), -32);
-    drogue_real_product(&sideways, &sideways, &share);
-    drogue_real_product(&sideways, &sideways, &sideways);
-    drogue_real_shift(&sideways, 1);
+    drogue_real_set(&own, drogue_product(rim_radius_m_q16, doubt_q16), -32);
+    drogue_real_set_q16(&other, doubt_q16);
+    drogue_real_product(&own, &own, &other);
+    drogue_real_product(&own, &own, &own);
+    drogue_real_shift(&own, 1);
     for (i = 0; i < 2; i++) {
-        drogue_real_sum(&added[DROGUE_PACKED(i, i)], &added[DROGUE_PACKED(i, i)], &sideways);
-    }
-}
-
-static void add_doubt(drogue_joint *joint, drogue_q16 doubt_q16, drogue_q16 rim_radius_m_q16)
-{
-    drogue_real added[DROGUE_DOUBT_PACKED];
-    int i;
-    drogue_doubt_covariance(added, joint->pose.position_m_q16, doubt_q16, rim_radius_m_q16);
-    for (i = 0; i < DROGUE_DOUBT_PACKED; i++) {
-        drogue_real_sum(&joint->covariance[i], &joint->covariance[i], &added[i]);
+        drogue_real_sum(&covariance[DROGUE_PACKED(i, i)], &covariance[DROGUE_PACKED(i, i)], &own);
     }
 }
 
 /* What outline and inner part disagree by, beyond what is usual, is in both: chi2 times their covariance. */
-static void widen(drogue_joint *joint, drogue_real chi2)
+static void widen(drogue_joint *joint)
 {
     const drogue_real one = {1 << 30, -30};
     int i;
-    if (drogue_real_order(&chi2, &one) <= 0) {
+    if (drogue_real_order(&joint->chi2, &one) <= 0) {
         return;
     }
     for (i = 0; i < DROGUE_PACKED_MAX; i++) {
-        drogue_real_product(&joint->covariance[i], &joint->covariance[i], &chi2);
+        drogue_real_product(&joint->covariance[i], &joint->covariance[i], &joint->chi2);
     }
 }
 
@@ -186,25 +174,31 @@ static void doubt_outline(drogue_joint_outline *outline)
 
 static int has_inner(const drogue_evidence *evidence) { return evidence->inner.std_px_q16 > 0; }
 
+static drogue_q16 doubt_of(const drogue_evidence *evidence, int agree)
+{
+    const drogue_q16 doubt_q16 = has_inner(evidence) ? evidence->doubt_q16 : 0;
+    return has_inner(evidence) && !agree && doubt_q16 < CONTRADICTED_Q16 ? CONTRADICTED_Q16 : doubt_q16;
+}
+
 drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup)
 {
     static const drogue_joint_inner none = {0, 0, 0};
     drogue_joint_outline outline;
     drogue_joint joint;
     uint32_t index = evidence->nearer;
-    int32_t resolved = 0;
     int agree = 0;
     memset(&joint, 0, sizeof joint);
+    out->orientation_resolved = 0;
     outline.ellipse = evidence->ideal;
     if (drogue_joint_outline_covariance(&outline, evidence->support, setup->config->outline_shading_q16,
                                         setup->config->optics_blur_std_px2_q16) != DROGUE_OK) {
         return DROGUE_E_DOMAIN;
     }
     if (has_inner(evidence)) {
-        agree = solve_together(&joint, &index, &resolved, &outline, evidence, setup);
+        agree = solve_together(&joint, &index, &out->orientation_resolved, &outline, evidence, setup);
     }
     if (!agree) {
-        resolved = 0;
+        out->orientation_resolved = 0;
         index = evidence->nearer;
         if (setup->model->inner_radius_m_q16 > 0 && !has_inner(evidence)) {
             doubt_outline(&outline);
@@ -214,20 +208,17 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
             return DROGUE_E_DOMAIN;
         }
     }
-    out->doubt_q16 = has_inner(evidence) ? evidence->doubt_q16 : 0;
     if (has_inner(evidence)) {
-        drogue_real chi2 = joint.chi2;
         if (!agree) {
-            drogue_real_set_q16(&chi2, setup->config->max_chi2_q16);
-            out->doubt_q16 = out->doubt_q16 > CONTRADICTED_Q16 ? out->doubt_q16 : CONTRADICTED_Q16;
+            drogue_real_set_q16(&joint.chi2, setup->config->max_chi2_q16);
         }
-        widen(&joint, chi2);
-        add_doubt(&joint, out->doubt_q16, setup->model->rim_radius_m_q16);
+        widen(&joint);
     }
-    out->orientation_resolved = resolved;
+    out->doubt_q16 = doubt_of(evidence, agree);
+    drogue_doubt_add(joint.covariance, joint.pose.position_m_q16, out->doubt_q16, setup->model->rim_radius_m_q16);
     out->pose = joint.pose;
     out->alternative = evidence->poses[1 - index];
-    if (!resolved) {
+    if (!out->orientation_resolved) {
         add_spread(&joint, &out->alternative);
     }
     put_covariance(out, &joint);

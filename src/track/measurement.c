@@ -71,7 +71,8 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
     int p;
     int q;
     twins_apart(apart_q16, result);
-    drogue_doubt_covariance(doubt, result->pose.position_m_q16, result->doubt_q16, rim_radius_m_q16);
+    memset(doubt, 0, sizeof doubt);
+    drogue_doubt_add(doubt, result->pose.position_m_q16, result->doubt_q16, rim_radius_m_q16);
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         const int64_t own_q48 = result->covariance_q48[order[p]][order[p]];
         drogue_real *variance = &m->noise[DROGUE_PACKED(p, p)];
@@ -83,7 +84,7 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
         drogue_real_product(variance, variance, variance);
         drogue_real_set(&own, own_q48 > 0 ? own_q48 : 0, -48);
         drogue_real_difference(&own, &own, &m->apart[p]);
-        if (p <= DROGUE_Z) {
+        if (p < DROGUE_PITCH) {
             m->doubt[p] = doubt[DROGUE_PACKED(p, p)];
             if (drogue_real_order(&m->doubt[p], &own) > 0) { /* of a result that somebody else made */
                 m->doubt[p] = own;
@@ -98,7 +99,7 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
             drogue_real_set(both, result->covariance_q48[order[p]][order[q]], -48);
             drogue_real_set(&own, half_product_q48(apart_q16, p, q), -48);
             drogue_real_difference(both, both, &own);
-            if (p <= DROGUE_Z) {
+            if (p < DROGUE_PITCH) {
                 drogue_real_difference(both, both, &doubt[DROGUE_PACKED(p, q)]);
             }
         }

@@ -15,6 +15,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "processing.hpp"
+
 namespace accuracy {
 
 namespace {
@@ -131,7 +133,8 @@ std::vector<Outcome> run_trials(const std::vector<Trial> &trials, const RunOptio
         for (size_t i = next++; i < trials.size(); i = next++) {
             try {
                 const Trial &t = trials[i];
-                const cv::Mat region = picture_of(t, options.cache);
+                const cv::Mat picture = picture_of(t, options.cache);
+                const cv::Mat region = options.processing.empty() ? picture : processed(picture, options.processing);
                 cv::Mat image = cv::Mat::zeros(t.scene.image_px, CV_8U);
                 region.copyTo(image(t.region)); /* the library looks nowhere else */
                 const Measurement m = measure(image, t.scene.camera, t.model, t.region);

@@ -42,6 +42,7 @@ Outcome judge(const Trial &t, const Measurement &m);
 struct RunOptions {
     int threads = 0;                              /* 0: as many as the machine has */
     std::string cache;                            /* folder of rendered regions, reused; none when empty */
+    std::string processing;                       /* of every picture (processing.hpp); none when empty */
     std::function<void(size_t, size_t)> progress; /* called with done and total, from one thread at a time */
     /* Called for every trial, from one thread at a time, in no fixed order. */
     std::function<void(const Trial &, const cv::Mat &region, const Measurement &, const Outcome &)> inspect;

@@ -9,6 +9,7 @@
  *  NEES         mean normalised error squared per degree of freedom over what was measured: all, resolved, not resolved;
  *               and the median over all over that of chi-square
  */
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -21,6 +22,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "evaluate.hpp"
+#include "processing.hpp"
 #include "varied.hpp"
 
 using namespace accuracy;
@@ -32,6 +34,7 @@ struct Options {
     uint64_t seed = 1;
     bool held_out = false;
     bool verbose = false;
+    bool rows = true;
     std::string only, sheet;
     RunOptions run;
 };
@@ -147,7 +150,9 @@ void run_variety(Variety variety, const Options &options, Row &total)
             print_trial(trials[i], measured[i], outcomes[i]);
         }
     }
-    row.print(name_of(variety));
+    if (options.rows) {
+        row.print(name_of(variety));
+    }
     if (!options.sheet.empty()) {
         write_sheet(options.sheet + "/" + name_of(variety) + ".png", pictures);
     }
@@ -155,15 +160,17 @@ void run_variety(Variety variety, const Options &options, Row &total)
 
 void usage(FILE *to)
 {
-    std::fputs("usage: varied_table [--scenes N] [--seed S] [--held-out] [--only NAME] [--verbose] [--cache DIR]\n"
-               "                    [--sheet DIR]\n"
-               "  --scenes N    scenes of each variety (24)\n"
-               "  --held-out    from the ranges that nothing was tuned on\n"
-               "  --only NAME   one variety\n"
-               "  --verbose     a line for each scene\n"
-               "  --cache DIR   keep rendered regions there\n"
-               "  --sheet DIR   write pictures there: truth green, measurement red\n",
-               to);
+    std::fputs(
+        "usage: varied_table [--scenes N] [--seed S] [--held-out] [--only NAME] [--processing NAME] [--verbose]\n"
+        "                    [--cache DIR] [--sheet DIR]\n"
+        "  --scenes N    scenes of each variety (24)\n"
+        "  --held-out    from the ranges that nothing was tuned on\n"
+        "  --only NAME   one variety\n"
+        "  --processing NAME  of the pictures (processing.hpp); 'all': a line for each, and one for none\n"
+        "  --verbose     a line for each scene\n"
+        "  --cache DIR   keep rendered regions there\n"
+        "  --sheet DIR   write pictures there: truth green, measurement red\n",
+        to);
 }
 
 Options parse(int argc, char **argv)
@@ -172,6 +179,7 @@ Options parse(int argc, char **argv)
                             {"seed", required_argument, nullptr, 's'},
                             {"held-out", no_argument, nullptr, 'o'},
                             {"only", required_argument, nullptr, 'k'},
+                            {"processing", required_argument, nullptr, 'r'},
                             {"verbose", no_argument, nullptr, 'v'},
                             {"cache", required_argument, nullptr, 'c'},
                             {"sheet", required_argument, nullptr, 'p'},
@@ -185,6 +193,7 @@ Options parse(int argc, char **argv)
         case 's': o.seed = std::strtoull(optarg, nullptr, 10); break;
         case 'o': o.held_out = true; break;
         case 'k': o.only = optarg; break;
+        case 'r': o.run.processing = optarg; break;
         case 'v': o.verbose = true; break;
         case 'c': o.run.cache = optarg; break;
         case 'p': o.sheet = optarg; break;
@@ -192,7 +201,10 @@ Options parse(int argc, char **argv)
         default: usage(stderr); std::exit(2);
         }
     }
-    if (optind != argc || o.scenes < 1) {
+    const std::vector<std::string> &known_names = processings();
+    if (optind != argc || o.scenes < 1 ||
+        (!o.run.processing.empty() && o.run.processing != "all" &&
+         std::find(known_names.begin(), known_names.end(), o.run.processing) == known_names.end())) {
         usage(stderr);
         std::exit(2);
     }
@@ -203,8 +215,9 @@ Options parse(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    const Options options = parse(argc, argv);
-    Row total;
+    Options options = parse(argc, argv);
+    const bool each = options.run.processing == "all";
+    std::vector<std::string> names = {options.run.processing};
     bool any = false;
     if (!options.sheet.empty()) {
         std::filesystem::create_directories(options.sheet);
@@ -212,17 +225,26 @@ int main(int argc, char **argv)
     std::printf("%-8s %4s %4s %5s | %5s %4s %5s %4s | %6s %6s %7s %7s | %9s %8s %9s %7s\n", "", "n", "ok", "wrong",
                 "inner", "bad", "open", "twin", "rim px", "disc", "z %", "axis", "NEES all", "resolved", "open",
                 "median");
-    for (int v = 0; v < varieties; v++) {
-        const auto variety = static_cast<Variety>(v);
-        if (options.only.empty() || options.only == name_of(variety)) {
-            run_variety(variety, options, total);
-            any = true;
+    if (each) {
+        names = processings();
+        names.insert(names.begin(), "");
+        options.rows = false;
+    }
+    for (const std::string &name : names) {
+        Row total;
+        options.run.processing = name;
+        for (int v = 0; v < varieties; v++) {
+            const auto variety = static_cast<Variety>(v);
+            if (options.only.empty() || options.only == name_of(variety)) {
+                run_variety(variety, options, total);
+                any = true;
+            }
         }
+        total.print(!each ? "all" : name.empty() ? "none" : name.c_str());
     }
     if (!any) {
         std::fprintf(stderr, "varied_table: no variety %s\n", options.only.c_str());
         return 2;
     }
-    total.print("all");
     return 0;
 }

@@ -397,24 +397,29 @@ START_TEST(full_tables)
 }
 END_TEST
 
-/* Where noise fills a table, thresholds of its own strength are tried, raised twice if need be. */
-START_TEST(noise_that_fills_a_table)
+/* Where noise or bars behind the drogue fill a table, higher thresholds are tried, raised twice if need be. */
+START_TEST(what_fills_a_table_is_thresholded)
 {
     static const struct {
-        double noise;
+        double noise, bars;
         uint32_t edges;
         int found, tried;
-    } cases[] = {{0, 1500, 1, 0}, {12, 1500, 1, 2}, {20, 1500, 1, 2}, {20, 900, 1, 2}, {20, 300, 0, 0}};
+    } cases[] = {{0, 0, 1500, 1, 0}, {12, 0, 1500, 1, 2}, {20, 0, 1500, 1, 2}, {20, 0, 900, 1, 2},
+                 {20, 0, 300, 0, 0}, {0, 36, 8192, 1, 0}, {0, 36, 1400, 1, 2}, {0, 36, 300, 0, 0}};
     drogue_config config;
     size_t i;
-    int k;
+    int x, y;
     for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         test_workspace t = test_workspace_of(WIDTH, cases[i].edges, 4096, 512);
         drogue_result r;
         uint64_t rng = 21;
         draw(&usual);
-        for (k = 0; k < WIDTH * HEIGHT; k++) {
-            pixels[k] = (uint8_t)fmin(fmax(pixels[k] + cases[i].noise * rng_normal(&rng), 0), 255);
+        for (y = 0; y < HEIGHT; y++) {
+            for (x = 0; x < WIDTH; x++) {
+                uint8_t *p = &pixels[y * WIDTH + x];
+                const double bars = y < 60 && *p == 200 && x / 8 % 2 != 0 ? cases[i].bars : 0;
+                *p = (uint8_t)fmin(fmax(*p + bars + cases[i].noise * rng_normal(&rng), 0), 255);
+            }
         }
         drogue_config_default(&config);
         MUST(measure(&r, &t, &config, &model, &whole) == (cases[i].found ? DROGUE_OK : DROGUE_E_EDGES_FULL) &&
@@ -426,7 +431,7 @@ START_TEST(noise_that_fills_a_table)
              axis_error(&r.pose, &usual));
         config.canny_least = config.canny_high; /* no second try */
         MUST(measure(&r, &t, &config, &model, &whole) ==
-                 (cases[i].tried == 0 && cases[i].found ? DROGUE_OK : DROGUE_E_EDGES_FULL),
+                 (cases[i].found && cases[i].tried == 0 ? DROGUE_OK : DROGUE_E_EDGES_FULL),
              "case %zu: %s", i, drogue_status_name(r.status));
         test_workspace_free(&t);
     }
@@ -820,7 +825,7 @@ END_TEST
 SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline,
            a_canopy_so_narrow_that_its_inner_edge_is_found, without_inner_part, regions_of_one_image,
            ring_of_a_clipped_region, arguments, regions_that_miss, images_beyond_the_coordinates, full_tables,
-           noise_that_fills_a_table, nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide,
+           what_fills_a_table_is_thresholded, nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide,
            inner_part_that_contradicts, covariance_of_the_result, off_centre_region, second_look_that_fails,
            second_look_is_told, background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
            capacity_by_macro_is_capacity_by_function)
