@@ -29,8 +29,9 @@ typedef struct drogue_cluster_config {
 typedef struct drogue_config {
     int32_t canny_low;             /* 30, L1 Sobel magnitude (grey levels * 8): lower links weaker edges */
     int32_t canny_high;            /* 80, same unit: an edge needs one pixel above it */
-    int32_t canny_least;           /* 8, same unit, [0, canny_high]: least upper threshold of a second try, when the
-                                      first finds no outline or doubts it; canny_high: no second try */
+    int32_t canny_least;           /* 8, same unit, [0, canny_high]: least upper threshold of a second try by the
+                                      region's noise, when the first finds no outline, doubts it or fills a table;
+                                      canny_high: no second try */
     int32_t smooth;                /* 1: smooth before the gradient; 0 for images that are smooth already */
     uint32_t min_arc_px;           /* 10 edge points, Th_length: shorter arcs are not fitted */
     drogue_q16 min_arc_share_q16;  /* 1/8: the same as a share of the region's longest side; a quarter of an outline
