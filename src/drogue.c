@@ -25,9 +25,9 @@ static void clear(drogue_result *out)
     }
 }
 
-/* What may be tried, in this order: the configured thresholds of Canny or those of the region's own noise, and of either
- * the outline found or a larger one about it; then, where the inner disc is too large for the best of them, one along
- * rays. */
+/* What may be tried, in this order: the configured thresholds of Canny or those of the region's own noise, and of
+ * either the outline found or a larger one about it; then, where the inner disc is too large for the best of them, one
+ * along rays. */
 enum { FIRST, FIRST_LARGER, OWN, OWN_LARGER, BEYOND };
 
 #define RAISES 2     /* at most, of thresholds of the noise that fill a table */
@@ -151,7 +151,8 @@ static void keep_try(best_try *best, const drogue_frame *f, int what, drogue_sta
     best->result->second_look = f->second_look;
 }
 
-/* What was best stands, and its edges are in the workspace again; where nothing was found they are those of the last try. */
+/* What was best stands, and its edges are in the workspace again; where nothing was found they are those of the last
+ * try. */
 static void return_to(const best_try *best, drogue_frame *f, const drogue_region *region, int last)
 {
     const int found = best->result->ellipse.a_px_q16 > 0; /* its arcs are in the list of that outline, pose or not */
@@ -185,8 +186,8 @@ static int asks_beyond(const best_try *best)
            best->larger_q16 <= BEYOND_Q16;
 }
 
-/* Is the inner disc seen, but too large for the best outline? Then that is an edge within the drogue: the canopy's or its
- * wall's. */
+/* Is the inner disc seen, but too large for the best outline? Then that is an edge within the drogue: the canopy's or
+ * its wall's. */
 static int too_large(const best_try *best)
 {
     return best->result->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE && best->larger_q16 > 0;

@@ -27,12 +27,12 @@ typedef struct drogue_frame {
 /* Find the edges of a region with the frame's thresholds; the view becomes the region's pixels. */
 drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region);
 
-/* An outline that the ring mask cuts is looked for once more; unless that is better, what was found first stands, and where
- * that is an outline its edges are found again. */
+/* An outline that the ring mask cuts is looked for once more; unless that is better, what was found first stands, and
+ * where that is an outline its edges are found again. */
 drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region);
 
-/* Look along rays for an outline that is larger by a share than one in a region asked for, px of the whole image: where the
- * inner disc says that it is. The workspace's edge points become those of the rays, without arcs. */
+/* Look along rays for an outline that is larger by a share than one in a region asked for, px of the whole image: where
+ * the inner disc says that it is. The workspace's edge points become those of the rays, without arcs. */
 drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
                                   drogue_q16 larger_q16);
 

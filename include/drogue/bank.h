@@ -32,7 +32,8 @@ void drogue_bank_predict(drogue_bank *bank, uint32_t dt_us, const drogue_q16 std
                          drogue_q16 step_q16);
 
 /* Compare the predictions with a measurement that is believed, before the models are corrected with it, and choose for
- * each parameter the model of least mean squared error; another one than before only when its error is less by an eighth.
+ * each parameter the model of least mean squared error; another one than before only when its error is less by an
+ * eighth.
  *
  *  value  m and rad, Q16; angles are compared modulo 2 pi
  */

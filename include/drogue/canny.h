@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Canny's non-maximum suppression on the L1 Sobel magnitude, and the subpixel offset across the edge; with both thresholds
- * equal to cv::Canny(aperture 3, L1) in every pixel once hysteresis has run over the whole image (frontend.h). */
+/* Canny's non-maximum suppression on the L1 Sobel magnitude, and the subpixel offset across the edge; with both
+ * thresholds equal to cv::Canny(aperture 3, L1) in every pixel once hysteresis has run over the whole image
+ * (frontend.h). */
 #ifndef DROGUE_CANNY_H
 #define DROGUE_CANNY_H
 
@@ -42,8 +43,9 @@ static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
     return drogue_canny_sector_by(gx, gy, ax, ax * (uint32_t)DROGUE_CANNY_TG22);
 }
 
-/* |gx| tan(22.5 degrees), rounded down; |gx| in [0, 1023]. In rows of 16-bit numbers the sector is horizontal where |gy| is
- * at most that, vertical where it exceeds it by more than 2 |gx|: the same as above but for (0, 0), which is no edge. */
+/* |gx| tan(22.5 degrees), rounded down; |gx| in [0, 1023]. In rows of 16-bit numbers the sector is horizontal where
+ * |gy| is at most that, vertical where it exceeds it by more than 2 |gx|: the same as above but for (0, 0), which is no
+ * edge. */
 static inline uint16_t drogue_canny_tangent(uint16_t ax)
 {
     return (uint16_t)((ax * (2u * (uint32_t)DROGUE_CANNY_TG22)) >> 16);

@@ -35,7 +35,8 @@ typedef struct drogue_config {
     int32_t smooth;                /* 1: smooth before the gradient; 0 for images that are smooth already */
     uint32_t min_arc_px;           /* 10 edge points, Th_length: shorter arcs are not fitted */
     drogue_q16 min_arc_share_q16;  /* 1/8: the same as a share of the region's longest side; a quarter of an outline
-                                     in a region of 2.5 semi-axes has about 0.57: stubs lie farther out than whole arcs */
+                                     in a region of 2.5 semi-axes has about 0.57: stubs lie farther out than whole
+                                     arcs */
     drogue_q16 min_short_px_q16;   /* 1.5 px, Th_minb: straighter arcs (short side of the rectangle) are not fitted */
     drogue_polarity polarity;      /* BOTH: or only outlines darker (DARK) or brighter (BRIGHT) inside */
     drogue_quality_config quality; /* fit_error 1 px, k1 6, k2 0.3 */
@@ -77,9 +78,10 @@ typedef struct drogue_config {
 /* Fill in the defaults given above. */
 void drogue_config_default(drogue_config *config);
 
-/* 1 when every threshold is within its range: counts and lengths not negative, fit_error to 1024 px, low <= high, shares of a
- * length or of points in [0, 1] (max_size, inner_gate and inner_size without upper bound),
- * refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px and its uncertainty in [0, 16] px^2, outline_shading in (0, 1024], inner_std in (0, 16] px, k1 in [0, 64], k2 in [0, 1). */
+/* 1 when every threshold is within its range: counts and lengths not negative, fit_error to 1024 px, low <= high,
+ * shares of a length or of points in [0, 1] (max_size, inner_gate and inner_size without upper bound),
+ * refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px and its uncertainty in [0, 16] px^2,
+ * outline_shading in (0, 1024], inner_std in (0, 16] px, k1 in [0, 64], k2 in [0, 1). */
 int drogue_config_valid(const drogue_config *config);
 
 /* What stays the same from frame to frame, made once and passed from stage to stage. */

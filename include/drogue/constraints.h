@@ -69,9 +69,9 @@ typedef struct drogue_arc_choices {
     uint32_t arc[4][DROGUE_ARC_CHOICES]; /* the better choice first */
 } drogue_arc_choices;
 
-/* Select arcs of each quadrant: first the farthest of those, among the four longest, with at least half as many points as the longest
- * (Algorithm 1 takes the farthest whatever its length, so that stubs beyond the outline beat it), then the longest of
- * the others. The first of equals wins.
+/* Select arcs of each quadrant: first the farthest of those, among the four longest, with at least half as many points
+ * as the longest (Algorithm 1 takes the farthest whatever its length, so that stubs beyond the outline beat it), then
+ * the longest of the others. The first of equals wins.
  *
  *  polarity  DARK or BRIGHT: only arcs of that polarity; BOTH: of either
  *  return    DROGUE_OK; DROGUE_E_NO_ARCS when no arc is acceptable

@@ -32,11 +32,11 @@ typedef struct drogue_decision {
 } drogue_decision;
 
 /* Solve for outline and inner part together; for the outline alone when they contradict each other or there is no inner
- * part to be believed. Where there is one, the covariance is chi2 times as large where that, 0.5 on average of frames that
- * are as supposed, is above 1, and max_chi2 times where they contradict each other; and what the inner part's size puts in
- * doubt is added, at least 1/64 where they contradict each other. Where the model has an inner part and none is to be
- * believed, the outline may be another edge than the rim, or partly: 1.1 % of its size is added to every parameter of the
- * outline.
+ * part to be believed. Where there is one, the covariance is chi2 times as large where that, 0.5 on average of frames
+ * that are as supposed, is above 1, and max_chi2 times where they contradict each other; and what the inner part's size
+ * puts in doubt is added, at least 1/64 where they contradict each other. Where the model has an inner part and none is
+ * to be believed, the outline may be another edge than the rim, or partly: 1.1 % of its size is added to every
+ * parameter of the outline.
  *
  *  out     undefined on failure
  *  return  DROGUE_OK, DROGUE_E_DOMAIN
@@ -45,10 +45,10 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
 
 #define DROGUE_DOUBT_PACKED 6 /* x, y, z: the first entries of a packed covariance that begins with them */
 
-/* Add a doubt to a covariance. An inner part that is not of its size may be that of a larger outline: half the square of
- * that share of the position, since where it is one, the distance is off by about twice as much. The larger outline lies
- * in another plane and is the more likely the larger the share is: sideways half the square of twice that share's square of
- * the rim's radius.
+/* Add a doubt to a covariance. An inner part that is not of its size may be that of a larger outline: half the square
+ * of that share of the position, since where it is one, the distance is off by about twice as much. The larger outline
+ * lies in another plane and is the more likely the larger the share is: sideways half the square of twice that share's
+ * square of the rim's radius.
  *
  *  covariance  m^2, in and out
  *  doubt_q16   share of the distance, [0, 1)

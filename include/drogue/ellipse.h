@@ -39,8 +39,8 @@ static inline void drogue_long_sum_add(drogue_long_sum *sum, int64_t product)
     sum->low += (uint32_t)product;
 }
 
-/* Add a point 'times' times, 1 or -1: what was added can be taken out again. x and y in [-32768, 32767], in units of the
- * caller's choice. */
+/* Add a point 'times' times, 1 or -1: what was added can be taken out again. x and y in [-32768, 32767], in units of
+ * the caller's choice. */
 static inline void drogue_moments_count_point(drogue_moments *m, int32_t x, int32_t y, int32_t times)
 {
     const int32_t xx = x * x; /* at most 2^30 */

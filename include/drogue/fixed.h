@@ -120,8 +120,8 @@ static inline uint64_t drogue_square_sum(int32_t a, int32_t b)
     return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b);
 }
 
-/* (u, v), any, turned by an angle from the first axis to the second, its cosine and sine within 2^30: rounded to nearest, ties
- * toward +infinity, exact until then. */
+/* (u, v), any, turned by an angle from the first axis to the second, its cosine and sine within 2^30: rounded to
+ * nearest, ties toward +infinity, exact until then. */
 void drogue_rotate_q30(int64_t out[2], int32_t u, int32_t v, int32_t cos_q30, int32_t sin_q30);
 
 /* floor(num / den) for den > 0. */

@@ -5,8 +5,8 @@
  * labelling are two union-finds in the same pass; an arc remembers its candidate component and survives when
  * that turns out strong, which gives Canny's exact edge map without a frame store.
  *
- * With a ring Canny's candidates are those in the ring alone: they are compared with all their neighbours, but what lies
- * outside is in no component, so that hysteresis neither begins nor passes there. */
+ * With a ring Canny's candidates are those in the ring alone: they are compared with all their neighbours, but what
+ * lies outside is in no component, so that hysteresis neither begins nor passes there. */
 #ifndef DROGUE_FRONTEND_H
 #define DROGUE_FRONTEND_H
 
@@ -31,16 +31,16 @@ typedef struct drogue_capacity {
 } drogue_capacity;
 
 /* Capacity that suits a region of the given longest side. What noise needs grows with the area: at 8 grey levels and
- * 443 px 10.6 edge points and 5.6 labels a pixel of side, where the frames in vectors/ need 6.3 and 2.1. No more than 88
- * arcs of an eighth of the side fit into the edge points. */
+ * 443 px 10.6 edge points and 5.6 labels a pixel of side, where the frames in vectors/ need 6.3 and 2.1. No more than
+ * 88 arcs of an eighth of the side fit into the edge points. */
 #define DROGUE_EDGES_FOR(side_px) (10u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 512u)
 #define DROGUE_LABELS_FOR(side_px) (3u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 140u + 2u)
 #define DROGUE_ARCS_FOR(side_px) ((size_t)96u)
 
 #define DROGUE_HALF(width_px) (((size_t)(width_px) + 7u) / 8u * 4u) /* half of a row, rounded up to four pixels */
 
-/* Bytes of the row buffers. What the outline needs after them lies in the same place: constraints.h, outline.h and inner.h check
- * that it fits. */
+/* Bytes of the row buffers. What the outline needs after them lies in the same place: constraints.h, outline.h and
+ * inner.h check that it fits. */
 #define DROGUE_ROWS_BYTES(width_px)                      \
     ((size_t)(width_px) * (sizeof(drogue_merge) + 16u) + \
      DROGUE_HALF(width_px) * (5u * 2u + 3u * 4u + 4u * 4u + 32u + 4u) + 5u * 4u + 7u * 8u)
@@ -169,12 +169,12 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row);
 drogue_status drogue_frontend_end(drogue_edge_list *list, drogue_frontend *frontend);
 
 /* Upper threshold that noise alone hardly passes: ten standard deviations of white noise that means of 3 x 3 px show as
- * much of, whose second differences along every third row are summed by blocks; one in ten blocks shows less. Noise of a
- * codec or a sharpened image counts as what smoothing leaves of it.
+ * much of, whose second differences along every third row are summed by blocks; one in ten blocks shows less. Noise of
+ * a codec or a sharpened image counts as what smoothing leaves of it.
  *
  *  histogram  work area, 256 counts
- *  return     L1 Sobel magnitude, grey levels * 8, below 700; 0 for less noise than a tenth of a level, and of an image under
- *             17 x 3 px
+ *  return     L1 Sobel magnitude, grey levels * 8, below 700; 0 for less noise than a tenth of a level, and of an image
+ *             under 17 x 3 px
  */
 int32_t drogue_noise_threshold(uint32_t *histogram, const drogue_image *image);
 

@@ -58,10 +58,10 @@ static inline uint64_t drogue_inner_away2_q32(const drogue_inner_edge *edge, con
                              drogue_q16_sub(edge->y_px_q16, expected->yc_px_q16));
 }
 
-/* Measure the disc by its edge along rays across the ellipse that a pose expects: where the grey rises fastest says which
- * rays see it, where it has risen by a quarter of the usual step above the disc's own where it is and how large, by a fit of
- * place and size to the rays that agree. Ribs, a wall or a probe that touch the disc cost rays, not place; a ring about it or
- * light from one side hardly move what is dark.
+/* Measure the disc by its edge along rays across the ellipse that a pose expects: where the grey rises fastest says
+ * which rays see it, where it has risen by a quarter of the usual step above the disc's own where it is and how large,
+ * by a fit of place and size to the rays that agree. Ribs, a wall or a probe that touch the disc cost rays, not place;
+ * a ring about it or light from one side hardly move what is dark.
  * Where the edge that rises fastest is of another size than expected, and one of the size is beside it, that one is the
  * disc's.
  *
@@ -78,8 +78,8 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[DRO
 /* Standard deviation of the disc's centre: a floor, a share of the disc's size, and what the rays' residuals show.
  *
  *  expected, outline  region coordinates
- *  return             px Q16; 0 when it is not to be believed: of another size, in another place, cut by the rim, or too
- *                     few rays agree; -1 when it is too large, and nothing else speaks against it
+ *  return             px Q16; 0 when it is not to be believed: of another size, in another place, cut by the rim, or
+ *                     too few rays agree; -1 when it is too large, and nothing else speaks against it
  */
 drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse *expected,
                             const drogue_ellipse *outline, const drogue_config *config);
@@ -96,8 +96,8 @@ typedef struct drogue_inner_evidence {
     drogue_q16 doubt_q16; /* share by which the disc's size puts the distance in doubt */
 } drogue_inner_evidence;
 
-/* Weigh the disc, and see which pose it is nearer to. Its size puts the distance in doubt by the share by which it is too large,
- * if 1/32 or more, and not at all below 1/64; by half of that by which it is too small, beyond half a pixel.
+/* Weigh the disc, and see which pose it is nearer to. Its size puts the distance in doubt by the share by which it is
+ * too large, if 1/32 or more, and not at all below 1/64; by half of that by which it is too small, beyond half a pixel.
  *
  *  region             pixel (0, 0) of it is where coordinates of the region begin
  *  expected, outline  region coordinates: the discs, the ellipse as seen
@@ -108,15 +108,15 @@ void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge
 
 #define DROGUE_INNER_BEYOND_POINTS 511 /* at most: the outline looks at all of so many at once */
 
-/* Look along rays for the outline that an inner disc is of the size for which is too large for the one found; its step of
- * grey may be too low for the edge detector. It is an edge of either sign on 28 of 64 rays, in six of eight parts, within
- * 3/4 px of one place and size.
+/* Look along rays for the outline that an inner disc is of the size for which is too large for the one found; its step
+ * of grey may be too low for the edge detector. It is an edge of either sign on 28 of 64 rays, in six of eight parts,
+ * within 3/4 px of one place and size.
  *
  *  workspace  out: its edge points, from 0 on, on eight times the rays; as many as there is room for
  *  view       the region's pixels
  *  about      where it is expected, region coordinates; b >= 1 px and a <= 180 px, else there is none
- *  beyond     px Q16, above 0: by how much the semi-axes of the outline found are shorter; the other is looked for from half
- *             of that within 'about' to 5/8 and 1 px outside of it
+ *  beyond     px Q16, above 0: by how much the semi-axes of the outline found are shorter; the other is looked for from
+ *             half of that within 'about' to 5/8 and 1 px outside of it
  *  return     the number of points; 0: there is none, and the edge points are as they were
  */
 uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about,

@@ -43,8 +43,8 @@ typedef struct drogue_joint {
  *  support  of the last fit, its bins from any axis
  *  shading  what the residuals cannot show, as light that changes along the outline, moves an edge by this over its
  *           gradient (|gx| + |gy|, grey levels * 8): px times that unit, standard deviation in every parameter
- *  blur     standard deviation of half the variance of the optics' blur, px^2 Q16: moves the whole outline in or out. What the
- *           pixels' grid does, 0.3 px^2 over the semi-axis, is in every parameter
+ *  blur     standard deviation of half the variance of the optics' blur, px^2 Q16: moves the whole outline in or out.
+ *           What the pixels' grid does, 0.3 px^2 over the semi-axis, is in every parameter
  *  return   DROGUE_OK; DROGUE_E_DEGENERATE when too few bins hold points
  *  source   the fit's normal equations; (50) of the paper in closed form
  */
@@ -66,8 +66,8 @@ drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline);
  *           chi2 are those of the point before the last step
  *  return   DROGUE_OK; DROGUE_E_BEHIND_CAMERA (the start too); DROGUE_E_DEGENERATE; DROGUE_E_DOMAIN: farther than 2^16
  *           rim radii, rays two focal lengths off the axis, an outline two semi-axes off, angles beyond their ranges
- *  scaling  Q30 and Q29 in 32 bits, lengths in a power of two of the rim radius that follows the distance; sums of products
- *           exact in 64 bits; normal equations with 31-bit mantissas
+ *  scaling  Q30 and Q29 in 32 bits, lengths in a power of two of the rim radius that follows the distance; sums of
+ *           products exact in 64 bits; normal equations with 31-bit mantissas
  *  error    pose <= 1 LSB against double
  */
 drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,
@@ -76,8 +76,8 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
 
 /* Image of the inner disc of a pose.
  *
- *  out     ellipse in ideal pixels, that of the perspective: its centre is not the image of the disc's centre, and off the
- *          optical axis it is longer than it would be there; zero on failure
+ *  out     ellipse in ideal pixels, that of the perspective: its centre is not the image of the disc's centre, and off
+ *          the optical axis it is longer than it would be there; zero on failure
  *  return  DROGUE_OK; DROGUE_E_BEHIND_CAMERA; DROGUE_E_DOMAIN when it is seen edge-on or from behind
  */
 drogue_status drogue_inner_disc_image(drogue_ellipse *out, const drogue_pose *pose, const drogue_camera *camera,

@@ -3,8 +3,8 @@
  * the prediction from the posterior state). Noise is diagonal over the parameters, so the filter is five
  * independent filters of three states: the same numbers, a fraction of the work.
  *
- * A covariance is kept as its factors L D L' (Bierman 1977, Thornton 1976), L unit lower triangular, D diagonal and never
- * negative: whatever is rounded it stays symmetric and positive. */
+ * A covariance is kept as its factors L D L' (Bierman 1977, Thornton 1976), L unit lower triangular, D diagonal and
+ * never negative: whatever is rounded it stays symmetric and positive. */
 #ifndef DROGUE_KALMAN_H
 #define DROGUE_KALMAN_H
 

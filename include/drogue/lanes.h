@@ -7,16 +7,16 @@
 
 #include <stdint.h>
 
-/* Are there instructions for lanes (Armv7E-M)?  Called by the names that gcc and clang have for ACLE's intrinsics, since the
- * header of those is not on every machine. */
+/* Are there instructions for lanes (Armv7E-M)?  Called by the names that gcc and clang have for ACLE's intrinsics,
+ * since the header of those is not on every machine. */
 #if defined(__ARM_FEATURE_SIMD32) && defined(__GNUC__)
 #define DROGUE_LANES_INSTRUCTIONS 1
 #else
 #define DROGUE_LANES_INSTRUCTIONS 0
 #endif
 
-/* Row loops, of the same bits either way: 1: plain ones that compilers turn into vector instructions; 0: what suits cores
- * without vector registers. */
+/* Row loops, of the same bits either way: 1: plain ones that compilers turn into vector instructions; 0: what suits
+ * cores without vector registers. */
 #ifndef DROGUE_ROWS_PLAIN
 #if defined(__SSE2__) || defined(_M_X64) || defined(__ARM_NEON) || defined(__ARM_FEATURE_MVE) || \
     defined(__ALTIVEC__) || defined(__riscv_vector)

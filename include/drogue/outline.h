@@ -75,17 +75,17 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
 /* None: no ellipse, no arcs. */
 void drogue_outline_clear(drogue_outline *outline);
 
-/* Measure along rays how far what lies beside the outline moved it, as shading or the wall's edge, and put that back: an edge
- * goes from where the front end sees it, by gradients a pixel to either side, to where it is steepest with less blur. Of each
- * coefficient c the part c^2 / (c^2 + v) is put back, v its variance by the noise that the rays show outside, by what the
- * coefficients leave and by the pixels' grid. Who has edge points and no image does without.
- * Where motion blurs the outline (by more than half a px^2 of variance more along it than across, and 24 px and more of b), its
- * edges have no steepest place: the middle of their slopes counts then, less half of what the motion is longer than the bright
- * band is wide that the outline ends, and all of that is put back.
+/* Measure along rays how far what lies beside the outline moved it, as shading or the wall's edge, and put that back:
+ * an edge goes from where the front end sees it, by gradients a pixel to either side, to where it is steepest with less
+ * blur. Of each coefficient c the part c^2 / (c^2 + v) is put back, v its variance by the noise that the rays show
+ * outside, by what the coefficients leave and by the pixels' grid. Who has edge points and no image does without.
+ * Where motion blurs the outline (by more than half a px^2 of variance more along it than across, and 24 px and more of
+ * b), its edges have no steepest place: the middle of their slopes counts then, less half of what the motion is longer
+ * than the bright band is wide that the outline ends, and all of that is put back.
  *
- *  outline  in: found or enlarged; out: ellipse, and support.pull_q24 with the coefficients that were put back: at most an
- *           eighth of the semi-axis; support.smear_px2_q16 with the motion blur that the edge's widths show. Below 1 px of b:
- *           as fitted
+ *  outline  in: found or enlarged; out: ellipse, and support.pull_q24 with the coefficients that were put back: at most
+ *           an eighth of the semi-axis; support.smear_px2_q16 with the motion blur that the edge's widths show. Below 1
+ *           px of b: as fitted
  *  rays     memory, as that of the workspace: nothing in it is kept
  *  view     the region's pixels
  *  config   as it was found with

@@ -52,7 +52,8 @@ typedef struct drogue_band {
 /* Band of a half width in (0, 8] px and a least cosine in [0, 1]. */
 drogue_band drogue_band_of(drogue_q16 half_width_px_q16, drogue_q16 cos_q16);
 
-/* Threshold Th_error of (10) that stands for a distance of fit_error pixels from the ellipse: 2 * fit_error / a, Q16. */
+/* Threshold Th_error of (10) that stands for a distance of fit_error pixels from the ellipse: 2 * fit_error / a,
+ * Q16. */
 drogue_q16 drogue_quality_threshold(const drogue_ellipse *ellipse, drogue_q16 fit_error_px_q16);
 
 /* Circumference by Ramanujan's formula pi (3(a+b) - sqrt((3a+b)(a+3b))), px Q16, saturated; a + b < 2^13 px. */

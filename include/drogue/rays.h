@@ -58,8 +58,8 @@ void drogue_ray_read(int32_t *grey_q8, const drogue_ray *ray, const drogue_image
 
 /* Place rays and find where the grey rises outwards along them, or changes either way.
  *
- *  reach   how far from the ellipse edges are looked for, [2, 512] px and limited to that; samples are half a pixel apart
- *          or, beyond 16 px, 32 to the reach
+ *  reach   how far from the ellipse edges are looked for, [2, 512] px and limited to that; samples are half a pixel
+ *          apart or, beyond 16 px, 32 to the reach
  *  every   1 or 2: of the rays each, or every second one and no edges on the others
  *  least   least step of grey, grey levels
  *  either  1: falling grey, too, its slope taken as positive

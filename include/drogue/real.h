@@ -2,15 +2,15 @@
 /* Real numbers where Q16 cancels (the direct fit, the cone, the joint pose): a software floating-point format in 32-bit
  * words.
  *
- * A drogue_real is mantissa * 2^exponent with 2^30 <= |mantissa| < 2^31, or 0 with exponent 0: 31 significant bits and a
- * sign. Its unit in the last place is 2^exponent, 2^-30 of the number at most. Results are rounded to nearest, ties toward
- * +infinity: within half a unit.
- * Range: exponents within +-2^20. No operation checks them: numbers of the library begin within 2^+-128, each operation at
- * most adds two exponents, and no chain of operations comes near. There are no infinities and no NaN; where a number
+ * A drogue_real is mantissa * 2^exponent with 2^30 <= |mantissa| < 2^31, or 0 with exponent 0: 31 significant bits and
+ * a sign. Its unit in the last place is 2^exponent, 2^-30 of the number at most. Results are rounded to nearest, ties
+ * toward +infinity: within half a unit.
+ * Range: exponents within +-2^20. No operation checks them: numbers of the library begin within 2^+-128, each operation
+ * at most adds two exponents, and no chain of operations comes near. There are no infinities and no NaN; where a number
  * becomes fixed point it saturates.
  *
- * Operands and results go through pointers: a structure of two words is returned through memory on Arm and RISC-V's small
- * ABIs anyhow, and callers keep theirs in arrays. 'out' may be an operand.
+ * Operands and results go through pointers: a structure of two words is returned through memory on Arm and RISC-V's
+ * small ABIs anyhow, and callers keep theirs in arrays. 'out' may be an operand.
  */
 #ifndef DROGUE_REAL_H
 #define DROGUE_REAL_H
@@ -41,8 +41,8 @@ void drogue_real_quotient(drogue_real *out, const drogue_real *a, const drogue_r
 /* Square root; 0 for v <= 0. */
 void drogue_real_root(drogue_real *out, const drogue_real *v);
 
-/* Two-term sums rounded once, from products of 62 bits: what cancels does so before it is rounded. The smaller term loses
- * what lies below 2^-61 of the larger. */
+/* Two-term sums rounded once, from products of 62 bits: what cancels does so before it is rounded. The smaller term
+ * loses what lies below 2^-61 of the larger. */
 void drogue_real_subtract_product(drogue_real *out, const drogue_real *a, const drogue_real *b); /* out -= a b */
 void drogue_real_products(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
                           const drogue_real *d); /* a b + c d */

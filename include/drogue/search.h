@@ -63,30 +63,31 @@ void drogue_search_row(drogue_search *search, const uint8_t *row);
 /* End the frame: search->best[0 .. count - 1] are its sightings. Returns the count. */
 int32_t drogue_search_end(drogue_search *search);
 
-/* Is enough of a drogue seen in a measurement to begin with it? For a model with an inner part one that is dark (a contrast
- * of at least a quarter of the grey at its edge), sharp (a spread of at most 0.3 px) and near to the model's size (its radius
- * to 0.6 px and a tenth), within an outline covered to 0.75; where it decides the orientation and has its size (to 0.3 px and a
- * twenty-fifth) a cover of 0.6 will do, or, where it is not sharp, one of 0.9. For a model without one a cover of 0.75 and a
- * reliability of 0.9.
+/* Is enough of a drogue seen in a measurement to begin with it? For a model with an inner part one that is dark (a
+ * contrast of at least a quarter of the grey at its edge), sharp (a spread of at most 0.3 px) and near to the model's
+ * size (its radius to 0.6 px and a tenth), within an outline covered to 0.75; where it decides the orientation and has
+ * its size (to 0.3 px and a twenty-fifth) a cover of 0.6 will do, or, where it is not sharp, one of 0.9. For a model
+ * without one a cover of 0.75 and a reliability of 0.9.
  *
  *  r  of status DROGUE_OK
  */
 int drogue_result_sure(const drogue_result *r, const drogue_model *model);
 
-/* Search a part of an image, and measure what was sighted in order of score, until an inner part decides the orientation
- * within an outline covered to four fifths; after that only what was sighted about the same middle with 9/8 to 2 times the
- * radius. Of two sure outlines whose inner parts are within 1 px of each other and whose semi-axes differ by more than an
- * eighth the larger one is preferred, unless it has less cover, or an inner part less of its size, by an eighth. Else the
- * result is the one of most cover among those that are sure and whose inner part decides; or else that are sure; or else of
- * all. The part itself is measured last, with the drogue about its middle, where no inner part decides and the part is small,
- * at most 512 px a side, or the model has no inner part.
+/* Search a part of an image, and measure what was sighted in order of score, until an inner part decides the
+ * orientation within an outline covered to four fifths; after that only what was sighted about the same middle with 9/8
+ * to 2 times the radius. Of two sure outlines whose inner parts are within 1 px of each other and whose semi-axes
+ * differ by more than an eighth the larger one is preferred, unless it has less cover, or an inner part less of its
+ * size, by an eighth. Else the result is the one of most cover among those that are sure and whose inner part decides;
+ * or else that are sure; or else of all. The part itself is measured last, with the drogue about its middle, where no
+ * inner part decides and the part is small, at most 512 px a side, or the model has no inner part.
  *
  *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured
  *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not
  *          measured itself
- *  return  DROGUE_OK when drogue_result_sure() of what was measured; DROGUE_E_UNSURE: something was measured, but less than that;
- *          DROGUE_E_ARGUMENT (the image), DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else the status of
- *          the last, DROGUE_E_REGION where the part itself is too large, DROGUE_E_NO_INNER_PART where nothing was sighted
+ *  return  DROGUE_OK when drogue_result_sure() of what was measured; DROGUE_E_UNSURE: something was measured, but less
+ *          than that; DROGUE_E_ARGUMENT (the image), DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else the
+ *          status of the last, DROGUE_E_REGION where the part itself is too large, DROGUE_E_NO_INNER_PART where nothing
+ *          was sighted
  */
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region);

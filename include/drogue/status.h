@@ -40,9 +40,11 @@ typedef enum drogue_second_look {
     DROGUE_SECOND_BETTER,   /* it found the same outline and no less of it: the result is its */
     DROGUE_SECOND_NO_MORE,  /* it found nothing, another outline or less of it: what was found first stands */
     DROGUE_SECOND_REGION,   /* its region cannot be measured, see DROGUE_E_REGION: what was found first stands */
-    DROGUE_SECOND_TOO_WIDE, /* the workspace is too narrow for its region: what was found first stands, maybe half an outline */
-    DROGUE_SECOND_FULL, /* a table was full: what was found first stands, maybe half an outline; or it has less room than
-                               DROGUE_INNER_BEYOND_POINTS edges, as that of regions up to 50 px, for a larger outline */
+    DROGUE_SECOND_TOO_WIDE, /* the workspace is too narrow for its region: what was found first stands, maybe half an
+                               outline */
+    DROGUE_SECOND_FULL,     /* a table was full: what was found first stands, maybe half an outline, or what was with
+                               higher thresholds; or it has less room than DROGUE_INNER_BEYOND_POINTS edges, as that of
+                               regions up to 50 px, for a larger outline */
     DROGUE_SECOND_COUNT
 } drogue_second_look;
 

@@ -29,7 +29,8 @@ typedef struct drogue_support {
     int32_t pull_q24[5];  /* by how much what lies beside the outline moved it outwards, in semi-axes: 1, cos t, sin t,
                              cos 2t, sin 2t over the eccentric angle t */
     int32_t smear_px2_q16[2]; /* motion blur: variance along the motion less that across it, px^2, times cosine and sine
-                                 of twice its angle from +x; less what edges differ by without: 0 where none stands out */
+                                 of twice its angle from +x; less what edges differ by without: 0 where none stands
+                                 out */
     drogue_q16 axis_rad_q16;  /* from which the bins count, the angle of the ellipse that they are about */
     uint32_t covered; /* bins that hold enough points, less the changes of polarity round the outline beyond none */
 } drogue_support;
@@ -60,8 +61,8 @@ void drogue_support_basis(int64_t basis_q30[5], uint32_t k);
 /* By how many bins an axis is turned against that from which a support counts them, [0, 31]. */
 uint32_t drogue_support_bins_to(const drogue_support *support, drogue_q16 axis_rad_q16);
 
-/* Count the bins from another axis, to a whole bin: a fit may have turned a round outline, or an axis past where angles begin
- * anew. */
+/* Count the bins from another axis, to a whole bin: a fit may have turned a round outline, or an axis past where angles
+ * begin anew. */
 void drogue_support_turn(drogue_support *support, drogue_q16 axis_rad_q16);
 
 /* A wave of twice the angle, by its cosine's and its sine's part, with all angles larger by so much; saturates. */

@@ -5,15 +5,16 @@
  * drogue_track_frame() does a frame in one call. The parts are there too: drogue_track_begin() says where to look,
  * drogue_measure() or drogue_acquire() looks, drogue_track_end() says what to believe.
  *
- * Each parameter is followed by filters side by side that differ in their process noise; the estimate is that of the one
- * that has predicted best (bank.h).
+ * Each parameter is followed by filters side by side that differ in their process noise; the estimate is that of the
+ * one that has predicted best (bank.h).
  *
  * The gate is the squared Mahalanobis distance between the five measured and predicted parameters, with the
- * covariance of both, in the model one step more agile than the chosen one. A measurement beyond it is not believed and the frame counts as missed; but it opens a second
- * filter beside the first, and when so many frames in a row are refused that agree with each other, or the track
- * would be lost, the second filter takes over: a drogue that truly jumped is followed again. Where the model has an inner
- * part, only a measurement that shows it opens a second filter, one that shows none must agree in range to a twentieth, and a
- * track that does not show it again within five measurements is lost.
+ * covariance of both, in the model one step more agile than the chosen one. A measurement beyond it is not believed and
+ * the frame counts as missed; but it opens a second filter beside the first, and when so many frames in a row are
+ * refused that agree with each other, or the track would be lost, the second filter takes over: a drogue that truly
+ * jumped is followed again. Where the model has an inner part, only a measurement that shows it opens a second filter,
+ * one that shows none must agree in range to a twentieth, and a track that does not show it again within five
+ * measurements is lost.
  *
  * Of the two poses that an outline allows, one whose orientation is not resolved goes by the smaller distance. A
  * resolved one that the gate refuses gives way to its twin when that passes; after the same number of frames in
@@ -77,8 +78,8 @@ typedef struct drogue_track_config {
 /* Fill in the defaults given above. */
 void drogue_track_config_default(drogue_track_config *config);
 
-/* 1 when agree_frames and region_scale_q16 are above 0, process_step is at least 1, lasting_share and min_reliability at most 1, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and
- * nothing else is negative. */
+/* 1 when agree_frames and region_scale_q16 are above 0, process_step is at least 1, lasting_share and min_reliability
+ * at most 1, the regions' limits are 1 <= min <= max <= DROGUE_MAX_SIDE, and nothing else is negative. */
 int drogue_track_config_valid(const drogue_track_config *config);
 
 /* A track: what is kept from frame to frame. */
@@ -136,8 +137,8 @@ drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *
 void drogue_track_begin(drogue_region *region, drogue_track *track, uint32_t dt_us);
 
 /* End the frame with its measurement: correct, refuse, coast or give up. Returns the new state.
- * A result whose second_look kept a cut outline counts for less than its covariance says: by a third of the circumference's
- * share that is not covered, in semi-axes sideways, in distances along the axis and in rad. */
+ * A result whose second_look kept a cut outline counts for less than its covariance says: by a third of the
+ * circumference's share that is not covered, in semi-axes sideways, in distances along the axis and in rad. */
 drogue_track_state drogue_track_end(drogue_track *track, const drogue_result *result);
 
 /* The estimate; all zero while lost. */
@@ -145,9 +146,9 @@ void drogue_track_get(drogue_track_estimate *out, const drogue_track *track);
 
 /* A frame in one call: begin; measure where the drogue is expected, and when that fails and 'search' is set search
  * where it may be; end. With 'search' set an outline covered to less than nine tenths counts only when
- * drogue_result_sure(). While lost the first region is measured, then the whole frame searched; what the search is sure of
- * starts a track. A track of something else, which shows no inner part, gives way after reconsider_frames when the drogue
- * is in sight.
+ * drogue_result_sure(). While lost the first region is measured, then the whole frame searched; what the search is sure
+ * of starts a track. A track of something else, which shows no inner part, gives way after reconsider_frames when the
+ * drogue is in sight.
  *
  *  result  out, the frame's measurement; its region is where it was taken
  *  region  out, the region asked for

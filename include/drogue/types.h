@@ -45,8 +45,8 @@ typedef struct drogue_region {
     int32_t height_px; /* rows, any */
 } drogue_region;
 
-/* Clip one side [*at, *at + *length) of a region to [0, limit), for any three numbers: 0 <= *at and 0 <= *length after, and
- * *at + *length <= limit where limit >= 0. *length is 0 when nothing is left. */
+/* Clip one side [*at, *at + *length) of a region to [0, limit), for any three numbers: 0 <= *at and 0 <= *length after,
+ * and *at + *length <= limit where limit >= 0. *length is 0 when nothing is left. */
 static inline void drogue_clip(int32_t *at, int32_t *length, int32_t limit)
 {
     const int64_t end = (int64_t)*at + *length;

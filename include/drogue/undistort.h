@@ -22,8 +22,9 @@ static inline int drogue_camera_distorts(const drogue_camera *c)
  *  x, y    in/out, px Q16
  *  return  DROGUE_OK; DROGUE_E_DOMAIN when the point lies more than 4 focal lengths off the axis, a
  *          coefficient exceeds DROGUE_MAX_DISTORTION_Q16, or the result leaves Q16
- *  error   1 LSB for lenses as calibration finds them (k1 within 0.25, focal lengths to 3000 px); 4 LSB, 0.0001 px, where
- *          they move points by up to three focal lengths; in proportion to longer focal lengths, 24 LSB at 30000 px
+ *  error   1 LSB for lenses as calibration finds them (k1 within 0.25, focal lengths to 3000 px); 4 LSB, 0.0001 px,
+ *          where they move points by up to three focal lengths; in proportion to longer focal lengths, 24 LSB at
+ *          30000 px
  */
 drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);
 

@@ -132,7 +132,8 @@ static void take(int32_t v[3], int64_t excess_q60, const int32_t u[3])
     }
 }
 
-/* Rotations leave the vectors orthonormal to their rounding, which adds up: once more. With signs; the third follows. */
+/* Rotations leave the vectors orthonormal to their rounding, which adds up: once more. With signs; the third
+ * follows. */
 static void straighten(int32_t v[3][3])
 {
     const int64_t one_q60 = INT64_C(1) << 60;

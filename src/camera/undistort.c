@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Brown-Conrady distortion and its inverse by damped Newton steps, in normalised coordinates Q29.
  *
- * What the lens adds is computed apart from the position, in block floating point: the point is scaled to a distance near
- * 1 from the axis, and the five coefficients, each times the power of the scale that goes with it, to a common exponent
- * at which the largest has 27 bits. So an error is some 2^-26 of the displacement, whatever the coefficients. */
+ * What the lens adds is computed apart from the position, in block floating point: the point is scaled to a distance
+ * near 1 from the axis, and the five coefficients, each times the power of the scale that goes with it, to a common
+ * exponent at which the largest has 27 bits. So an error is some 2^-26 of the displacement, whatever the
+ * coefficients. */
 #include "drogue/undistort.h"
 
 #include "drogue/real.h"

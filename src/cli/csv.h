@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Members as CSV, quoted as in RFC 4180: a line of names, then a line a frame; names of groups and places joined by dots, as in
- * raw.position_m.0; nothing where a member is unknown. */
+/* Members as CSV, quoted as in RFC 4180: a line of names, then a line a frame; names of groups and places joined by
+ * dots, as in raw.position_m.0; nothing where a member is unknown. */
 #ifndef CLI_CSV_H
 #define CLI_CSV_H
 

@@ -52,8 +52,8 @@ void decimal_format(char out[DECIMAL_TEXT], int64_t value, int decimals);
 void decimal_format_q16(char out[DECIMAL_TEXT], drogue_q16 value, int decimals);
 void decimal_format_degrees(char out[DECIMAL_TEXT], drogue_q16 angle_rad_q16, int decimals);
 
-/* Write value / 2^frac_bits with so many significant digits, rounded to nearest, ties toward +infinity; without zeros at
- * the end, but for one decimal. From 10^-4 up to 10^6 as in 0.00123, otherwise as in 1.23e-09.
+/* Write value / 2^frac_bits with so many significant digits, rounded to nearest, ties toward +infinity; without zeros
+ * at the end, but for one decimal. From 10^-4 up to 10^6 as in 0.00123, otherwise as in 1.23e-09.
  *
  *  frac_bits  [1, 59]
  *  digits     [2, 9]

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A YAML or XML file as a list of keys with values: nested keys joined by dots, places in a sequence as numbers, such as
- * "camera_matrix.data.4". The words of an XML element are a sequence. */
+/* A YAML or XML file as a list of keys with values: nested keys joined by dots, places in a sequence as numbers, such
+ * as "camera_matrix.data.4". The words of an XML element are a sequence. */
 #ifndef CLI_KEYS_H
 #define CLI_KEYS_H
 

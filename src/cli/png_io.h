@@ -30,9 +30,9 @@ int picture_create(picture *out, const char *path, int32_t width_px, int32_t hei
 
 void picture_free(picture *image);
 
-/* Read a PNG behind its 8 bytes of signature, to the end of its last chunk. One that ends early is refused, and one that a
- * check sum belies: that of any chunk, critical or not, or of the compressed pixels. What was false when its sum was made is
- * taken, where it does not bear on the stored pixels.
+/* Read a PNG behind its 8 bytes of signature, to the end of its last chunk. One that ends early is refused, and one
+ * that a check sum belies: that of any chunk, critical or not, or of the compressed pixels. What was false when its sum
+ * was made is taken, where it does not bear on the stored pixels.
  *
  *  out     8-bit grey or RGB; free with picture_free(); empty on failure
  *  return  EXIT_MEASURED, or EXIT_BAD after a complaint

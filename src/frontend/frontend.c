@@ -59,9 +59,9 @@ static void append_edge(drogue_frontend *f, const drogue_slope *point, int32_t y
     e->arc = label;
 }
 
-/* Resolve the merges from 'last' back to 'first'. A row's merges of components lie at the list's begin, those of arcs from
- * its end backward: where a component's merge is, no candidate is above, so that the column before has no arc's; a list as
- * long as the row holds both. */
+/* Resolve the merges from 'last' back to 'first'. A row's merges of components lie at the list's begin, those of arcs
+ * from its end backward: where a component's merge is, no candidate is above, so that the column before has no arc's; a
+ * list as long as the row holds both. */
 static void resolve_backward(uint32_t *parent, drogue_merge *first, drogue_merge *last)
 {
     const uint32_t count = (uint32_t)(last + 1 - first);

@@ -48,7 +48,8 @@ static inline uint32_t drogue_label_new(drogue_labels *labels)
     return label;
 }
 
-/* Label column x, whose key is not 0, and note the merge that it brings. Returns the label, 0 when the table is full. */
+/* Label column x, whose key is not 0, and note the merge that it brings. Returns the label, 0 when the table is
+ * full. */
 static inline uint32_t drogue_label_pixel(drogue_label_pass *p, drogue_labels *labels, const uint8_t *code,
                                           const uint8_t *code_above, int32_t x)
 {

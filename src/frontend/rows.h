@@ -58,14 +58,16 @@ static inline int32_t drogue_rows_end(const drogue_frontend *f)
     return DROGUE_ROWS_PLAIN ? f->width_px : drogue_row_half(f);
 }
 
-/* Smooth a stretch of row y that is not empty; the five rows about it have been taken. Beside it the row means nothing. */
+/* Smooth a stretch of row y that is not empty; the five rows about it have been taken. Beside it the row means
+ * nothing. */
 void drogue_rows_smooth(const drogue_frontend *f, int32_t y, drogue_stretch stretch);
 
 /* The same for gradient and magnitude; the three smoothed rows about it are there. */
 void drogue_rows_gradient(drogue_frontend *f, int32_t y, drogue_stretch stretch);
 
-/* List the maxima across the edge among the pixels of a part of row y that exceed the low threshold, in its columns alone, and
- * note their codes; part 0 clears the row's. The gradient of rows y - 1 to y + 1 is there. Returns their number. */
+/* List the maxima across the edge among the pixels of a part of row y that exceed the low threshold, in its columns
+ * alone, and note their codes; part 0 clears the row's. The gradient of rows y - 1 to y + 1 is there. Returns their
+ * number. */
 uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part);
 
 /* Code of a maximum whose gradient is put down; its offset is, too. */

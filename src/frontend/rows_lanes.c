@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Row kernels on words of two 16-bit lanes: the lower lane has a pixel of the left half of the row, the upper one the
- * pixel as far from the row's end, so that neighbours are in neighbouring words and both sides of a ring in the same. */
+ * pixel as far from the row's end, so that neighbours are in neighbouring words and both sides of a ring in the
+ * same. */
 #include "rows.h"
 
 #if !DROGUE_ROWS_PLAIN
 
 #include <string.h>
 
-/* Signed lanes: derivatives and what they are made of, in [-1023, 1023]. Without instructions for them a word is the sum of
- * both, so that plain sums and differences serve. */
+/* Signed lanes: derivatives and what they are made of, in [-1023, 1023]. Without instructions for them a word is the
+ * sum of both, so that plain sums and differences serve. */
 #if DROGUE_LANES_INSTRUCTIONS
 static inline uint32_t signed_sum(uint32_t a, uint32_t b)
 {
@@ -148,7 +149,8 @@ void drogue_rows_take_smoothed(const drogue_frontend *f, int32_t y, const uint8_
     replicate(f, out);
 }
 
-/* Column sums of four pixels, as even and odd lanes, with what rounds a sixteenth of them: of the fours [begin, end). */
+/* Column sums of four pixels, as even and odd lanes, with what rounds a sixteenth of them: of the fours [begin,
+ * end). */
 static void sum_columns(uint32_t *sums, const uint8_t *const rows[5], int32_t begin, int32_t end)
 {
     const uint32_t *r0 = (const uint32_t *)(const void *)rows[0] + begin;
@@ -229,8 +231,8 @@ void drogue_rows_smooth(const drogue_frontend *f, int32_t y, drogue_stretch stre
     replicate(f, smooth_row(f, y));
 }
 
-/* A column of three pixels: smoothed across the horizontal derivative, the step of the vertical one, and the sum of that
- * and the step before. */
+/* A column of three pixels: smoothed across the horizontal derivative, the step of the vertical one, and the sum of
+ * that and the step before. */
 typedef struct column {
     uint32_t sum;
     uint32_t step;
@@ -318,7 +320,8 @@ static magnitudes magnitudes_about(const drogue_frontend *f, int32_t y)
     return m;
 }
 
-/* Put down what a record has in a lane, if that is a maximum that exceeds the threshold. Returns where the next one goes. */
+/* Put down what a record has in a lane, if that is a maximum that exceeds the threshold. Returns where the next one
+ * goes. */
 static inline drogue_slope *take_maximum(drogue_slope *next, uint8_t *code, const drogue_frontend *f,
                                          const magnitudes *rows, const lanes_record *record, uint32_t lane)
 {

@@ -150,7 +150,8 @@ static inline int16_t choose(int16_t mask, int16_t then, int16_t otherwise)
     return (int16_t)((then & mask) | (otherwise & ~mask));
 }
 
-/* Mark the maxima that exceed 'low' by their sector, doubled, plus 1. All is 16 bits wide, and every neighbour is read whether it counts or not. */
+/* Mark the maxima that exceed 'low' by their sector, doubled, plus 1. All is 16 bits wide, and every neighbour is read
+ * whether it counts or not. */
 static void mark_maxima(uint8_t *restrict mark, const int16_t *restrict gx, const int16_t *restrict gy,
                         const int16_t *restrict above, const int16_t *restrict middle, const int16_t *restrict below,
                         int16_t low, int32_t count)

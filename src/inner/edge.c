@@ -87,8 +87,8 @@ static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], uint32_t 
     }
 }
 
-/* Measure about a first place: which rays see the edge, and how large it is, by its steepest place; where it is, by half as
- * many rays as it has pixels, at most 512. */
+/* Measure about a first place: which rays see the edge, and how large it is, by its steepest place; where it is, by
+ * half as many rays as it has pixels, at most 512. */
 static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
                              const drogue_ellipse *e, int32_t least)
 {

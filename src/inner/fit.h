@@ -42,12 +42,12 @@ void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, const int32_t 
 void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const drogue_ray rays[RAYS],
                                const drogue_q16 v_px_q16[3], drogue_q16 within_px_q16);
 
-/* Solve for the offset: 'size' 0 leaves the size as it is. 'normal' becomes the root of the normal equations. 0 when there
- * are too few rays. */
+/* Solve for the offset: 'size' 0 leaves the size as it is. 'normal' becomes the root of the normal equations. 0 when
+ * there are too few rays. */
 int drogue_ray_sums_solve(drogue_q16 v_px_q16[3], drogue_real normal[6], const drogue_ray_sums *s, int size);
 
-/* From all edges within the gate to those about one place: place alone, then, where 'size' says so, with its size. 0 where
- * too few are left. */
+/* From all edges within the gate to those about one place: place alone, then, where 'size' says so, with its size. 0
+ * where too few are left. */
 int drogue_ray_sums_settle(drogue_ray_sums *s, drogue_q16 v_px_q16[3], const drogue_ray rays[RAYS],
                            drogue_q16 gate_px_q16, drogue_q16 last_px_q16, int size);
 

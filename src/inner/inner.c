@@ -144,8 +144,8 @@ static void describe(drogue_inner_part *part, const drogue_inner_edge *edge, con
 #define LARGER_Q16 DROGUE_Q16(1, 64)    /* of its size: a disc is seen to that */
 #define SMALLER_PX_Q16 DROGUE_Q16(1, 2) /* by as much blur and what touches the disc move its edge */
 
-/* A disc that is too large may be that of a larger outline than the one found, and is so in one of eight; one that is too
- * small hardly ever says more than that its edge is blurred or touched. */
+/* A disc that is too large may be that of a larger outline than the one found, and is so in one of eight; one that is
+ * too small hardly ever says more than that its edge is blurred or touched. */
 static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *expected)
 {
     const drogue_q16 smaller_px_q16 = drogue_q16_sub(-SMALLER_PX_Q16, edge->grown_px_q16);

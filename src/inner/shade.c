@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The disc is dark all over, what surrounds it need not be of one grey: light, ribs and a ring about it move the steepest
- * place of a blurred edge, and hardly the one where the grey begins to rise. So the edge is looked for where the grey is
- * a quarter of the usual step above the disc's own. */
+/* The disc is dark all over, what surrounds it need not be of one grey: light, ribs and a ring about it move the
+ * steepest place of a blurred edge, and hardly the one where the grey begins to rise. So the edge is looked for where
+ * the grey is a quarter of the usual step above the disc's own. */
 #include "shade.h"
 
 #include <string.h>
@@ -15,8 +15,8 @@
 #define GREYS DROGUE_Q16(256, 1) /* no grey changes by more */
 #define SIGNIFICANT 50           /* variances of a change of grey across the disc */
 
-/* Where a profile about an edge begins: at a multiple of the distance of its samples, so that it does not tremble with the
- * edge's last bits. */
+/* Where a profile about an edge begins: at a multiple of the distance of its samples, so that it does not tremble with
+ * the edge's last bits. */
 static drogue_q16 begin_of(drogue_q16 at_px_q16) { return drogue_q16_add(at_px_q16, FROM) & ~(DROGUE_Q16_ONE / 2 - 1); }
 
 /* Grey between two samples, Q16; 'part' Q15. */
@@ -39,7 +39,8 @@ static int32_t median_of(int32_t *v, uint32_t count)
     return v[count / 2];
 }
 
-/* Grey of the disc along its edge as a plane, of the rays that fit it; a change across it must stand out of the noise. */
+/* Grey of the disc along its edge as a plane, of the rays that fit it; a change across it must stand out of the
+ * noise. */
 static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const int32_t dark_q16[RAYS])
 {
     drogue_real normal[6];

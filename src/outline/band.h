@@ -12,7 +12,8 @@ static inline int32_t low_shr_round(int64_t v, int n)
     return (int32_t)((uint32_t)((uint64_t)v >> n) + ((uint32_t)v >> (n - 1) & 1u));
 }
 
-/* A point within 2^14 px seen from an ellipse: its offset from the centre, and what F and its gradient are made of there. */
+/* A point within 2^14 px seen from an ellipse: its offset from the centre, and what F and its gradient are made of
+ * there. */
 typedef struct band_place {
     int32_t dx_px_q16;
     int32_t dy_px_q16;
@@ -90,8 +91,8 @@ static inline int32_t along_of(int16_t gx, int16_t gy, int32_t nx_q14, int32_t n
     return gx * nx_q14 + gy * ny_q14;
 }
 
-/* F b of what can be within the band: the gradient of F is at most about 4 / b; and from inside half to outside 1.4 of the
- * outline. */
+/* F b of what can be within the band: the gradient of F is at most about 4 / b; and from inside half to outside 1.4 of
+ * the outline. */
 typedef struct band_reach {
     int32_t least_px_q16;
     uint32_t range_px_q16;
@@ -145,8 +146,8 @@ typedef struct band_point {
     int32_t n2_q28;           /* half the gradient of F times b, squared */
 } band_point;
 
-/* Does an edge point belong to the outline? 'out' is complete when it does. Error of F times b: 2^-14 a / b px and 2^-20 of
- * b; of the direction: 2^-13 a / b rad. */
+/* Does an edge point belong to the outline? 'out' is complete when it does. Error of F times b: 2^-14 a / b px and
+ * 2^-20 of b; of the direction: 2^-13 a / b rad. */
 static inline int band_holds(band_point *out, const drogue_ellipse_frame *frame, const drogue_band *band,
                              const band_reach *reach, drogue_q16 x_px_q16, drogue_q16 y_px_q16, int16_t gx, int16_t gy)
 {

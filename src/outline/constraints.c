@@ -88,8 +88,8 @@ typedef struct box {
     int32_t centre2_across;
 } box;
 
-/* Is the area of p smaller than that of q? Areas are along * across / length2; compared exactly, the products of 69 bits
- * in two parts. */
+/* Is the area of p smaller than that of q? Areas are along * across / length2; compared exactly, the products of 69
+ * bits in two parts. */
 static inline int smaller(const box *p, const box *q)
 {
     const uint64_t area_p = (uint64_t)(uint32_t)p->along * (uint32_t)p->across;

@@ -117,8 +117,8 @@ static void constraint_matrix(drogue_real matrix[6], const drogue_real h[6])
     drogue_real_determinant(&matrix[5], &h[3], &twice, &h[4], &h[4]);
 }
 
-/* The quadratic part, eigenvector of the largest eigenvalue of h K h': the coefficients take the place of the last three
- * entries of h, each when its column has served. */
+/* The quadratic part, eigenvector of the largest eigenvalue of h K h': the coefficients take the place of the last
+ * three entries of h, each when its column has served. */
 static drogue_status solve_quadratic_part(drogue_real h[6], int singular)
 {
     drogue_real matrix[6];

@@ -58,7 +58,8 @@ enum { MOMENTS = 15 };
 
 static int moment(int p, int q) { return (p + q) * (p + q + 1) / 2 + q; }
 
-/* Moments about the origin -> about c along one axis, exact. Intermediate sums may wrap modulo 2^96, the results fit. */
+/* Moments about the origin -> about c along one axis, exact. Intermediate sums may wrap modulo 2^96, the results
+ * fit. */
 static void centre_along(s96 *s, int32_t c, int along_y)
 {
     int fixed;
@@ -120,8 +121,8 @@ static int32_t multiple_of(const drogue_real *num, const drogue_real *den, int32
     return v > most ? most : v < -most ? -most : v;
 }
 
-/* Take from x^2, xy and y^2 what whole multiples of 1, x and y explain of them: what cancels here, most of it on a short
- * arc, is gone before anything is rounded. */
+/* Take from x^2, xy and y^2 what whole multiples of 1, x and y explain of them: what cancels here, most of it on a
+ * short arc, is gone before anything is rounded. */
 static void explain(s96 s[21], int32_t taken[3][3])
 {
     drogue_real n;

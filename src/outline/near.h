@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Inside the outline stage: edge points near an ellipse, counted, and collected for a fit. Hardware takes its own form of
- * these functions, hls/outline/near.c. */
+/* Inside the outline stage: edge points near an ellipse, counted, and collected for a fit. Hardware takes its own form
+ * of these functions, hls/outline/near.c. */
 #ifndef DROGUE_NEAR_H
 #define DROGUE_NEAR_H
 
@@ -21,8 +21,8 @@ uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 thresho
 /* Add the points of an arc to moments about the middle of the largest region, unit 1/32 px; they hold all of them. */
 void drogue_collect_arc(drogue_moments *moments, const drogue_edge *edges, uint32_t count);
 
-/* Collect the edge points within a band that have their bin's polarity: add them to the ellipse's support, and bring the
- * moments to hold them and no others.
+/* Collect the edge points within a band that have their bin's polarity: add them to the ellipse's support, and bring
+ * the moments to hold them and no others.
  *
  *  moments  about the middle of the largest region, unit 1/32 px
  *  stride   every stride-th edge point is looked at, >= 1
@@ -32,8 +32,8 @@ void drogue_collect_edges(drogue_moments *moments, drogue_support *support, cons
                           const drogue_band *band, const drogue_edge *edges, uint32_t count, uint32_t stride,
                           uint32_t counted);
 
-/* Add the same points to a collection, without the distortion of a lens: those within 16 bits of its origin. Returns how
- * many there are, with those that the lens model cannot undo. */
+/* Add the same points to a collection, without the distortion of a lens: those within 16 bits of its origin. Returns
+ * how many there are, with those that the lens model cannot undo. */
 uint32_t drogue_collect_undistorted(drogue_collection *c, drogue_support *support, const drogue_ellipse_frame *frame,
                                     const drogue_band *band, const drogue_edge *edges, uint32_t count,
                                     const drogue_region_lens *lens);

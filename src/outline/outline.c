@@ -89,7 +89,8 @@ static uint32_t polarity_of_arcs(const context *c, uint32_t arcs)
 }
 
 /* Collect the edge points that belong to an ellipse, every one or every so many of them: counts by bin, residuals, and
- * moments, where all count from those of the arcs. Bins have the given polarities until they are judged by the counts. */
+ * moments, where all count from those of the arcs. Bins have the given polarities until they are judged by the
+ * counts. */
 static drogue_status collect(context *c, const drogue_ellipse *ellipse, const drogue_band *band, uint32_t bright_bins,
                              uint32_t stride)
 {
@@ -201,8 +202,9 @@ static uint32_t all_candidates(context *c)
     return count;
 }
 
-/* Refit on the points that belong to the outline until it settles, as often as configured; stops at the last good fit. The
- * first round takes the points that were looked at. Judges the outline by the share of its circumference that they cover. */
+/* Refit on the points that belong to the outline until it settles, as often as configured; stops at the last good fit.
+ * The first round takes the points that were looked at. Judges the outline by the share of its circumference that they
+ * cover. */
 static void refit(drogue_outline *outline, context *x)
 {
     const drogue_config *config = x->config;

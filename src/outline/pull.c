@@ -136,8 +136,8 @@ static int32_t moved_by(int32_t *noise_px_q24, const int32_t slope[SLOPES], cons
     return as_seen_q20(seen, best, at_q20) - vertex_q20(curve, is, 1);
 }
 
-/* Add grey along a group's rays where the outline has points, 'middle' samples and one of them within it, so that it falls
- * outwards: as it is or negative, as its bin. */
+/* Add grey along a group's rays where the outline has points, 'middle' samples and one of them within it, so that it
+ * falls outwards: as it is or negative, as its bin. */
 static void add_grey(int32_t sum[], int32_t samples, int32_t middle, const drogue_ray rays[DROGUE_RAYS], int32_t group,
                      const drogue_image *view, const drogue_support *support)
 {
@@ -157,8 +157,8 @@ static void add_grey(int32_t sum[], int32_t samples, int32_t middle, const drogu
     }
 }
 
-/* Slopes of a group and of the one across, the mean over the sets of rays that the outline is large for: the noise of a few
- * rays is more than that of its edge points. */
+/* Slopes of a group and of the one across, the mean over the sets of rays that the outline is large for: the noise of a
+ * few rays is more than that of its edge points. */
 static void read_slopes(int32_t slope[2][SLOPES], const drogue_outline *outline, drogue_ray rays[DROGUE_RAYS],
                         int32_t group, const drogue_image *view)
 {
@@ -181,8 +181,8 @@ static void read_slopes(int32_t slope[2][SLOPES], const drogue_outline *outline,
     }
 }
 
-/* Offsets along the normal as radial ones, in semi-axes times b: times the length of the normal in semi-axes, which is the
- * same in all quadrants. */
+/* Offsets along the normal as radial ones, in semi-axes times b: times the length of the normal in semi-axes, which is
+ * the same in all quadrants. */
 static void spread(int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t moved_q20[GROUPS], const drogue_ellipse *e)
 {
     const int64_t ratio_q24 = drogue_div_round_s64(e->b_px_q16 * (INT64_C(1) << 24), e->a_px_q16);
@@ -244,7 +244,8 @@ static uint64_t squares_left(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], cons
 }
 
 /* Variance of a wave, px^2 Q48, a quarter of what it is of a group's mean: by half of what the three degrees of freedom
- * show that the harmonics leave, some of which lies beside the outline, by noise, and by the grid; as of a round outline. */
+ * show that the harmonics leave, some of which lies beside the outline, by noise, and by the grid; as of a round
+ * outline. */
 static uint64_t variance_of(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t c_px_q24[5],
                             const int32_t noise_px_q24[GROUPS])
 {

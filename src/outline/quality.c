@@ -145,8 +145,8 @@ static int32_t share(int64_t num, int64_t den, int frac_bits)
     return drogue_real_to_s32(t, frac_bits);
 }
 
-/* s(s_r) of (14): 0 at the ratio k2, 0.5 for a circle. Its slope in the ratio is up to k1 / (1 - k2): the ratio's excess
- * over k2 is formed before it is rounded. */
+/* s(s_r) of (14): 0 at the ratio k2, 0.5 for a circle. Its slope in the ratio is up to k1 / (1 - k2): the ratio's
+ * excess over k2 is formed before it is rounded. */
 static drogue_q16 axis_ratio_score(const drogue_ellipse *e, const drogue_quality_config *config)
 {
     const int64_t excess_q32 = (int64_t)e->b_px_q16 * DROGUE_Q16_ONE - (int64_t)e->a_px_q16 * config->k2_q16;

@@ -87,8 +87,8 @@ static int32_t peak_q16(int32_t before, int32_t at, int32_t after)
     return (int32_t)drogue_div_round_s64(((int64_t)after - before) * HALF, bend);
 }
 
-/* Slopes along a ray by a derivative of Gaussian of two samples, 'out' samples to either side, and their peaks. Its taps -2, -3,
- * -4, -3, 0, 3, 4, 3, 2 are the difference of two sums of five samples. */
+/* Slopes along a ray by a derivative of Gaussian of two samples, 'out' samples to either side, and their peaks. Its
+ * taps -2, -3, -4, -3, 0, 3, 4, 3, 2 are the difference of two sums of five samples. */
 static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, int32_t least_q8, int either)
 {
     int32_t grey[SAMPLES + 2 * REACH];

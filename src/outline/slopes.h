@@ -35,16 +35,16 @@ int32_t drogue_edge_variance(const int32_t slope[DROGUE_SLOPES], const int32_t s
  */
 void drogue_find_smear(int32_t smear_px2_q16[2], const int32_t variance_px2_q16[DROGUE_EDGE_GROUPS]);
 
-/* An edge that motion blurs, as its slopes: as wide as the motion across it, or as the bright band that it ends where that
- * is narrower. All in half pixels, Q16. */
+/* An edge that motion blurs, as its slopes: as wide as the motion across it, or as the bright band that it ends where
+ * that is narrower. All in half pixels, Q16. */
 typedef struct drogue_lobe {
     int32_t at_q16;      /* its middle, from the ellipse outwards */
     int32_t width_q16;   /* at half its height; 0: there is none */
     int32_t farther_q16; /* so far inwards is the middle of the band's other edge; 0: none is seen within 15 px */
 } drogue_lobe;
 
-/* The lobe of the steepest slope within 3 px of the ellipse, from where slopes are half of that to where they are again, and
- * of the steepest opposite slope within 18 px inwards of it, if a third as steep.
+/* The lobe of the steepest slope within 3 px of the ellipse, from where slopes are half of that to where they are
+ * again, and of the steepest opposite slope within 18 px inwards of it, if a third as steep.
  *
  *  slope  an edge's own positive, each at most 2^20
  */
@@ -52,9 +52,9 @@ void drogue_find_lobe(drogue_lobe *lobe, const int32_t slope[DROGUE_SMEARED_SLOP
 
 /* How far outwards of the true outline the ellipse is by its lobes, half pixels Q16; 0 for a group without one.
  *
- * Motion over a length l across a band of width w makes lobes min(l, w) wide whose middles are max(l, w) apart: of a band
- * that is narrower both edges are seen (l - w) / 2 too far out. Which it is, opposite groups tell, which the same motion
- * blurs, and the width of the band where it is sharpest.
+ * Motion over a length l across a band of width w makes lobes min(l, w) wide whose middles are max(l, w) apart: of a
+ * band that is narrower both edges are seen (l - w) / 2 too far out. Which it is, opposite groups tell, which the same
+ * motion blurs, and the width of the band where it is sharpest.
  *
  *  lobe  of equal parts of the outline, in order
  */

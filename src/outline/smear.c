@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Motion blur, from how wide the outline's edge is on which side: wide across the motion's direction, sharp along it. */
+/* Motion blur, from how wide the outline's edge is on which side: wide across the motion's direction, sharp along
+ * it. */
 #include "slopes.h"
 
 #include "drogue/fixed.h"

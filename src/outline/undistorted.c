@@ -7,8 +7,8 @@
 #include "collection.h"
 #include "near.h"
 
-/* The pull as waves over the eccentric angle of an ellipse whose major axis is turned against that it was found on, as by
- * half a turn where the angle passes the vertical. */
+/* The pull as waves over the eccentric angle of an ellipse whose major axis is turned against that it was found on, as
+ * by half a turn where the angle passes the vertical. */
 static void turned(int32_t out_q24[5], const int32_t pull_q24[5], drogue_q16 turn_rad_q16)
 {
     int32_t s_q30;

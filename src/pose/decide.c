@@ -64,8 +64,9 @@ static int same_solution(const drogue_joint *p, const other_solution *q)
 #define STEPS 5       /* most Gauss-Newton steps of the pose taken: the start is within a few degrees */
 #define OTHER_STEPS 1 /* of the other one, of which only matters how much worse it is and whether it is the same */
 
-/* Solve for outline and inner part from the nearer pose, and far enough from the other one to know how much worse it is;
- * the other way round when it is better. 0 when they contradict each other; 'resolved' tells whether that decides. */
+/* Solve for outline and inner part from the nearer pose, and far enough from the other one to know how much worse it
+ * is; the other way round when it is better. 0 when they contradict each other; 'resolved' tells whether that
+ * decides. */
 static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved, const drogue_joint_outline *outline,
                           const drogue_evidence *seen, const drogue_setup *setup)
 {
@@ -159,8 +160,8 @@ static void widen(drogue_joint *joint)
     }
 }
 
-/* An outline within which no inner part is seen may be another edge than the rim, or the rim on one side and another edge on
- * the other: 1.1 % of a semi-axis in every parameter. */
+/* An outline within which no inner part is seen may be another edge than the rim, or the rim on one side and another
+ * edge on the other: 1.1 % of a semi-axis in every parameter. */
 static void doubt_outline(drogue_joint_outline *outline)
 {
     const drogue_real doubt = {1 << 30, -43}; /* 2^-13 is the square of 1.1 % */

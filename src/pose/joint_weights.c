@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* How much outline and inner part are to be believed: covariance of the outline from its bins, weights for the solver. */
+/* How much outline and inner part are to be believed: covariance of the outline from its bins, weights for the
+ * solver. */
 #include <string.h>
 
 #include "joint_model.h"
@@ -19,9 +20,9 @@ static int32_t cosine_q30(uint32_t j)
 
 #define HARMONICS 4
 
-/* Normal equations of the fit, points times products of the basis functions 1, cos t, sin t, cos 2t, sin 2t: sums of cos mt and
- * sin mt, t from the axis that is turned by so many bins; 'scatter' is the squared residual of the bins' means. Returns the
- * number of bins that hold points. */
+/* Normal equations of the fit, points times products of the basis functions 1, cos t, sin t, cos 2t, sin 2t: sums of
+ * cos mt and sin mt, t from the axis that is turned by so many bins; 'scatter' is the squared residual of the bins'
+ * means. Returns the number of bins that hold points. */
 static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, const drogue_support *support,
                         uint32_t turned)
 {
@@ -85,9 +86,9 @@ static void square_ratio(real *out, const real *num, const real *den)
     drogue_real_product(out, out, out);
 }
 
-/* Motion blur with a smear of v px^2 leaves a doubt of 0.153 px / px^2 of v in the outline's place on each of the two sides
- * that it blurs, whose edge has no steepest place: their mean and half their difference by the root of half of that each.
- * As for an outline that is nearly round. */
+/* Motion blur with a smear of v px^2 leaves a doubt of 0.153 px / px^2 of v in the outline's place on each of the two
+ * sides that it blurs, whose edge has no steepest place: their mean and half their difference by the root of half of
+ * that each. As for an outline that is nearly round. */
 #define MOST_SMEAR_Q16 DROGUE_Q16(48, 1) /* px^2: more than drogue_outline_pull() finds */
 
 static void add_smear(real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *e, const drogue_support *support)

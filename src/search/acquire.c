@@ -4,9 +4,9 @@
 
 #include <string.h>
 
-/* What a search must show to be sure: where the model knows no inner part cover of the outline and reliability; else an inner
- * part that is dark, sharp and near to its size, and cover. One that decides the orientation and has its size needs less of
- * it, or need not be sharp. */
+/* What a search must show to be sure: where the model knows no inner part cover of the outline and reliability; else an
+ * inner part that is dark, sharp and near to its size, and cover. One that decides the orientation and has its size
+ * needs less of it, or need not be sharp. */
 #define SURE_COVER DROGUE_Q16(3, 4)
 #define SURE_RELIABILITY DROGUE_Q16(9, 10)
 #define DECIDED_COVER DROGUE_Q16(6, 10)
@@ -21,8 +21,8 @@
 #define MOST_EXPECTED (INT64_C(1) << 40) /* px Q16: no inner part's area says more */
 #define MOST_WHOLE_PX 512 /* a larger image is not measured itself: a drogue in it shows its inner part */
 
-/* Radii of the inner part, px Q16, as circles of its area: what the model expects in this outline, and by how much it is
- * off. A ring about some dark disc has another; and of concentric outlines the rim fits best. */
+/* Radii of the inner part, px Q16, as circles of its area: what the model expects in this outline, and by how much it
+ * is off. A ring about some dark disc has another; and of concentric outlines the rim fits best. */
 static int sizes(int64_t *expected, int64_t *off, const drogue_result *r, const drogue_model *model)
 {
     const int64_t z = r->pose.position_m_q16[2];
@@ -58,8 +58,8 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
     return sharp && r->cover_q16 >= SURE_COVER && 10 * (off - MOST_OFF_PX) <= expected;
 }
 
-/* How much a result is worth: 0 without a pose; more where it is sure; most when the inner part decides, too; and then by
- * cover, less the share by which the inner part's size is off. */
+/* How much a result is worth: 0 without a pose; more where it is sure; most when the inner part decides, too; and then
+ * by cover, less the share by which the inner part's size is off. */
 static int32_t worth(const drogue_result *r, const drogue_model *model)
 {
     int64_t expected;
@@ -99,8 +99,8 @@ typedef struct best_seen {
     drogue_q16 y_px_q16;
 } best_seen;
 
-/* Keep a result that is worth more; returns whether it is. Of two sure outlines about one inner part the larger one is more
- * likely the rim, and the other an edge of the canopy. */
+/* Keep a result that is worth more; returns whether it is. Of two sure outlines about one inner part the larger one is
+ * more likely the rim, and the other an edge of the canopy. */
 static int keep_better(best_seen *best, const drogue_result *r, int32_t sighting, const drogue_model *model)
 {
     const int64_t a = r->ellipse.a_px_q16;

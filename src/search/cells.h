@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Inside the search: loops over rows of cells. cells.c has two forms of the same bits, one for compilers that vectorise. */
+/* Inside the search: loops over rows of cells. cells.c has two forms of the same bits, one for compilers that
+ * vectorise. */
 #ifndef DROGUE_CELLS_H
 #define DROGUE_CELLS_H
 

@@ -18,8 +18,8 @@ static const int16_t ray_y[RAYS] = {0, 98, 181, 237, 256, 237, 181, 98, 0, -98, 
 #define MOST_STEP 64 /* grey levels that count of an edge's contrast */
 #define LEAST_STEP 3 /* grey levels: less is no edge */
 
-/* Steps along the rays, bright beyond dark positive, 0 outside the level; and the place taken on each. Rays lie beside each
- * other, so that loops over them become vector instructions. */
+/* Steps along the rays, bright beyond dark positive, 0 outside the level; and the place taken on each. Rays lie beside
+ * each other, so that loops over them become vector instructions. */
 typedef struct rays {
     int32_t first; /* cells from the disc's centre; what is nearer may belong to the disc */
     int32_t last;
@@ -45,7 +45,8 @@ static int32_t quotient(int64_t num, int64_t den)
 
 /* A circle by least squares (Kasa 1976): x^2 + y^2 = 2 a x + 2 b y + c. 0 when the points, at least LEAST_RAYS, do not
  * determine one.
- * Coordinates stay within 2^9, so sums within 2^31; about the mean, those of second order within 2^26, of third within 2^37. */
+ * Coordinates stay within 2^9, so sums within 2^31; about the mean, those of second order within 2^26, of third within
+ * 2^37. */
 static int fit_circle(drogue_rim *out, const rays *r)
 {
     int32_t n = 0, sx = 0, sy = 0, sz = 0, sxx = 0, sxy = 0, syy = 0, txz = 0, tyz = 0;

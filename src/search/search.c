@@ -163,8 +163,8 @@ static void judge_above(drogue_search *search, int k, int32_t y)
     level->pending_count = kept;
 }
 
-/* Add a dark disc of more contrast than the faintest of a full list; of those beside each other the one of most contrast
- * stays, and so when there are too many at once: what a row of texture costs is bounded. */
+/* Add a dark disc of more contrast than the faintest of a full list; of those beside each other the one of most
+ * contrast stays, and so when there are too many at once: what a row of texture costs is bounded. */
 static void keep_disc(drogue_search_level *level, const drogue_search_disc *disc)
 {
     const int32_t near = disc->ring_q4 >> 4;
@@ -189,8 +189,8 @@ static void keep_disc(drogue_search_level *level, const drogue_search_disc *disc
     }
 }
 
-/* Up to which contrast a disc in row y changes nothing of the list: beside pending ones the least of theirs, elsewhere the
- * faintest's of a full list. 255, while it is sought, is also where none is near. */
+/* Up to which contrast a disc in row y changes nothing of the list: beside pending ones the least of theirs, elsewhere
+ * the faintest's of a full list. 255, while it is sought, is also where none is near. */
 static void limit_contrasts(uint8_t limits[PLACES], const drogue_search_level *level, int32_t x, int32_t y,
                             int32_t radius_q4)
 {

@@ -56,8 +56,9 @@ static void advance(drogue_real v[3], const interval *t)
 }
 
 /* Covariance after a step: that of the states plus s^2 for the acceleration, then advanced; the noise's direction
- * (dt^2 / 2, dt, 1) is where a change of acceleration at the step's beginning leads. The advanced factor's rows are made
- * orthogonal in the metric D (modified Gram and Schmidt, Thornton 1976): sums of squares, which nothing makes negative. */
+ * (dt^2 / 2, dt, 1) is where a change of acceleration at the step's beginning leads. The advanced factor's rows are
+ * made orthogonal in the metric D (modified Gram and Schmidt, Thornton 1976): sums of squares, which nothing makes
+ * negative. */
 static void spread(drogue_kalman3 *f, const interval *t, drogue_q16 std_q16)
 {
     drogue_real rows[3][3];

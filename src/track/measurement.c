@@ -60,9 +60,9 @@ static void twins_apart(int64_t apart_q16[DROGUE_PARAMETERS], const drogue_resul
     }
 }
 
-/* Noise from the result's covariance, without the distance of the twins: the filter follows one of them; and without the
- * doubt by the inner part's size, which is no noise: it lasts from frame to frame. The pose's twin has the same variances
- * and the same correlations of position; those of its angles are its own, not known, and count as none. */
+/* Noise from the result's covariance, without the distance of the twins: the filter follows one of them; and without
+ * the doubt by the inner part's size, which is no noise: it lasts from frame to frame. The pose's twin has the same
+ * variances and the same correlations of position; those of its angles are its own, not known, and count as none. */
 static void measured_noise(drogue_measurement *m, const drogue_result *result, int twin, drogue_q16 rim_radius_m_q16,
                            const drogue_track_config *c)
 {
@@ -107,7 +107,8 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
 }
 
 /* An outline that its region cut and no second look made whole may be another than it seems: what it lacks of its
- * circumference, by third parts, is off beside its own noise, in semi-axes sideways, in distances along the axis and in rad. */
+ * circumference, by third parts, is off beside its own noise, in semi-axes sideways, in distances along the axis and in
+ * rad. */
 static void doubt_if_cut(drogue_measurement *m, const drogue_result *result, drogue_q16 rim_radius_m_q16)
 {
     const drogue_q16 lacking_q16 = drogue_q16_sub(DROGUE_Q16_ONE, result->cover_q16) / 3;

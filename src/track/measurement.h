@@ -24,7 +24,8 @@ static inline int drogue_measurement_counts(const drogue_result *result, const d
 /* Standard deviations are never 0. */
 static inline drogue_q16 drogue_at_least_one(drogue_q16 v) { return v < 1 ? 1 : v; }
 
-/* Read the pose of a result, or its twin. A cut outline counts for less than its covariance says: drogue_track_end(). */
+/* Read the pose of a result, or its twin. A cut outline counts for less than its covariance says:
+ * drogue_track_end(). */
 void drogue_measurement_read(drogue_measurement *m, const drogue_result *result, int twin, const drogue_model *model,
                              const drogue_track_config *c);
 

@@ -99,8 +99,8 @@ static void correct(drogue_kalman *filter, const drogue_measurement *m, const dr
     drogue_kalman_correct(filter, own.value_q16, own.std_q16);
 }
 
-/* What the estimate's standard deviations keep of a measurement: its doubt, and as long as the orientation is open it may
- * be the twin. */
+/* What the estimate's standard deviations keep of a measurement: its doubt, and as long as the orientation is open it
+ * may be the twin. */
 static void keep_noise(drogue_track *track, const drogue_measurement *m)
 {
     int p;
@@ -135,8 +135,8 @@ static drogue_track_state believe(drogue_track *track, const drogue_measurement 
     return track->state;
 }
 
-/* What is measured against: a step more agile than the estimate, and with room in depth for what light and lens do to the
- * outline from one frame to the next. */
+/* What is measured against: a step more agile than the estimate, and with room in depth for what light and lens do to
+ * the outline from one frame to the next. */
 static void gate_of(drogue_kalman *gate, const drogue_track *track)
 {
     drogue_real *variance = &gate->parameter[DROGUE_Z].variance[0];
