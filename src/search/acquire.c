@@ -19,6 +19,7 @@
 #define LARGER (DROGUE_Q16_ONE / 8)     /* the worth of being the larger one of two outlines about one inner part */
 #define MOST_PRODUCT (INT64_MAX / 4)
 #define MOST_EXPECTED (INT64_C(1) << 40) /* px Q16: no inner part's area says more */
+#define WIDER 2                          /* so many sightings are measured once more */
 #define MOST_WHOLE_PX 512 /* a larger image is not measured itself: a drogue in it shows its inner part */
 
 /* Radii of the inner part, px Q16, as circles of its area: what the model expects in this outline, and by how much it
@@ -59,7 +60,8 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
 }
 
 /* How much a result is worth: 0 without a pose; more where it is sure; most when the inner part decides, too; and then
- * by cover, less the share by which the inner part's size is off. */
+ * by cover, less the share by which the inner part's size is off. What is not sure is worth a quarter more with an inner
+ * part, and another one where that decides. */
 static int32_t worth(const drogue_result *r, const drogue_model *model)
 {
     int64_t expected;
@@ -68,7 +70,7 @@ static int32_t worth(const drogue_result *r, const drogue_model *model)
         return 0;
     }
     if (!drogue_result_sure(r, model)) {
-        return 1 + r->cover_q16;
+        return 1 + r->cover_q16 + (r->has_inner + r->orientation_resolved) * (DROGUE_Q16_ONE / 4);
     }
     if (!sizes(&expected, &off, r, model)) {
         return SURE + r->cover_q16;
@@ -93,7 +95,7 @@ static int settles(const drogue_result *r, const drogue_model *model)
 /* What is kept of the best measurement. */
 typedef struct best_seen {
     int32_t worth;
-    int32_t sighting; /* its index */
+    drogue_region region; /* where it was measured */
     drogue_q16 a_px_q16;
     drogue_q16 x_px_q16; /* of the inner part */
     drogue_q16 y_px_q16;
@@ -101,7 +103,7 @@ typedef struct best_seen {
 
 /* Keep a result that is worth more; returns whether it is. Of two sure outlines about one inner part the larger one is
  * more likely the rim, and the other an edge of the canopy. */
-static int keep_better(best_seen *best, const drogue_result *r, int32_t sighting, const drogue_model *model)
+static int keep_better(best_seen *best, const drogue_result *r, const drogue_region *region, const drogue_model *model)
 {
     const int64_t a = r->ellipse.a_px_q16;
     const int64_t was = best->a_px_q16;
@@ -118,7 +120,7 @@ static int keep_better(best_seen *best, const drogue_result *r, int32_t sighting
         return 0;
     }
     best->worth = value;
-    best->sighting = sighting;
+    best->region = *region;
     best->a_px_q16 = r->ellipse.a_px_q16;
     best->x_px_q16 = r->inner.x_px_q16;
     best->y_px_q16 = r->inner.y_px_q16;
@@ -157,6 +159,17 @@ static drogue_status search_part(drogue_search *search, const drogue_image *imag
     return DROGUE_OK;
 }
 
+/* A region about the same middle, a quarter larger. */
+static drogue_region wider(const drogue_region *r)
+{
+    drogue_region w;
+    w.x_px = r->x_px - r->width_px / 8;
+    w.y_px = r->y_px - r->height_px / 8;
+    w.width_px = r->width_px + r->width_px / 4;
+    w.height_px = r->height_px + r->height_px / 4;
+    return w;
+}
+
 /* Is the part itself measured when nothing sighted decides? */
 static int measures_whole(const drogue_region *part, const drogue_model *model)
 {
@@ -169,12 +182,14 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     drogue_region part;
     drogue_region whole;
     drogue_status status;
+    drogue_region last;
     best_seen best;
-    int32_t last = -1;
+    int32_t kept = 0; /* index of the best sighting */
     int settled = 0;
     int32_t i;
     memset(out, 0, sizeof *out);
     memset(&best, 0, sizeof best);
+    memset(&last, 0, sizeof last);
     whole.x_px = 0;
     whole.y_px = 0;
     whole.width_px = image->width_px;
@@ -194,23 +209,31 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     }
     out->status = DROGUE_E_NO_INNER_PART;
     for (i = 0; i < search->count; i++) {
-        if (settled &&
-            (setup->model->inner_radius_m_q16 == 0 || !surrounds(&search->best[i], &search->best[best.sighting]))) {
+        if (settled && (setup->model->inner_radius_m_q16 == 0 || !surrounds(&search->best[i], &search->best[kept]))) {
             continue;
         }
-        (void)drogue_measure(out, workspace, setup, image, &search->best[i].region);
-        if (keep_better(&best, out, i, setup->model) && settles(out, setup->model)) {
-            settled = 1;
+        last = search->best[i].region;
+        (void)drogue_measure(out, workspace, setup, image, &last);
+        if (keep_better(&best, out, &last, setup->model)) {
+            kept = i;
+            settled |= settles(out, setup->model);
         }
-        last = i;
+    }
+    for (i = 0; i < WIDER && i < search->count && best.worth <= SURE && setup->model->inner_radius_m_q16 > 0; i++) {
+        last = wider(&search->best[i].region); /* what was sighted may be an edge within the drogue */
+        (void)drogue_measure(out, workspace, setup, image, &last);
+        if (out->status == DROGUE_OK && settles(out, setup->model)) {
+            (void)keep_better(&best, out, &last, setup->model);
+        }
     }
     if (best.worth <= SURE && measures_whole(&part, setup->model)) {
-        (void)drogue_measure(out, workspace, setup, image, &whole);
-        last = search->count;
-        (void)keep_better(&best, out, last, setup->model);
+        last = whole;
+        (void)drogue_measure(out, workspace, setup, image, &last);
+        (void)keep_better(&best, out, &last, setup->model);
     }
-    if (best.worth > 0 && best.sighting != last) { /* again, so that the workspace holds its points */
-        (void)drogue_measure(out, workspace, setup, image, &search->best[best.sighting].region);
+    if (best.worth > 0 &&
+        memcmp(&best.region, &last, sizeof last) != 0) { /* again, so that the workspace holds its points */
+        (void)drogue_measure(out, workspace, setup, image, &best.region);
     }
     if (out->status == DROGUE_OK && !drogue_result_sure(out, setup->model)) {
         out->status = DROGUE_E_UNSURE;

@@ -168,7 +168,7 @@ namespace {
 class Weighed {
 public:
     Weighed(const mirror::Result &r, const reference::Model &m)
-        : ok_(r.status == DROGUE_OK), cover_(r.outline.cover), resolved_(r.resolved), model_(m)
+        : ok_(r.status == DROGUE_OK), has_inner_(r.has_inner), cover_(r.outline.cover), resolved_(r.resolved), model_(m)
     {
         const Real z = r.pose.position[2], end = z + m.inner_depth;
         reliable_ = ok_ && r.outline.quality.reliability >= 0.9L;
@@ -197,13 +197,13 @@ public:
     Real worth() const
     {
         return !ok_      ? 0
-               : !sure() ? 1 / 65536.0L + cover_
+               : !sure() ? 1 / 65536.0L + cover_ + (has_inner_ + resolved_) * 0.25L
                : !seen_  ? 2 + cover_
                          : (resolved_ ? 5 : 3) + cover_ - std::min<Real>(off_ / expected_, 1);
     }
 
 private:
-    bool ok_, reliable_ = false, seen_ = false, sharp_ = false, dark_ = false;
+    bool ok_, has_inner_, reliable_ = false, seen_ = false, sharp_ = false, dark_ = false;
     Real cover_;
     bool resolved_;
     reference::Model model_;
@@ -251,7 +251,7 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
     const auto weigh = [&](const FrameWords &f) { return Weighed(f.result, model); };
     Real most = 0;
     size_t best = 0;
-    const auto attempt = [&](const std::array<int64_t, 4> &region) {
+    const auto attempt = [&](const std::array<int64_t, 4> &region, bool must_settle = false) {
         tried.push_back(measured(region));
         const FrameWords &f = tried.back(), &kept = tried[best];
         const Weighed w = weigh(f);
@@ -262,7 +262,7 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
             own += larger > 9 / 8.0L ? 0.125L : 0;
             other += larger < 8 / 9.0L ? 0.125L : 0;
         }
-        if (own <= other) {
+        if (own <= other || (must_settle && !w.settles())) {
             return false;
         }
         most = w.worth();
@@ -286,6 +286,12 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
         }
         measured_ones.push_back(s);
         settled = attempt({s.region.x + left, s.region.y + top, s.region.width, s.region.height}) || settled;
+    }
+    for (size_t i = 0; i < 2 && i < sightings.size() && most <= 2 && model.inner_radius > 0; i++) {
+        const auto &r = sightings[i].region;
+        const std::array<int64_t, 4> wide = {r.x + left - r.width / 8, r.y + top - r.height / 8, r.width + r.width / 4,
+                                             r.height + r.height / 4};
+        (void)attempt(wide, true);
     }
     if (most <= 2 && (model.inner_radius <= 0 || std::max(part.width, part.height) <= 512)) {
         (void)attempt(asked);

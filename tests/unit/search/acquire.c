@@ -15,14 +15,23 @@ static uint8_t pixels[MOST * MOST];
 static uint8_t memory[DROGUE_SEARCH_BYTES(MOST)];
 static drogue_search search;
 
-/* What is to be measured in the first sighting, the second, and elsewhere: in the part itself. */
-static drogue_result first, second, elsewhere;
+/* What is to be measured in the first sighting, the second, in a larger region about either, and elsewhere: in the part
+ * itself. */
+static drogue_result first, second, larger[2], elsewhere;
 static drogue_region measured[CALLS];
 static int calls;
 
 static int same_region(const drogue_region *p, const drogue_region *q)
 {
     return p->x_px == q->x_px && p->y_px == q->y_px && p->width_px == q->width_px && p->height_px == q->height_px;
+}
+
+/* Is p about the middle of q, and a quarter larger? */
+static int larger_region(const drogue_region *p, const drogue_region *q)
+{
+    return abs(2 * p->x_px + p->width_px - 2 * q->x_px - q->width_px) <= 2 &&
+           abs(2 * p->y_px + p->height_px - 2 * q->y_px - q->height_px) <= 2 && p->width_px == q->width_px * 5 / 4 &&
+           p->height_px == q->height_px * 5 / 4;
 }
 
 drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
@@ -33,9 +42,11 @@ drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, co
     (void)image;
     ck_assert_int_lt(calls, CALLS);
     measured[calls++] = *region;
-    *out = search.count > 0 && same_region(region, &search.best[0].region)   ? first
-           : search.count > 1 && same_region(region, &search.best[1].region) ? second
-                                                                             : elsewhere;
+    *out = search.count > 0 && same_region(region, &search.best[0].region)     ? first
+           : search.count > 1 && same_region(region, &search.best[1].region)   ? second
+           : search.count > 0 && larger_region(region, &search.best[0].region) ? larger[0]
+           : search.count > 1 && larger_region(region, &search.best[1].region) ? larger[1]
+                                                                               : elsewhere;
     return out->status;
 }
 
@@ -116,7 +127,7 @@ static int stands(const drogue_result *of_first, const drogue_result *of_second,
 {
     first = *of_first;
     second = *of_second;
-    elsewhere = nothing();
+    larger[0] = larger[1] = elsewhere = nothing();
     (void)acquire(&stood, m, 480, 360, 2);
     ck_assert_int_gt(calls, 0);
     MUST(!same_region(&search.best[0].region, &search.best[1].region), "one region");
@@ -138,16 +149,23 @@ START_TEST(what_is_worth_more_stands)
 {
     const drogue_result none = nothing(), unsure = with_inner(40, 0), less = with_inner(39, 0),
                         sure = with_inner(79, 0), decided = with_inner(61, 1), covered = without_inner(90, 50),
-                        alone = without_inner(76, 95);
+                        alone = without_inner(76, 95), decides = with_inner(50, 1), seen = with_inner(74, 0),
+                        unseen = without_inner(98, 50);
+    drogue_result whole = with_inner(100, 1);
     drogue_result wrong = with_inner(61, 1);
     drogue_result tiny = with_inner(79, 0);
     const drogue_model pinprick = {22938, 1, 0};
     tiny.ellipse.a_px_q16 = tiny.ellipse.b_px_q16 = DROGUE_Q16(1, 10); /* of which an inner part rounds to nothing */
     tiny.inner.area_px = 1;
     wrong.inner.area_px = 3500; /* 33.4 px */
+    whole.inner.area_px = 9000; /* of another size */
     better(&tiny, &unsure, &pinprick, DROGUE_OK);
     better(&unsure, &none, &model, DROGUE_E_UNSURE);
     better(&unsure, &less, &model, DROGUE_E_UNSURE);
+    better(&decides, &seen, &model, DROGUE_E_UNSURE);
+    better(&seen, &unseen, &model, DROGUE_E_UNSURE);
+    better(&unseen, &unsure, &model, DROGUE_E_UNSURE); /* more cover by more than an inner part counts */
+    better(&sure, &whole, &model, DROGUE_OK);          /* nothing that is unsure is worth as much */
     better(&sure, &unsure, &model, DROGUE_OK);
     better(&decided, &sure, &model, DROGUE_OK);     /* with less cover */
     better(&decided, &wrong, &model, DROGUE_OK);    /* an inner part that is more of its size */
@@ -215,6 +233,36 @@ START_TEST(what_settles)
 }
 END_TEST
 
+/* What was sighted may be an edge within the drogue: where nothing is sure, the first two are measured in larger regions,
+ * too. */
+START_TEST(the_first_two_once_more)
+{
+    drogue_result out;
+    first = second = without_inner(90, 50);
+    larger[0] = with_inner(79, 1); /* sure, and covered to less than four fifths */
+    larger[1] = with_inner(80, 1);
+    elsewhere = nothing();
+    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_OK);
+    ck_assert_int_eq(calls, 4);
+    ck_assert_int_eq(out.cover_q16, larger[1].cover_q16);
+    larger[0] = with_inner(80, 1); /* which is enough */
+    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_OK);
+    ck_assert_int_eq(calls, 3);
+    larger[0] = larger[1] = with_inner(80, 1);
+    larger[0].status = larger[1].status = DROGUE_E_DOMAIN;
+    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_E_UNSURE); /* the first is measured again */
+    ck_assert_int_eq(calls, 5);
+    ck_assert_int_eq(out.cover_q16, first.cover_q16);
+    ck_assert_int_eq(acquire(&out, &model, 480, 514, 3), DROGUE_E_UNSURE); /* the third is not */
+    ck_assert_int_eq(calls, 6);
+    ck_assert_int_eq(acquire(&out, &no_inner, 480, 514, 2), DROGUE_E_UNSURE);
+    ck_assert_int_eq(calls, 4); /* both, the part, and the first again */
+    second = with_inner(75, 0); /* sure */
+    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_OK);
+    ck_assert_int_eq(calls, 2);
+}
+END_TEST
+
 /* The part itself is measured up to 512 px a side, and of any size without an inner part. */
 START_TEST(when_the_part_is_measured)
 {
@@ -248,12 +296,13 @@ START_TEST(the_part_after_its_sightings)
     drogue_result out;
     first = with_inner(40, 0);
     elsewhere = with_inner(70, 1);
+    larger[0] = larger[1] = nothing();
     ck_assert_int_eq(acquire(&out, &model, 480, 360, 1), DROGUE_OK);
-    ck_assert_int_eq(calls, 2);
+    ck_assert_int_eq(calls, 3);
     ck_assert_int_eq(out.cover_q16, elsewhere.cover_q16);
     elsewhere = with_inner(30, 0); /* less than what was sighted, which is measured again */
     ck_assert_int_eq(acquire(&out, &model, 480, 360, 1), DROGUE_E_UNSURE);
-    ck_assert_int_eq(calls, 3);
+    ck_assert_int_eq(calls, 4);
     ck_assert_int_eq(out.cover_q16, first.cover_q16);
     first = with_inner(79, 0);
     elsewhere = with_inner(90, 1);
@@ -264,4 +313,4 @@ START_TEST(the_part_after_its_sightings)
 END_TEST
 
 SUITE_MAIN("acquire", what_is_worth_more_stands, the_larger_of_two_about_one_inner_part, what_settles,
-           when_the_part_is_measured, the_part_after_its_sightings)
+           the_first_two_once_more, when_the_part_is_measured, the_part_after_its_sightings)
