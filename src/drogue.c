@@ -31,7 +31,7 @@ static void clear(drogue_result *out)
 enum { FIRST, FIRST_LARGER, OWN, OWN_LARGER, BEYOND };
 
 #define RAISES 2     /* at most, of thresholds of the noise that fill a table */
-#define LARGEST 2040 /* L1 Sobel magnitude that there is */
+#define LARGEST 1530 /* L1 Sobel magnitude that there is: a corner's */
 
 static void begin_try(drogue_frame *f)
 {
@@ -80,7 +80,8 @@ static int is_full(drogue_status status)
     return status == DROGUE_E_LABELS_FULL || status == DROGUE_E_EDGES_FULL || status == DROGUE_E_ARCS_FULL;
 }
 
-static int32_t raised(int32_t high) { return high + high / 2 + 1; }
+/* By half; there is no sense in more than the largest magnitude. */
+static int32_t raised(int32_t high) { return high > LARGEST ? INT32_MAX : high + high / 2 + 1; }
 
 /* May it be tried? Lower thresholds than the configured ones, or where these filled a table higher ones. */
 static int is_other(int32_t high, const drogue_frame *f, int full)
@@ -96,21 +97,26 @@ static int32_t own_threshold(const drogue_frame *f, int full)
     int32_t high = drogue_noise_threshold(f->workspace->histogram, &f->view);
     high = high < config->canny_least ? config->canny_least : high;
     if (full && high <= config->canny_high) {
-        high = raised(drogue_clamp_s32(config->canny_high, 0, LARGEST));
+        high = raised(config->canny_high);
     }
     return high;
 }
 
-/* Look with other thresholds, raised where they fill a table. */
-static drogue_status try_own(drogue_frame *f, const drogue_region *region, int32_t high, int full)
+/* Look with other thresholds, raised where they fill a table, which 'room' then says. */
+static drogue_status try_own(drogue_second_look *room, drogue_frame *f, const drogue_region *region, int32_t high,
+                             int full)
 {
-    drogue_status status;
-    int raises = 0;
-    do { /* bound: RAISES + 1 */
+    drogue_status status = DROGUE_OK;
+    int k;
+    for (k = 0; k <= RAISES && is_other(high, f, full); k++) { /* bound: 3 */
         set_thresholds(f, high);
         status = try_out(f, region, OWN, 0);
+        if (!is_full(status)) {
+            return status;
+        }
+        *room = *room == DROGUE_SECOND_NONE ? DROGUE_SECOND_FULL : *room;
         high = raised(high);
-    } while (is_full(status) && raises++ < RAISES && is_other(high, f, full));
+    }
     return status;
 }
 
@@ -236,7 +242,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
             if (!is_other(high, f, full)) {
                 break;
             }
-            status = try_own(f, region, high, full);
+            status = try_own(&room, f, region, high, full);
         } else {
             status = try_out(f, region, what, larger);
         }

@@ -173,7 +173,7 @@ drogue_status drogue_frontend_end(drogue_edge_list *list, drogue_frontend *front
  * a codec or a sharpened image counts as what smoothing leaves of it.
  *
  *  histogram  work area, 256 counts
- *  return     L1 Sobel magnitude, grey levels * 8, below 700; 0 for less noise than a tenth of a level, and of an image
+ *  return     L1 Sobel magnitude, grey levels * 8, below 700; 0 for less noise than 0.3 levels, and of an image
  *             under 17 x 3 px
  */
 int32_t drogue_noise_threshold(uint32_t *histogram, const drogue_image *image);

@@ -9,18 +9,15 @@
 #define SHIFT 3      /* of a block's sum, to the histogram's bins */
 #define EVERY 3      /* so many-th row is looked at */
 #define QUANTILE 10  /* one in so many blocks has less */
-#define PER_MIL 3762 /* bins of that quantile over the deviation of white noise, by simulation */
+#define PER_MIL 3830 /* bins of that quantile over the deviation of white noise, by simulation */
 #define DEVIATIONS 10
 #define BINS 256
 
 /* Sum of a column over three rows. */
-static inline int32_t column(const uint8_t *above, int32_t stride, int32_t x)
-{
-    return above[x] + above[x + stride] + above[x + 2 * stride];
-}
+static inline int32_t column(const uint8_t *const row[3], int32_t x) { return row[0][x] + row[1][x] + row[2][x]; }
 
 /* Count the second differences of boxes of 3 x 3 px along a row, by blocks. Returns the number of blocks. */
-static uint32_t count_row(uint32_t histogram[BINS], const uint8_t *above, int32_t stride, int32_t width_px)
+static uint32_t count_row(uint32_t histogram[BINS], const uint8_t *const row[3], int32_t width_px)
 {
     uint32_t blocks = 0;
     int32_t sum = 0;
@@ -28,7 +25,7 @@ static uint32_t count_row(uint32_t histogram[BINS], const uint8_t *above, int32_
     int32_t left = BLOCK;
     int32_t x;
     for (x = 0; x <= 2 * REACH; x++) { /* bound: 9 */
-        bend += x / 3 == 1 ? -2 * column(above, stride, x) : column(above, stride, x);
+        bend += x / 3 == 1 ? -2 * column(row, x) : column(row, x);
     }
     for (x = REACH; x + REACH < width_px; x++) { /* bound: 2044 */
         sum += bend < 0 ? -bend : bend;
@@ -39,8 +36,7 @@ static uint32_t count_row(uint32_t histogram[BINS], const uint8_t *above, int32_
             left = BLOCK;
         }
         if (x + REACH + 1 < width_px) { /* the boxes move on by a column */
-            bend += column(above, stride, x + 5) - column(above, stride, x - 4) +
-                    3 * (column(above, stride, x - 1) - column(above, stride, x + 2));
+            bend += column(row, x + 5) - column(row, x - 4) + 3 * (column(row, x - 1) - column(row, x + 2));
         }
     }
     return blocks;
@@ -52,17 +48,19 @@ int32_t drogue_noise_threshold(uint32_t *histogram, const drogue_image *image)
     uint32_t below = 0;
     int32_t level = 0;
     int32_t y;
-    int64_t twice; /* the quantile, times the count of its bin: a bin reaches half a level to either side */
+    int64_t quantile; /* times the count of its bin */
     memset(histogram, 0, BINS * sizeof(uint32_t));
     for (y = 0; y + 2 < image->height_px && image->width_px > 2 * REACH; y += EVERY) { /* bound: 683 */
-        count += count_row(histogram, drogue_image_row(image, y), image->stride, image->width_px);
+        const uint8_t *const row[3] = {drogue_image_row(image, y), drogue_image_row(image, y + 1),
+                                       drogue_image_row(image, y + 2)};
+        count += count_row(histogram, row, image->width_px);
     }
-    if (QUANTILE * histogram[0] >= count) { /* it is within half a level of 0, or there is none */
+    if (QUANTILE * histogram[0] >= count) { /* it is in the first bin, or there is none */
         return 0;
     }
     while (level < BINS - 1 && QUANTILE * (below + histogram[level]) < count) { /* bound: 255 */
         below += histogram[level++];
     }
-    twice = (2 * (int64_t)level - 1) * histogram[level] + 2 * ((int64_t)(count / QUANTILE) - (int64_t)below);
-    return (int32_t)drogue_div_round_s64(DEVIATIONS * 1000 * twice, (int64_t)2 * PER_MIL * histogram[level]);
+    quantile = (int64_t)level * histogram[level] + (int64_t)(count / QUANTILE) - (int64_t)below;
+    return (int32_t)drogue_div_round_s64(DEVIATIONS * 1000 * quantile, (int64_t)PER_MIL * histogram[level]);
 }

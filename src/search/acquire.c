@@ -60,8 +60,8 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
 }
 
 /* How much a result is worth: 0 without a pose; more where it is sure; most when the inner part decides, too; and then
- * by cover, less the share by which the inner part's size is off. What is not sure is worth a quarter more with an inner
- * part, and another one where that decides. */
+ * by cover, less the share by which the inner part's size is off. What is not sure is worth a quarter more with an
+ * inner part, and another one where that decides. */
 static int32_t worth(const drogue_result *r, const drogue_model *model)
 {
     int64_t expected;
@@ -170,6 +170,11 @@ static drogue_region wider(const drogue_region *r)
     return w;
 }
 
+static int same_region(const drogue_region *p, const drogue_region *q)
+{
+    return p->x_px == q->x_px && p->y_px == q->y_px && p->width_px == q->width_px && p->height_px == q->height_px;
+}
+
 /* Is the part itself measured when nothing sighted decides? */
 static int measures_whole(const drogue_region *part, const drogue_model *model)
 {
@@ -231,8 +236,7 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         (void)drogue_measure(out, workspace, setup, image, &last);
         (void)keep_better(&best, out, &last, setup->model);
     }
-    if (best.worth > 0 &&
-        memcmp(&best.region, &last, sizeof last) != 0) { /* again, so that the workspace holds its points */
+    if (best.worth > 0 && !same_region(&best.region, &last)) { /* again, so that the workspace holds its points */
         (void)drogue_measure(out, workspace, setup, image, &best.region);
     }
     if (out->status == DROGUE_OK && !drogue_result_sure(out, setup->model)) {

@@ -60,6 +60,23 @@ static void twins_apart(int64_t apart_q16[DROGUE_PARAMETERS], const drogue_resul
     }
 }
 
+/* What the inner part's size adds to the covariance of x, y, z, where that holds it; else zero. */
+static void doubt_held(drogue_real doubt[DROGUE_DOUBT_PACKED], const drogue_result *result,
+                       const int64_t apart_q16[DROGUE_PARAMETERS], drogue_q16 rim_radius_m_q16)
+{
+    int p;
+    memset(doubt, 0, DROGUE_DOUBT_PACKED * sizeof *doubt);
+    drogue_doubt_add(doubt, result->pose.position_m_q16, result->doubt_q16, rim_radius_m_q16);
+    for (p = 0; p < 3; p++) {
+        drogue_real own;
+        drogue_real_set(&own, result->covariance_q48[p][p] - half_product_q48(apart_q16, p, p), -48);
+        if (drogue_real_order(&doubt[DROGUE_PACKED(p, p)], &own) >= 0) {
+            memset(doubt, 0, DROGUE_DOUBT_PACKED * sizeof *doubt);
+            return;
+        }
+    }
+}
+
 /* Noise from the result's covariance, without the distance of the twins: the filter follows one of them; and without
  * the doubt by the inner part's size, which is no noise: it lasts from frame to frame. The pose's twin has the same
  * variances and the same correlations of position; those of its angles are its own, not known, and count as none. */
@@ -71,8 +88,7 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
     int p;
     int q;
     twins_apart(apart_q16, result);
-    memset(doubt, 0, sizeof doubt);
-    drogue_doubt_add(doubt, result->pose.position_m_q16, result->doubt_q16, rim_radius_m_q16);
+    doubt_held(doubt, result, apart_q16, rim_radius_m_q16);
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         const int64_t own_q48 = result->covariance_q48[order[p]][order[p]];
         drogue_real *variance = &m->noise[DROGUE_PACKED(p, p)];
@@ -86,9 +102,6 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
         drogue_real_difference(&own, &own, &m->apart[p]);
         if (p < DROGUE_PITCH) {
             m->doubt[p] = doubt[DROGUE_PACKED(p, p)];
-            if (drogue_real_order(&m->doubt[p], &own) > 0) { /* of a result that somebody else made */
-                m->doubt[p] = own;
-            }
             drogue_real_difference(&own, &own, &m->doubt[p]);
         }
         drogue_real_sum(variance, &own, variance);
@@ -106,6 +119,13 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
     }
 }
 
+/* What was found with higher thresholds, after lower ones filled a table, no region cut. */
+static int is_cut(const drogue_result *result)
+{
+    const int higher = result->second_look == DROGUE_SECOND_FULL && (result->tried == 2 || result->tried == 3);
+    return result->second_look > DROGUE_SECOND_BETTER && !higher;
+}
+
 /* An outline that its region cut and no second look made whole may be another than it seems: what it lacks of its
  * circumference, by third parts, is off beside its own noise, in semi-axes sideways, in distances along the axis and in
  * rad. */
@@ -113,7 +133,7 @@ static void doubt_if_cut(drogue_measurement *m, const drogue_result *result, dro
 {
     const drogue_q16 lacking_q16 = drogue_q16_sub(DROGUE_Q16_ONE, result->cover_q16) / 3;
     int p;
-    if (result->second_look <= DROGUE_SECOND_BETTER) {
+    if (!is_cut(result)) {
         return;
     }
     for (p = 0; p < DROGUE_PARAMETERS; p++) {

@@ -73,7 +73,7 @@ prints 'mixed'
 run 1 measure black.png $camera --json
 same "$(json status)" '"no_edges"'
 same "$(json second_look)" '"none"'
-for key in ellipse reliability cover arcs cluster_members polarity inner_centre position_m axis yaw_deg pitch_deg alternative orientation_resolved ambiguity \
+for key in ellipse reliability cover arcs cluster_members polarity inner_centre position_m axis yaw_deg pitch_deg alternative orientation_resolved ambiguity doubt \
     covariance position_std_m axis_std_deg; do
     same "$(json $key)" null
 done

@@ -131,6 +131,11 @@ void add_disturbed_scenes(Set &set)
         add_frame(set, "noise-fills-a-table-" + std::to_string(static_cast<int>(noise)), Tier::stress, {"noise"},
                   photograph(s, region_of(s), 0));
     }
+    s = scene_at(71, 0.1, -0.1, 6.8, 8, -6);
+    s.drogue.inner_radius_m = s.drogue.coupling_radius_m = 0.2; /* 42 px: measured by twice the rays */
+    Frame large = photograph(s, region_of(s), 0);
+    large.inner_radius = 0.2;
+    add_frame(set, "large-disc", Tier::ordinary, {}, large);
     s = scene_at(32, -0.6, 0.5, 12, -14, 6);
     s.sensor.motion_length_px = 6;
     s.sensor.motion_angle_rad = 0.6;

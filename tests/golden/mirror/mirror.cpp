@@ -48,6 +48,7 @@ struct Frame {
     Follow follow;
     cv::Rect region; /* of the last outline looked for, and that */
     Outline outline;
+    bool filled = false; /* thresholds of the noise filled a table */
     drogue_second_look second_look = DROGUE_SECOND_NONE;
 };
 
@@ -483,13 +484,13 @@ void find(Result &out, Frame &f, const Task &task, const drogue_result *library)
 bool try_own(Result &out, Frame &f, Task &task, const Task &asked, bool full, const drogue_result *library)
 {
     const drogue_config &c = asked.config;
-    const auto raised = [](int32_t high) { return high + high / 2 + 1; };
+    const auto raised = [](int32_t high) { return high > 1530 ? INT32_MAX : high + high / 2 + 1; };
     uint32_t histogram[256];
     const drogue_image view = {f.view.data, f.view.cols, f.view.rows, static_cast<int32_t>(f.view.step)};
     int32_t high = std::max(drogue_noise_threshold(histogram, &view), c.canny_least);
-    high = full && high <= c.canny_high ? raised(std::min(c.canny_high, 2040)) : high;
+    high = full && high <= c.canny_high ? raised(c.canny_high) : high;
     bool tried = false;
-    for (int k = 0; k < 3 && c.canny_least < c.canny_high && (full ? high <= 2040 : high < c.canny_high); k++) {
+    for (int k = 0; k < 3 && c.canny_least < c.canny_high && (full ? high <= 1530 : high < c.canny_high); k++) {
         task.config.canny_low = static_cast<int32_t>(static_cast<int64_t>(high) * c.canny_low / c.canny_high);
         task.config.canny_high = high;
         find(out, f, task, library);
@@ -497,6 +498,7 @@ bool try_own(Result &out, Frame &f, Task &task, const Task &asked, bool full, co
         if (!is_full(out.status)) {
             break;
         }
+        f.filled = true;
         high = raised(high);
     }
     return tried;
@@ -552,7 +554,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         }
         status = out.status;
         if (room == DROGUE_SECOND_NONE) {
-            room = is_full(status)                             ? DROGUE_SECOND_FULL
+            room = is_full(status) || f.filled                 ? DROGUE_SECOND_FULL
                    : out.second_look >= DROGUE_SECOND_TOO_WIDE ? out.second_look
                                                                : DROGUE_SECOND_NONE;
         }

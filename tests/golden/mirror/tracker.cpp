@@ -223,13 +223,18 @@ Measured Tracker::read(const drogue_result &r, bool twin) const
     if (r.covariance_q48[0][0] > 0) {
         Five apart = values(r.alternative); /* of the twins, where the covariance holds half its square */
         const Five own = values(r.pose);
-        const auto doubt = doubt_covariance({own[0], own[1], own[2]}, real(r.doubt_q16), real(model_.rim_radius_m_q16));
+        auto doubt = doubt_covariance({own[0], own[1], own[2]}, real(r.doubt_q16), real(model_.rim_radius_m_q16));
         for (size_t p = 0; p < 5; p++) {
             apart[p] = std::clamp<Real>(apart[p] - own[p], -64, 64);
         }
         for (size_t p = 0; p < 5; p++) {
             if (r.orientation_resolved != 0 || entry(p, p) <= squared(apart[p]) / 2) {
                 apart = {};
+            }
+        }
+        for (size_t p = 0; p <= Z; p++) {
+            if (doubt[p][p] >= entry(p, p) - squared(apart[p]) / 2) { /* the covariance does not hold it */
+                doubt = {};
             }
         }
         for (size_t p = 0; p < 5; p++) {
@@ -242,7 +247,7 @@ Measured Tracker::read(const drogue_result &r, bool twin) const
             }
             m.apart[p] = squared(apart[p]) / 2;
             const Real own = std::max<Real>(entry(p, p), 0) - m.apart[p];
-            m.doubt[p] = p <= Z ? std::min(doubt[p][p], own) : 0;
+            m.doubt[p] = p <= Z ? doubt[p][p] : 0;
             m.noise[p][p] = own - m.doubt[p] + squared(floor);
         }
     } else {

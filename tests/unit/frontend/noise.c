@@ -89,7 +89,7 @@ START_TEST(among_edges)
         fill(&rng, 2);
         draw_bars(of_ten);
         t = threshold();
-        MUST(t > 17 && t < 30, "%d tenths with edges: threshold %d", of_ten, t);
+        MUST(t > 17 && t < 33, "%d tenths with edges: threshold %d", of_ten, t);
     }
 }
 END_TEST

@@ -197,7 +197,8 @@ static void check_result(const drogue_result *r, const hostile *h, int run)
     MUST((r->has_inner == 0 || r->has_inner == 1) && (r->orientation_resolved == 0 || r->orientation_resolved == 1) &&
              (unsigned)r->polarity <= DROGUE_POLARITY_BOTH,
          "run %d: flags", run);
-    MUST(r->ambiguity_q16 >= 0 && r->ambiguity_q16 <= 65536 && r->cover_q16 >= 0 && r->cover_q16 <= 65536,
+    MUST(r->doubt_q16 >= 0 && r->doubt_q16 < 65536 && r->ambiguity_q16 >= 0 && r->ambiguity_q16 <= 65536 &&
+             r->cover_q16 >= 0 && r->cover_q16 <= 65536,
          "run %d: shares", run);
     MUST(!r->orientation_resolved || (found && r->has_inner), "run %d: resolved without an inner part", run);
     for (i = 0; i < 4; i++) {

@@ -438,6 +438,32 @@ START_TEST(what_fills_a_table_is_thresholded)
 }
 END_TEST
 
+/* A table that thresholds of the noise fill is told of, though higher ones do not, and find nothing; and of thresholds as
+ * large as numbers go there are none to raise. */
+START_TEST(what_own_thresholds_fill_is_told)
+{
+    const uint32_t edges[] = {40, 1u << 16};
+    drogue_config config;
+    size_t i;
+    int k;
+    for (k = 0; k < WIDTH * HEIGHT; k++) {
+        pixels[k] = (uint8_t)(k < 100 * WIDTH && k % WIDTH / 4 % 2 != 0 ? 101 : 100);
+    }
+    for (i = 0; i < 2; i++) {
+        test_workspace t = test_workspace_of(WIDTH, edges[i], 1u << 14, 1u << 12);
+        drogue_result r;
+        drogue_config_default(&config);
+        ck_assert_int_eq(measure(&r, &t, &config, &model, &whole), DROGUE_E_NO_EDGES);
+        MUST((r.second_look == DROGUE_SECOND_FULL) == (i == 0), "%u edges: %s", (unsigned)edges[i],
+             drogue_second_look_name(r.second_look));
+        config.canny_high = INT32_MAX;
+        config.canny_least = 1500000000;
+        ck_assert_int_eq(measure(&r, &t, &config, &model, &whole), DROGUE_E_NO_EDGES);
+        test_workspace_free(&t);
+    }
+}
+END_TEST
+
 START_TEST(nothing_to_measure)
 {
     test_workspace t = usual_workspace();
@@ -825,7 +851,7 @@ END_TEST
 SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline,
            a_canopy_so_narrow_that_its_inner_edge_is_found, without_inner_part, regions_of_one_image,
            ring_of_a_clipped_region, arguments, regions_that_miss, images_beyond_the_coordinates, full_tables,
-           what_fills_a_table_is_thresholded, nothing_to_measure, geometry_out_of_range, inner_part_that_cannot_decide,
-           inner_part_that_contradicts, covariance_of_the_result, off_centre_region, second_look_that_fails,
-           second_look_is_told, background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
-           capacity_by_macro_is_capacity_by_function)
+           what_fills_a_table_is_thresholded, what_own_thresholds_fill_is_told, nothing_to_measure,
+           geometry_out_of_range, inner_part_that_cannot_decide, inner_part_that_contradicts, covariance_of_the_result,
+           off_centre_region, second_look_that_fails, second_look_is_told, background_across_the_canopys_grey,
+           outline_across_a_fold, version_is_the_macros, capacity_by_macro_is_capacity_by_function)
