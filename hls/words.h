@@ -40,6 +40,7 @@ typedef struct drogue_hls_parameters {
     R(CANNY_HIGH, int32_t, config.canny_high)                      \
     R(CANNY_LEAST, int32_t, config.canny_least)                    \
     R(SMOOTH, int32_t, config.smooth)                              \
+    R(TRANSFER, drogue_transfer, config.transfer)                  \
     R(MIN_ARC, uint32_t, config.min_arc_px)                        \
     R(MIN_ARC_SHARE, drogue_q16, config.min_arc_share_q16)         \
     R(MIN_SHORT, drogue_q16, config.min_short_px_q16)              \

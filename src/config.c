@@ -8,6 +8,7 @@ void drogue_config_default(drogue_config *config)
     config->canny_high = 80;
     config->canny_least = 8;
     config->smooth = 1;
+    config->transfer = DROGUE_TRANSFER_LINEAR;
     config->min_arc_px = 10;
     config->min_arc_share_q16 = DROGUE_Q16(1, 8);
     config->min_short_px_q16 = DROGUE_Q16(3, 2);
@@ -52,6 +53,7 @@ static int within(int32_t v, int32_t low, int32_t high) { return v >= low && v <
 int drogue_config_valid(const drogue_config *c)
 {
     return within(c->canny_low, 0, c->canny_high) && within(c->canny_least, 0, c->canny_high) &&
+           within((int32_t)c->transfer, DROGUE_TRANSFER_LINEAR, DROGUE_TRANSFER_SRGB) &&
            within(c->min_arc_share_q16, 0, DROGUE_Q16_ONE) && within(c->min_short_px_q16, 0, INT32_MAX) &&
            within((int32_t)c->polarity, DROGUE_POLARITY_DARK, DROGUE_POLARITY_BOTH) &&
            within(c->quality.fit_error_px_q16, 0, DROGUE_Q16(1024, 1)) &&

@@ -25,6 +25,14 @@ typedef struct drogue_cluster_config {
     drogue_q16 round_q16;     /* angles are not compared when both axis ratios exceed this: a circle has none */
 } drogue_cluster_config;
 
+/* How an image's grey levels stand for light: its transfer function. Blur mixes light, so that where levels are encoded
+ * for display a blurred edge's steepest place lies a tenth to a third of a pixel towards its dark side. */
+typedef enum drogue_transfer {
+    DROGUE_TRANSFER_LINEAR, /* in proportion: a sensor's own */
+    DROGUE_TRANSFER_SRGB    /* sRGB (IEC 61966-2-1): what is made to be looked at, as most stored pictures and rendered
+                               frames are; outlines are put where the light changes */
+} drogue_transfer;
+
 /* Thresholds; drogue_config_default() fills in the defaults given here. */
 typedef struct drogue_config {
     int32_t canny_low;             /* 30, L1 Sobel magnitude (grey levels * 8): lower links weaker edges */
@@ -33,6 +41,7 @@ typedef struct drogue_config {
                                       region's noise, when the first finds no outline, doubts it or fills a table;
                                       canny_high: no second try */
     int32_t smooth;                /* 1: smooth before the gradient; 0 for images that are smooth already */
+    drogue_transfer transfer;      /* LINEAR: of the images */
     uint32_t min_arc_px;           /* 10 edge points, Th_length: shorter arcs are not fitted */
     drogue_q16 min_arc_share_q16;  /* 1/8: the same as a share of the region's longest side; a quarter of an outline
                                      in a region of 2.5 semi-axes has about 0.57: stubs lie farther out than whole

@@ -56,6 +56,10 @@ static inline int32_t drogue_ray_part(int32_t n_q14, drogue_q16 along_px_q16)
 void drogue_ray_read(int32_t *grey_q8, const drogue_ray *ray, const drogue_image *image, drogue_q16 from_px_q16,
                      int32_t count);
 
+/* Light along a ray: the same of an image in sRGB, its levels decoded before they are interpolated, Q8 up to 255. */
+void drogue_ray_read_light(int32_t *light_q8, const drogue_ray *ray, const drogue_image *image, drogue_q16 from_px_q16,
+                           int32_t count);
+
 /* Place rays and find where the grey rises outwards along them, or changes either way.
  *
  *  reach   how far from the ellipse edges are looked for, [2, 512] px and limited to that; samples are half a pixel

@@ -19,6 +19,7 @@ const threshold thresholds[] = {
     WHOLE("canny_high", canny_high, 0, 16320, "L1 Sobel magnitude: an edge needs one pixel above it"),
     WHOLE("canny_least", canny_least, 0, 16320, "L1 Sobel magnitude: least upper threshold of a second try"),
     WHOLE("smooth", smooth, 0, 1, "1: smooth 5x5 before the gradient"),
+    WHOLE("transfer", transfer, 0, 1, "0: grey levels are light's, 1: encoded by sRGB"),
     WHOLE("min_arc_px", min_arc_px, 0, INT32_MAX, "edge points: shorter arcs are not fitted"),
     REAL("min_arc_share", min_arc_share_q16, 0, ONE, "of the region's longest side: the same"),
     REAL("min_short_px", min_short_px_q16, 0, INT32_MAX, "px: straighter arcs are not fitted"),

@@ -3,7 +3,8 @@
  *
  * Shading that runs up to the outline, or another edge nearby as that of a narrow wall, moves the place where the grey
  * changes fastest, the farther the more blur there is. So the edge is looked for at two blurs along rays: as the front
- * end sees it, and sharpened. It goes from the one towards the other. */
+ * end sees it, and sharpened. It goes from the one towards the other. Where grey levels are encoded, the sharpened edge is
+ * that of the light. */
 #include "collection.h"
 
 #include <string.h>
@@ -106,22 +107,37 @@ static int32_t noise_q24(const int32_t slope[SLOPES], int32_t bend)
     return noise < NOISY_Q24 ? (int32_t)noise : NOISY_Q24;
 }
 
-/* How far outwards of the sharpened edge the blurred one lies, in slopes Q20; 0 when there are not both. And what noise
- * makes of it. */
-static int32_t moved_by(int32_t *noise_px_q24, const int32_t slope[SLOPES], const int32_t seen[SLOPES])
+/* An edge as the front end sees it, in slopes Q20. */
+typedef struct seen_edge {
+    int32_t at_q20;   /* its steepest place; 0: there is none */
+    int32_t seen_q20; /* where the front end finds that */
+} seen_edge;
+
+static seen_edge find_seen(const int32_t seen[SLOPES])
 {
     const int32_t best = find_peak(seen, MIDDLE - NEAR, MIDDLE + NEAR);
+    seen_edge edge = {0, 0};
+    if (best > 0) {
+        edge.at_q20 = vertex_q20(seen, best, 1);
+        edge.seen_q20 = as_seen_q20(seen, best, edge.at_q20);
+    }
+    return edge;
+}
+
+/* How far outwards of the sharpened edge the blurred one lies, in slopes Q20; 0 when there are not both. And what noise
+ * makes of it. */
+static int32_t moved_by(int32_t *noise_px_q24, const int32_t slope[SLOPES], const seen_edge *edge)
+{
+    const int32_t at_q20 = edge->at_q20;
     int32_t curve[SLOPES];
-    int32_t at_q20;
     int32_t is;
     int32_t from;
     int32_t to;
     int32_t i;
     *noise_px_q24 = 0;
-    if (best == 0) {
+    if (at_q20 == 0) {
         return 0;
     }
-    at_q20 = vertex_q20(seen, best, 1);
     curve[0] = 0; /* what a peak is to be higher than */
     from = (at_q20 - FAR) >> 20;
     to = (at_q20 + FAR + ONE_Q20 - 1) >> 20;
@@ -133,13 +149,13 @@ static int32_t moved_by(int32_t *noise_px_q24, const int32_t slope[SLOPES], cons
         return 0;
     }
     *noise_px_q24 = noise_q24(slope, 2 * curve[is] - curve[is - 1] - curve[is + 1]);
-    return as_seen_q20(seen, best, at_q20) - vertex_q20(curve, is, 1);
+    return edge->seen_q20 - vertex_q20(curve, is, 1);
 }
 
-/* Add grey along a group's rays where the outline has points, 'middle' samples and one of them within it, so that it
- * falls outwards: as it is or negative, as its bin. */
+/* Add grey, or the light that a transfer function makes of it, along a group's rays where the outline has points,
+ * 'middle' samples and one of them within it, so that it falls outwards: as it is or negative, as its bin. */
 static void add_grey(int32_t sum[], int32_t samples, int32_t middle, const drogue_ray rays[DROGUE_RAYS], int32_t group,
-                     const drogue_image *view, const drogue_support *support)
+                     const drogue_image *view, drogue_transfer transfer, const drogue_support *support)
 {
     int32_t grey[DROGUE_SMEARED_SLOPES + 2];
     int32_t i;
@@ -149,7 +165,12 @@ static void add_grey(int32_t sum[], int32_t samples, int32_t middle, const drogu
         const uint32_t bright = support->bright_bins >> bin & 1u;
         if (support->bin[bin].count[bright] > 0) {
             const int32_t sign = bright ? 1 : -1;
-            drogue_ray_read(grey, &rays[k], view, -(middle + 1) * rays[k].step_px_q16, samples);
+            const drogue_q16 from = -(middle + 1) * rays[k].step_px_q16;
+            if (transfer == DROGUE_TRANSFER_SRGB) {
+                drogue_ray_read_light(grey, &rays[k], view, from, samples);
+            } else {
+                drogue_ray_read(grey, &rays[k], view, from, samples);
+            }
             for (i = 0; i < samples; i++) { /* bound: DROGUE_SMEARED_SLOPES + 2 */
                 sum[i] += sign * grey[i];
             }
@@ -160,7 +181,7 @@ static void add_grey(int32_t sum[], int32_t samples, int32_t middle, const drogu
 /* Slopes of a group and of the one across, the mean over the sets of rays that the outline is large for: the noise of a
  * few rays is more than that of its edge points. */
 static void read_slopes(int32_t slope[2][SLOPES], const drogue_outline *outline, drogue_ray rays[DROGUE_RAYS],
-                        int32_t group, const drogue_image *view)
+                        int32_t group, const drogue_image *view, drogue_transfer transfer)
 {
     const int32_t shift = outline->fitted.a_px_q16 >= TWO_SETS;
     int32_t sum[2][SLOPES + 2];
@@ -171,7 +192,8 @@ static void read_slopes(int32_t slope[2][SLOPES], const drogue_outline *outline,
     for (set = 0; set < 1 << shift; set++) { /* bound: 2 */
         drogue_rays_aim(rays, &outline->fitted, (8 * set + 4) >> shift, group * GROUP, (group + 1) * GROUP);
         for (across = 0; across < 2; across++) {
-            add_grey(sum[across], SLOPES + 2, MIDDLE, rays, group + across * (GROUPS / 2), view, &outline->support);
+            add_grey(sum[across], SLOPES + 2, MIDDLE, rays, group + across * (GROUPS / 2), view, transfer,
+                     &outline->support);
         }
     }
     for (across = 0; across < 2; across++) {
@@ -282,7 +304,7 @@ static int is_smeared(const drogue_outline *outline)
 
 /* An edge that motion blurs has no steepest place: it is where its lobe says. */
 static void find_smeared(int32_t moved_q20[GROUPS], const drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
-                         const drogue_support *support)
+                         drogue_transfer transfer, const drogue_support *support)
 {
     drogue_lobe lobe[GROUPS];
     int32_t moved_q16[GROUPS];
@@ -291,7 +313,7 @@ static void find_smeared(int32_t moved_q20[GROUPS], const drogue_ray rays[DROGUE
         int32_t slope[DROGUE_SMEARED_SLOPES + 2];
         int32_t k;
         memset(slope, 0, sizeof slope);
-        add_grey(slope, DROGUE_SMEARED_SLOPES + 2, DROGUE_SMEARED_MIDDLE, rays, i, view, support);
+        add_grey(slope, DROGUE_SMEARED_SLOPES + 2, DROGUE_SMEARED_MIDDLE, rays, i, view, transfer, support);
         for (k = 0; k < DROGUE_SMEARED_SLOPES; k++) {
             slope[k] -= slope[k + 2];
         }
@@ -303,7 +325,8 @@ static void find_smeared(int32_t moved_q20[GROUPS], const drogue_ray rays[DROGUE
     }
 }
 
-static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view)
+static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
+                 drogue_transfer transfer)
 {
     int32_t moved_q20[GROUPS];
     int32_t noise_px_q24[GROUPS];
@@ -316,20 +339,27 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
     int32_t i;
     for (i = 0; i < GROUPS / 2; i++) {
         int32_t slope[2][SLOPES];
-        read_slopes(slope, outline, rays, i, view);
+        seen_edge edge[2];
+        read_slopes(slope, outline, rays, i, view, DROGUE_TRANSFER_LINEAR);
         for (across = 0; across < 2; across++) {
-            const int32_t group = i + across * (GROUPS / 2);
             int32_t seen[SLOPES];
             see(seen, slope[across]);
-            moved_q20[group] = moved_by(&noise_px_q24[group], slope[across], seen);
-            variance_px2_q16[group] = drogue_edge_variance(slope[across], seen);
+            edge[across] = find_seen(seen);
+            variance_px2_q16[i + across * (GROUPS / 2)] = drogue_edge_variance(slope[across], seen);
+        }
+        if (transfer != DROGUE_TRANSFER_LINEAR) {
+            read_slopes(slope, outline, rays, i, view, transfer);
+        }
+        for (across = 0; across < 2; across++) {
+            const int32_t group = i + across * (GROUPS / 2);
+            moved_q20[group] = moved_by(&noise_px_q24[group], slope[across], &edge[across]);
         }
     }
     drogue_find_smear(outline->support.smear_px2_q16, variance_px2_q16);
     smeared = is_smeared(outline);
     if (smeared) {
         drogue_rays_aim(rays, &outline->fitted, 4, 0, DROGUE_RAYS / 2);
-        find_smeared(moved_q20, rays, view, &outline->support);
+        find_smeared(moved_q20, rays, view, transfer, &outline->support);
     }
     drogue_turn_wave(outline->support.smear_px2_q16, outline->fitted.angle_rad_q16);
     spread(off_px_q24, moved_q20, &outline->fitted);
@@ -354,7 +384,7 @@ void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], 
         return;
     }
     if (outline->support.points > 0) {
-        pull(outline, rays, view);
+        pull(outline, rays, view, config->transfer);
         drogue_outline_put_back(&outline->ellipse, outline->support.pull_q24);
     }
     drogue_undo_blur(&outline->ellipse, config);

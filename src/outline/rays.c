@@ -3,6 +3,7 @@
 #include "drogue/rays.h"
 
 #include "drogue/fixed.h"
+#include "light.h"
 
 #define REACH 4    /* samples on either side that a slope is made of, and between the sums */
 #define SAMPLES 65 /* most slopes along a ray */
@@ -21,17 +22,38 @@ static inline int32_t between_q8(const uint8_t *at, int32_t right, int32_t strid
     return upper + (((lower - upper) * fy + 128) >> 8);
 }
 
+/* The same of light, which the levels are encoded from. */
+static inline int32_t light_between_q8(const uint8_t *at, int32_t right, int32_t stride, int32_t x_px_q16,
+                                       int32_t y_px_q16)
+{
+    const uint16_t *light = drogue_srgb_light_q8;
+    const int32_t fx = (x_px_q16 >> 8) & 255;
+    const int32_t fy = (y_px_q16 >> 8) & 255;
+    const uint8_t *below = at + stride;
+    const int32_t upper = (light[at[0]] * (256 - fx) + light[at[right]] * fx + 128) >> 8;
+    const int32_t lower = (light[below[0]] * (256 - fx) + light[below[right]] * fx + 128) >> 8;
+    return upper + (((lower - upper) * fy + 128) >> 8);
+}
+
 static inline const uint8_t *pixel(const drogue_image *image, int32_t x_px_q16, int32_t y_px_q16)
 {
     return drogue_image_row(image, y_px_q16 >> 16) + (x_px_q16 >> 16);
 }
 
-/* Grey at a place; beyond the image as at its border. */
-static int32_t grey_q8(const drogue_image *image, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+/* Grey or light at a place; beyond the image as at its border. */
+static inline int32_t inside_q8(const drogue_image *image, drogue_q16 x_px_q16, drogue_q16 y_px_q16, int is_light)
 {
     const int32_t x = drogue_clamp_s32(x_px_q16, 0, (image->width_px - 1) * DROGUE_Q16_ONE);
     const int32_t y = drogue_clamp_s32(y_px_q16, 0, (image->height_px - 1) * DROGUE_Q16_ONE);
-    return between_q8(pixel(image, x, y), (x & 0xFFFF) > 255, (y & 0xFFFF) > 255 ? image->stride : 0, x, y);
+    const uint8_t *at = pixel(image, x, y);
+    const int32_t right = (x & 0xFFFF) > 255;
+    const int32_t stride = (y & 0xFFFF) > 255 ? image->stride : 0;
+    return is_light ? light_between_q8(at, right, stride, x, y) : between_q8(at, right, stride, x, y);
+}
+
+static int32_t grey_q8(const drogue_image *image, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
+{
+    return inside_q8(image, x_px_q16, y_px_q16, 0);
 }
 
 /* Keep an edge among the steepest. */
@@ -76,6 +98,19 @@ void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_ima
         for (; grey_q8_out < end; grey_q8_out++, x += dx, y += dy) { /* bound: the same */
             *grey_q8_out = grey_q8(&own, x, y);
         }
+    }
+}
+
+void drogue_ray_read_light(int32_t *light_q8, const drogue_ray *r, const drogue_image *image, drogue_q16 from_px_q16,
+                           int32_t count)
+{
+    const int32_t dx = drogue_ray_part(r->nx_q14, r->step_px_q16);
+    const int32_t dy = drogue_ray_part(r->ny_q14, r->step_px_q16);
+    int32_t x = r->x_px_q16 + drogue_ray_part(r->nx_q14, from_px_q16);
+    int32_t y = r->y_px_q16 + drogue_ray_part(r->ny_q14, from_px_q16);
+    int32_t i;
+    for (i = 0; i < count; i++, x += dx, y += dy) { /* bound: as above */
+        light_q8[i] = inside_q8(image, x, y, 1);
     }
 }
 

@@ -34,7 +34,8 @@ drogue_q16 to_q16(double v)
     return static_cast<drogue_q16>(scaled);
 }
 
-Measurement measure(const cv::Mat &image, const Camera &camera, const drogue_model &model, const cv::Rect &region)
+Measurement measure(const cv::Mat &image, const Camera &camera, const drogue_model &model, const cv::Rect &region,
+                    drogue_transfer transfer)
 {
     const auto side = static_cast<uint32_t>(std::max(region.width, region.height));
     const drogue_capacity capacity = DROGUE_CAPACITY_FOR(side);
@@ -53,6 +54,7 @@ Measurement measure(const cv::Mat &image, const Camera &camera, const drogue_mod
         throw std::runtime_error("workspace refused");
     }
     drogue_config_default(&config);
+    config.transfer = transfer;
     const drogue_setup setup = {&q_camera, &model, &config};
     m.ok = drogue_measure(&m.raw, &workspace, &setup, &q_image, &q_region) == DROGUE_OK;
     m.seen = from_library(m.raw.ellipse);

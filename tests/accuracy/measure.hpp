@@ -26,8 +26,9 @@ struct Measurement {
     cv::Point2d inner_px; /* as seen; meaningful when raw.has_inner */
 };
 
-/* Measure the drogue in one region of an 8-bit grey image, with the library's defaults. */
-Measurement measure(const cv::Mat &image, const Camera &camera, const drogue_model &model, const cv::Rect &region);
+/* Measure the drogue in one region of an 8-bit grey image, with the library's defaults but what its levels stand for. */
+Measurement measure(const cv::Mat &image, const Camera &camera, const drogue_model &model, const cv::Rect &region,
+                    drogue_transfer transfer = DROGUE_TRANSFER_LINEAR);
 
 /* The library's grey of a colour image, as the host program computes it. */
 cv::Mat grey_of(const cv::Mat &bgr);

@@ -2,6 +2,7 @@
 /* What comes after the sensor. */
 #include "processing.hpp"
 
+#include <cmath>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -22,6 +23,8 @@ cv::Mat toned(const cv::Mat &picture, const std::function<double(double)> &curve
     cv::LUT(picture, table, out);
     return out;
 }
+
+double srgb(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
 cv::Mat coded(const cv::Mat &picture, int quality)
 {
@@ -102,6 +105,8 @@ const Named all[] = {
     {"haze", [](const cv::Mat &p) { return toned(p, [](double v) { return 0.35 + 0.3 * v; }); }},
     {"vignette", vignetted},
     {"exposed", [](const cv::Mat &p) { return toned(p, [](double v) { return 1.5 * v; }); }},
+    {"srgb", [](const cv::Mat &p) { return toned(p, srgb); }},
+    {"told", [](const cv::Mat &p) { return toned(p, srgb); }},
     {"curve", [](const cv::Mat &p) { return toned(p, [](double v) { return v * v * (3 - 2 * v); }); }}};
 
 } // namespace
@@ -126,6 +131,11 @@ cv::Mat processed(const cv::Mat &picture, const std::string &processing)
         }
     }
     throw std::invalid_argument("no processing " + processing);
+}
+
+drogue_transfer transfer_of(const std::string &processing)
+{
+    return processing == "told" ? DROGUE_TRANSFER_SRGB : DROGUE_TRANSFER_LINEAR;
 }
 
 } // namespace accuracy

@@ -7,6 +7,8 @@
 
 #include <opencv2/core.hpp>
 
+#include "drogue/config.h"
+
 namespace accuracy {
 
 /* jpeg     a codec: quality 85
@@ -19,10 +21,15 @@ namespace accuracy {
  * haze     three tenths of the contrast
  * vignette 0.55 of the light at the left, 1.15 at the right
  * exposed  1.5 times the light: bright parts saturate
+ * srgb     encoded for display, the library not told
+ * told     the same, and told
  * curve    a steep tone curve */
 const std::vector<std::string> &processings();
 
 /* A grey picture as such a thing leaves it; throws for a name that is none. */
 cv::Mat processed(const cv::Mat &picture, const std::string &processing);
+
+/* What the library is told of such a picture. */
+drogue_transfer transfer_of(const std::string &processing);
 
 } // namespace accuracy

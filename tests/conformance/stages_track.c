@@ -217,6 +217,7 @@ int stage_look(stage_run *r)
         return failure;
     }
     drogue_config_default(&config);
+    config.transfer = (drogue_transfer)p[8];
     out[0] = (int32_t)drogue_measure(&result, &workspace, &(drogue_setup){&camera, &model, &config}, &image, &region);
     out[1] = (int32_t)result.second_look;
     out[2] = result.tried;

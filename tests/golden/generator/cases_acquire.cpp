@@ -2,7 +2,9 @@
 /* Cases of acquisition and of the second look: small rendered scenes, parts of images, workspaces of any size. */
 #include <cmath>
 
+#include "drogue/config.h"
 #include "images.hpp"
+#include "processing.hpp"
 #include "scene.hpp"
 #include "varied.hpp"
 
@@ -237,13 +239,36 @@ namespace {
 
 struct Look {
     std::array<int64_t, 4> region;
-    int64_t width = 256, edges = 4096, labels = 2048, arcs = 512;
+    int64_t width = 256, edges = 4096, labels = 2048, arcs = 512, transfer = DROGUE_TRANSFER_LINEAR;
 };
 
 void add_one(Set &set, const std::string &name, Tier tier, const Flags &flags, const Picture &p, const Look &l)
 {
     set.add(name, tier, flags,
-            inputs_of(p, {l.region[0], l.region[1], l.region[2], l.region[3], l.width, l.edges, l.labels, l.arcs}));
+            inputs_of(p, {l.region[0], l.region[1], l.region[2], l.region[3], l.width, l.edges, l.labels, l.arcs,
+                          l.transfer}));
+}
+
+/* Rendered scenes, then encoded for display: by size, brighter or darker than the sky, before what hides it, in motion. */
+void add_encoded(Set &set)
+{
+    using accuracy::Variety;
+    int k = 0;
+    for (const Variety v : {Variety::plain, Variety::far, Variety::offset, Variety::noise, Variety::probe, Variety::blur,
+                            Variety::blur, Variety::tilted, Variety::half, Variety::clutter, Variety::ribs,
+                            Variety::torus}) {
+        const accuracy::Trial t = accuracy::varied_trial(43, v, k, false);
+        Picture p;
+        p.image = accuracy::processed(accuracy::render(t.scene, t.region), "srgb");
+        p.camera = t.scene.camera.cropped(t.region.tl());
+        p.radius = t.scene.drogue.rim_radius_m;
+        p.inner_radius = t.scene.drogue.inner_radius_m;
+        p.depth = t.scene.drogue.inner_depth_m;
+        Look l = {{0, 0, t.region.width, t.region.height}};
+        l.width = l.region[2];
+        l.transfer = DROGUE_TRANSFER_SRGB;
+        add_one(set, "srgb-" + std::to_string(k++), v == Variety::blur ? Tier::stress : Tier::ordinary, {}, p, l);
+    }
 }
 
 } // namespace
@@ -324,6 +349,9 @@ void add_look(Set &set)
     p.depth = faint.scene.drogue.inner_depth_m;
     l = {{0, 0, faint.region.width, faint.region.height}};
     add_one(set, "along-rays", Tier::stress, {}, p, l);
+    l.transfer = DROGUE_TRANSFER_SRGB; /* which it is not: other outlines */
+    add_one(set, "srgb-along-rays", Tier::stress, {}, p, l);
+    add_encoded(set);
     p.image = constant(100, 100, 80);
     l = {{0, 0, 100, 100}};
     add_one(set, "nothing", Tier::must_reject, {"degenerate"}, p, l);

@@ -148,6 +148,7 @@ Tiers look_tier(const Arrays &in, const Arrays &exact)
     mirror::Task task = frame_words::task_of(in, {p[0], p[1], p[2], p[3]});
     task.capacity = {static_cast<uint32_t>(p[4]), static_cast<uint32_t>(p[5]), static_cast<uint32_t>(p[6]),
                      static_cast<uint32_t>(p[7])};
+    task.config.transfer = static_cast<drogue_transfer>(p[8]);
     const FrameWords f = frame_words::of(task, library_measures(task));
     Words words(15, 0);
     std::vector<Real> more(15, EXACTLY);

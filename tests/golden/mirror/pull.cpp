@@ -21,9 +21,10 @@ enum { LONG_SLOPES = 64, LONG_MIDDLE = 48 };
 
 using Curve = std::array<Real, SLOPES>;
 
-/* Slopes along a group's rays, half a pixel apart, 'middle' of them within the ellipse. */
+/* Slopes along a group's rays, half a pixel apart, 'middle' of them within the ellipse: of grey or of light. */
 template <size_t N>
-std::array<Real, N> slopes(const Support &s, const drogue_ray *rays, int group, const drogue_image &view, int middle)
+std::array<Real, N> slopes(const Support &s, const drogue_ray *rays, int group, const drogue_image &view, int middle,
+                           drogue_transfer transfer)
 {
     std::array<Real, N> sum = {};
     for (int k = group * GROUP; k < (group + 1) * GROUP; k++) {
@@ -31,7 +32,8 @@ std::array<Real, N> slopes(const Support &s, const drogue_ray *rays, int group, 
         const uint32_t bright = s.bright >> bin & 1;
         if (s.count[bin][bright] > 0) {
             std::array<int32_t, N + 2> grey;
-            drogue_ray_read(grey.data(), &rays[k], &view, -(middle + 1) * 32768, N + 2);
+            const auto read = transfer == DROGUE_TRANSFER_SRGB ? drogue_ray_read_light : drogue_ray_read;
+            read(grey.data(), &rays[k], &view, -(middle + 1) * 32768, N + 2);
             for (size_t i = 0; i < N; i++) {
                 sum[i] += static_cast<Real>(bright ? grey[i] - grey[i + 2] : grey[i + 2] - grey[i]);
             }
@@ -41,14 +43,15 @@ std::array<Real, N> slopes(const Support &s, const drogue_ray *rays, int group, 
 }
 
 /* The mean over as many sets of rays as the outline is large for, in whole numbers. */
-Curve mean_slopes(const Support &s, const drogue_ellipse &aim, int group, const drogue_image &view)
+Curve mean_slopes(const Support &s, const drogue_ellipse &aim, int group, const drogue_image &view,
+                  drogue_transfer transfer)
 {
     const int sets = aim.a_px_q16 >= 24 * 65536 ? 2 : 1;
     std::array<drogue_ray, DROGUE_RAYS> rays;
     Curve mean = {};
     for (int k = 0; k < sets; k++) {
         drogue_rays_aim(rays.data(), &aim, (8 * k + 4) / sets, 0, DROGUE_RAYS / 2);
-        const Curve one = slopes<SLOPES>(s, rays.data(), group, view, MIDDLE);
+        const Curve one = slopes<SLOPES>(s, rays.data(), group, view, MIDDLE, transfer);
         std::transform(one.begin(), one.end(), mean.begin(), mean.begin(), std::plus<Real>());
     }
     std::transform(mean.begin(), mean.end(), mean.begin(), [=](Real sum) { return std::floor(sum / sets + 0.5L); });
@@ -141,6 +144,7 @@ struct Moved {
     Real by = 0, noise = 0;
 };
 
+/* 'slope' is of the light, 'seen' of the grey as the front end sees it. */
 Moved moved(const Curve &slope, const Curve &seen)
 {
     const size_t best = peak(seen, MIDDLE - 2, MIDDLE + 2);
@@ -337,8 +341,8 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
     o.support.smear = {};
     if (o.support.points > 0) {
         for (int g = 0; g < GROUPS; g++) {
-            const Curve slope = mean_slopes(o.support, aim, g, view), seen = blurred(slope);
-            const Moved edge = moved(slope, seen);
+            const Curve slope = mean_slopes(o.support, aim, g, view, DROGUE_TRANSFER_LINEAR), seen = blurred(slope);
+            const Moved edge = moved(mean_slopes(o.support, aim, g, view, config.transfer), seen);
             off[static_cast<size_t>(g)] = edge.by;
             noise += edge.noise * edge.noise / (4 * GROUPS);
             variance[static_cast<size_t>(g)] = edge_variance(slope, seen);
@@ -351,7 +355,7 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
             drogue_rays_aim(rays.data(), &aim, 4, 0, DROGUE_RAYS / 2);
             for (int g = 0; g < GROUPS; g++) {
                 lobe[static_cast<size_t>(g)] =
-                    lobe_of(slopes<LONG_SLOPES>(o.support, rays.data(), g, view, LONG_MIDDLE));
+                    lobe_of(slopes<LONG_SLOPES>(o.support, rays.data(), g, view, LONG_MIDDLE, config.transfer));
             }
             off = smeared_offsets(lobe);
         }
