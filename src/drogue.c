@@ -268,12 +268,13 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     if (best.what != last || f->others) {
         return_to(&best, f, region, last);
     }
-    if (room != DROGUE_SECOND_NONE) {
-        f->second_look = room;
-    }
     if (too_large(&best)) {
         refuse(f->out);
-        return DROGUE_E_NO_ELLIPSE;
+        best.result->status = DROGUE_E_NO_ELLIPSE;
+    }
+    if (room != DROGUE_SECOND_NONE) {
+        const int whole = best.result->status == DROGUE_OK && f->second_look <= DROGUE_SECOND_BETTER;
+        f->second_look = whole ? DROGUE_SECOND_ROOM : room;
     }
     return best.result->status;
 }

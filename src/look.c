@@ -131,7 +131,9 @@ static drogue_second_look look_again(drogue_frame *f)
     const drogue_region was_at = f->out->region;
     const drogue_q16 cover_q16 = f->outline.cover_q16;
     const drogue_region better = region_about(&was, &was_at);
-    if ((uint32_t)better.width_px > f->workspace->capacity.width_px) {
+    drogue_region clipped = better;
+    drogue_clip(&clipped.x_px, &clipped.width_px, f->image->width_px);
+    if (clipped.width_px > 0 && (uint32_t)clipped.width_px > f->workspace->capacity.width_px) {
         return DROGUE_SECOND_TOO_WIDE;
     }
     switch (find_outline(f, &better)) {

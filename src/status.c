@@ -35,6 +35,7 @@ const char *drogue_second_look_name(drogue_second_look look)
     case DROGUE_SECOND_REGION: return "region";
     case DROGUE_SECOND_TOO_WIDE: return "too_wide";
     case DROGUE_SECOND_FULL: return "full";
+    case DROGUE_SECOND_ROOM: return "room";
     case DROGUE_SECOND_COUNT: break;
     }
     return "unknown";

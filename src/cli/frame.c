@@ -148,17 +148,25 @@ static int is_worth_searching(drogue_status status)
     return status == DROGUE_E_NO_EDGES || status == DROGUE_E_NO_ARCS || status == DROGUE_E_NO_ELLIPSE;
 }
 
+/* Pixels of an image's side that a region and any second look at what it cuts reach: twice its longest side. A region
+ * without pixels goes to the library, too, whose status says so. */
+static int32_t room_for(const drogue_region *region, int32_t side_px)
+{
+    const int64_t longest = region->width_px > region->height_px ? region->width_px : region->height_px;
+    const int64_t most = side_px < DROGUE_MAX_SIDE ? side_px : DROGUE_MAX_SIDE;
+    return (int32_t)(2 * longest < 1 ? 1 : 2 * longest < most ? 2 * longest : most);
+}
+
 int frame_measure(drogue_result *out, int *searched, frame_workspace *w, const options *o, const char *path,
                   const picture *grey, const drogue_region *region)
 {
     const drogue_setup setup = setup_of(o);
     drogue_image image = frame_image(grey);
-    int32_t width = overlap(region->x_px, region->width_px, grey->width_px);
-    int32_t height = overlap(region->y_px, region->height_px, grey->height_px);
+    const int32_t width = overlap(region->x_px, region->width_px, grey->width_px);
     drogue_result own;
     *searched = 0;
-    /* A region without pixels still goes to the library, whose status says so. */
-    if (frame_workspace_fit(w, path, width > 0 ? width : 1, height > 0 ? height : 1, o->config.min_arc_px)) {
+    if (frame_workspace_fit(w, path, room_for(region, grey->width_px), room_for(region, grey->height_px),
+                            o->config.min_arc_px)) {
         return EXIT_BAD;
     }
     (void)drogue_measure(out, &w->workspace, &setup, &image, region);

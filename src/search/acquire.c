@@ -170,6 +170,14 @@ static drogue_region wider(const drogue_region *r)
     return w;
 }
 
+/* Is the workspace wide enough for a region's part within the image? */
+static int fits(const drogue_region *r, const drogue_image *image, const drogue_workspace *workspace)
+{
+    drogue_region clipped = *r;
+    drogue_clip(&clipped.x_px, &clipped.width_px, image->width_px);
+    return clipped.width_px <= (int32_t)workspace->capacity.width_px;
+}
+
 static int same_region(const drogue_region *p, const drogue_region *q)
 {
     return p->x_px == q->x_px && p->y_px == q->y_px && p->width_px == q->width_px && p->height_px == q->height_px;
@@ -225,7 +233,11 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         }
     }
     for (i = 0; i < WIDER && i < search->count && best.worth <= SURE && setup->model->inner_radius_m_q16 > 0; i++) {
-        last = wider(&search->best[i].region); /* what was sighted may be an edge within the drogue */
+        const drogue_region other = wider(&search->best[i].region); /* what was sighted may be an edge within the drogue */
+        if (!fits(&other, image, workspace)) {
+            continue;
+        }
+        last = other;
         (void)drogue_measure(out, workspace, setup, image, &last);
         if (out->status == DROGUE_OK && settles(out, setup->model)) {
             (void)keep_better(&best, out, &last, setup->model);

@@ -119,11 +119,9 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
     }
 }
 
-/* What was found with higher thresholds, after lower ones filled a table, no region cut. */
 static int is_cut(const drogue_result *result)
 {
-    const int higher = result->second_look == DROGUE_SECOND_FULL && (result->tried == 2 || result->tried == 3);
-    return result->second_look > DROGUE_SECOND_BETTER && !higher;
+    return result->second_look > DROGUE_SECOND_BETTER && result->second_look != DROGUE_SECOND_ROOM;
 }
 
 /* An outline that its region cut and no second look made whole may be another than it seems: what it lacks of its

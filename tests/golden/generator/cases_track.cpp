@@ -360,7 +360,7 @@ void add_gates(Set &set)
     s.seen.pose[2] -= 0.03;
     s.stay(3);
     add_script(set, "correlation-gates", Tier::stress, {}, s);
-    for (const int look : {1, 2, 3, 4, 5}) { /* a cut outline counts for less */
+    for (const int look : {1, 2, 3, 4, 5, 6}) { /* a cut outline counts for less */
         s = Script();
         steady(s, 5);
         s.seen.look = look;

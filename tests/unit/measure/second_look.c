@@ -141,6 +141,46 @@ START_TEST(too_little_room_for_the_lower_thresholds)
 }
 END_TEST
 
+/* A disc that the region cuts, in noise that fills the labels, and no room for a wider region: higher thresholds find part of
+ * it, which 'room' would call whole. */
+START_TEST(raised_thresholds_do_not_hide_a_cut)
+{
+    static uint8_t pixels[2 * SIDE * 2 * SIDE];
+    const drogue_image image = {pixels, 2 * SIDE, 2 * SIDE, 2 * SIDE};
+    const drogue_region region = {64, 64, 118, 118};
+    const drogue_camera camera = pinhole(1000, 1000, 128, 128);
+    int cut = 0, whole = 0;
+    drogue_config config;
+    int k;
+    drogue_config_default(&config);
+    config.min_cover_q16 = DROGUE_Q16(3, 10); /* what is cut may be less */
+    for (k = 0; k < 38; k++) {
+        const double off = k % 2 == 0 ? 0 : -9, radius = k % 2 == 0 ? 46 : 64.8;
+        test_workspace t = test_workspace_of(118, 2000, 220, 96);
+        uint64_t rng = (uint64_t)k;
+        drogue_result r;
+        int32_t x, y;
+        for (y = 0; y < 2 * SIDE; y++) {
+            for (x = 0; x < 2 * SIDE; x++) {
+                const double within = radius + 0.5 - hypot(x - 122.6 - 5 * off / 3, y - 123.1 - off);
+                const double grey = 60 + 120 * fmin(fmax(within, 0), 1) + 15.6 * rng_normal(&rng);
+                pixels[y * 2 * SIDE + x] = (uint8_t)lround(fmin(fmax(grey, 0), 255));
+            }
+        }
+        (void)drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &bare, &config}, &image, &region);
+        if (r.status == DROGUE_OK && r.tried >= 2) {
+            whole += r.second_look == DROGUE_SECOND_ROOM;
+            cut += r.second_look == DROGUE_SECOND_FULL || r.second_look == DROGUE_SECOND_TOO_WIDE;
+            MUST((r.second_look == DROGUE_SECOND_ROOM) == (k % 2 == 0), "%d: %s, cover %g", k,
+                 drogue_second_look_name(r.second_look), real_of_q16(r.cover_q16));
+        }
+        test_workspace_free(&t);
+    }
+    ck_assert_int_gt(whole, 10);
+    ck_assert_int_gt(cut, 10);
+}
+END_TEST
+
 /* A disc that is too large for the wall's edge about it and of its size for a rim that is hardly brighter than the ground,
  * but no room for the rim's points. */
 START_TEST(too_little_room_for_points_along_rays)
@@ -169,7 +209,7 @@ START_TEST(too_little_room_for_points_along_rays)
         test_workspace t = test_workspace_of(SIDE, edges[k], 4096, 512);
         (void)drogue_measure(&r[k], &t.workspace, &(drogue_setup){&camera, &model, &config}, &image, &region);
         ck_assert_int_eq(r[k].status, DROGUE_OK);
-        MUST(r[k].second_look == (k == 0 ? DROGUE_SECOND_FULL : DROGUE_SECOND_NONE), "%u edges: %d", (unsigned)edges[k],
+        MUST(r[k].second_look == (k == 0 ? DROGUE_SECOND_ROOM : DROGUE_SECOND_NONE), "%u edges: %d", (unsigned)edges[k],
              (int)r[k].second_look);
         MUST((r[k].tried == 4) == (k > 0), "%u edges: %d stands", (unsigned)edges[k], (int)r[k].tried);
         MUST(fabs(real_of_q16(r[k].ellipse.a_px_q16) - (k == 0 ? 41 : 45)) < 0.6, "%u edges: a %g", (unsigned)edges[k],
@@ -181,4 +221,4 @@ START_TEST(too_little_room_for_points_along_rays)
 END_TEST
 
 SUITE_MAIN("second_look", second_look_beyond_the_coordinates, second_look_of_less_cover,
-           too_little_room_for_the_lower_thresholds, too_little_room_for_points_along_rays)
+           too_little_room_for_the_lower_thresholds, too_little_room_for_points_along_rays, raised_thresholds_do_not_hide_a_cut)
