@@ -125,11 +125,11 @@ static void frame_words(int32_t words[38], const frame *f)
     memcpy(words + 20, result + DROGUE_HLS_R_POSE, 18 * sizeof *words);
 }
 
-static void detail_words(int32_t words[17], const frame *f)
+static void detail_words(int32_t words[18], const frame *f)
 {
     const int32_t *o = f->words;
     const int found = o[DROGUE_HLS_O_FOUND] == DROGUE_OK;
-    memset(words, 0, 17 * sizeof *words);
+    memset(words, 0, 18 * sizeof *words);
     memset(words + 6, 0xFF, 4 * sizeof *words);
     words[0] = f->region.x_px;
     words[1] = f->region.y_px;
@@ -142,6 +142,7 @@ static void detail_words(int32_t words[17], const frame *f)
         memcpy(words + 10, o + DROGUE_HLS_O_QUALITY, 5 * sizeof *words);
         words[15] = o[DROGUE_HLS_O_CLUSTER_MEMBERS];
         words[16] = o[DROGUE_HLS_O_COVER];
+        words[17] = result[DROGUE_HLS_R_STATUS] == DROGUE_OK ? result[DROGUE_HLS_R_DOUBT] : 0;
     }
 }
 
@@ -162,7 +163,7 @@ static int table_full(drogue_status front)
 static int judge(bench *b, const frame *f, const conf_case *c)
 {
     int32_t words[38];
-    int32_t detail[17];
+    int32_t detail[18];
     const int refused = f->result.status == DROGUE_E_ARGUMENT;
     if (table_full(f->front) || (!refused && !first_look(f, c))) {
         return 0;

@@ -56,9 +56,10 @@ typedef struct drogue_result {
                                        outline those of the last one */
     uint32_t arcs[4];         /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
     int32_t tried;            /* what stands: 0 the outline found, 1 a larger one about it; 2, 3 the same with
-                                       thresholds of Canny that follow the region's noise; 4 one along rays, for
-                                       which the inner disc is of its size: its points are the list's edges,
-                                       its quality that of the outline that it was found from */
+                                       thresholds of Canny that follow the region's noise, or higher ones where the
+                                       configured fill a table; 4 one along rays, for which the inner disc is of
+                                       its size: its points are the list's edges, its quality that of the outline
+                                       that it was found from */
     drogue_ellipse ellipse;   /* outline of the end plane, as seen (distorted) */
     drogue_ellipse ideal;     /* the same without distortion: what the pose is computed from */
     drogue_quality quality;   /* of the fit of the arcs */

@@ -6,11 +6,14 @@
 
 /* What a search must show to be sure: where the model knows no inner part cover of the outline and reliability; else an
  * inner part that is dark, sharp and near to its size, and cover. One that decides the orientation and has its size
- * needs less of it, or need not be sharp. */
+ * needs less of it, or need not be sharp; nor need one of some pixels within an outline that is whole. */
 #define SURE_COVER DROGUE_Q16(3, 4)
 #define SURE_RELIABILITY DROGUE_Q16(9, 10)
 #define DECIDED_COVER DROGUE_Q16(6, 10)
 #define BLURRED_COVER DROGUE_Q16(9, 10)
+#define EVIDENT_COVER DROGUE_Q16(31, 32)
+#define EVIDENT_RELIABILITY DROGUE_Q16(99, 100)
+#define EVIDENT_PX DROGUE_Q16(5, 1) /* radius of the inner part */
 #define MOST_SPREAD_PX DROGUE_Q16(3, 10)
 #define MOST_OFF_PX DROGUE_Q16(6, 10)   /* and a tenth, of the inner part's radius: near; */
 #define EXACT_PX DROGUE_Q16(3, 10)      /* and a twenty-fifth: its size */
@@ -56,7 +59,12 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
     if (r->orientation_resolved && 25 * (off - EXACT_PX) <= expected) {
         return r->cover_q16 >= (sharp ? DECIDED_COVER : BLURRED_COVER);
     }
-    return sharp && r->cover_q16 >= SURE_COVER && 10 * (off - MOST_OFF_PX) <= expected;
+    if (10 * (off - MOST_OFF_PX) > expected) {
+        return 0;
+    }
+    return sharp ? r->cover_q16 >= SURE_COVER
+                 : expected >= EVIDENT_PX && r->cover_q16 >= EVIDENT_COVER &&
+                       r->quality.reliability_q16 >= EVIDENT_RELIABILITY;
 }
 
 /* How much a result is worth: 0 without a pose; more where it is sure; most when the inner part decides, too; and then

@@ -157,7 +157,8 @@ static void put_detail(int32_t *at, const drogue_result *result)
     *at++ = result->quality.score_q16;
     *at++ = result->quality.reliability_q16;
     *at++ = (int32_t)result->cluster_members;
-    *at = result->cover_q16;
+    *at++ = result->cover_q16;
+    *at = result->doubt_q16;
 }
 
 static void put_covariance(int64_t *covariance, int64_t *std, const drogue_result *result)
@@ -175,7 +176,7 @@ static void put_covariance(int64_t *covariance, int64_t *std, const drogue_resul
     *std = result->axis_std_rad_q32;
 }
 
-void stage_put_result(int32_t frame[38], int32_t detail[17], int64_t covariance[15], int64_t std[4],
+void stage_put_result(int32_t frame[38], int32_t detail[18], int64_t covariance[15], int64_t std[4],
                       const drogue_result *result)
 {
     put_frame(frame, result);
@@ -190,7 +191,7 @@ int stage_frame(stage_run *r)
     const int32_t *model_words = stage_input32(r, 2);
     const int32_t *region_words = stage_input32(r, 3);
     int32_t *frame = stage_output32(r, "frame", 38);
-    int32_t *detail = stage_output32(r, "detail", 17);
+    int32_t *detail = stage_output32(r, "detail", 18);
     int64_t *covariance = (int64_t *)stage_output(r, "covariance", 64, 15);
     int64_t *std = (int64_t *)stage_output(r, "std", 64, 4);
     drogue_model model;

@@ -140,7 +140,7 @@ int stage_decide(stage_run *r)
     const drogue_camera camera = stage_camera(stage_input32(r, 1));
     const int32_t *p = stage_input32(r, 3);
     const drogue_model model = model_of(p);
-    int32_t *out = stage_output32(r, "decision", 18);
+    int32_t *out = stage_output32(r, "decision", 19);
     int64_t *covariance = (int64_t *)stage_output(r, "covariance", 64, 15);
     int64_t *std = (int64_t *)stage_output(r, "std", 64, 4);
     drogue_config config;
@@ -176,7 +176,9 @@ int stage_decide(stage_run *r)
     }
     out[0] = (int32_t)drogue_decide(&decision, &evidence, &(drogue_setup){&camera, &model, &config});
     if (out[0] == (int32_t)DROGUE_OK) {
-        *stage_put_pose(stage_put_pose(out + 1, &decision.pose), &decision.alternative) = decision.orientation_resolved;
+        int32_t *at = stage_put_pose(stage_put_pose(out + 1, &decision.pose), &decision.alternative);
+        at[0] = decision.orientation_resolved;
+        at[1] = decision.doubt_q16;
         put_covariance(covariance, std, &decision);
     }
     return 0;

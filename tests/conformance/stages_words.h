@@ -34,7 +34,7 @@ typedef struct conf_measure {
 /* Bound of a word that is undefined in a case: it is not compared in the reference tier. */
 #define CONF_UNDEFINED UINT64_MAX
 
-#define CONF_MEASURES 52
+#define CONF_MEASURES 53
 extern const conf_measure conf_measures[CONF_MEASURES];
 
 /* What word i of an output is; NULL when the stage has no such output. */

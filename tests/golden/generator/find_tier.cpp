@@ -94,7 +94,7 @@ Tiers decide_tier(const Arrays &in, const Arrays &exact)
     mirror::Result r;
     r.has_inner = p[22] > 0;
     mirror::decide(r, task, f, {pose_of(&p[3]), pose_of(&p[11])}, p[19] != 0 ? 1 : 0);
-    Words words(18, 0), covariance(15, 0), std(4, 0);
+    Words words(19, 0), covariance(15, 0), std(4, 0);
     words[0] = r.status;
     if (r.status != DROGUE_OK) {
         return {{like(exact[0], words), {}}, {like(exact[1], covariance), {}}, {like(exact[2], std), {}}};
@@ -107,7 +107,8 @@ Tiers decide_tier(const Arrays &in, const Arrays &exact)
             words[at++] = q16(v);
         }
     }
-    words[at] = r.resolved;
+    words[at++] = r.resolved;
+    words[at] = q16(r.doubt);
     at = 0;
     for (int i = 0; i < 5; i++) {
         for (int j = 0; j <= i; j++) {

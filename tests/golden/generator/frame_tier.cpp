@@ -294,6 +294,8 @@ Expected detail_of(const Array &exact, const mirror::Result &r)
         }
         w[15] = r.outline.members;
         w[16] = q16(r.outline.cover);
+        w[17] = r.status == DROGUE_OK ? q16(r.doubt) : 0;
+        more[17] = 0;
     }
     return {like(exact, w), bounds("frame", like(exact, w), more)};
 }

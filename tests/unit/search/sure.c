@@ -69,6 +69,21 @@ START_TEST(dark_and_sharp)
     r.inner.spread_px_q16 = DROGUE_Q16(31, 100);
     r.cover_q16 = DROGUE_Q16_ONE;
     ck_assert(!drogue_result_sure(&r, &model));
+    r.quality.reliability_q16 = DROGUE_Q16(989, 1000);
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.quality.reliability_q16 = DROGUE_Q16(991, 1000); /* the outline is whole */
+    ck_assert(drogue_result_sure(&r, &model));
+    r.cover_q16 = DROGUE_Q16(31, 32) - 1;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.cover_q16 = DROGUE_Q16(31, 32);
+    ck_assert(drogue_result_sure(&r, &model));
+    r.inner.area_px = 4100; /* and the disc near to its size */
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(154, 10); /* where 4.97 px, 77 px of area, are expected */
+    r.inner.area_px = 77;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(156, 10); /* 5.03 px */
+    ck_assert(drogue_result_sure(&r, &model));
     r = measured();
     r.inner.threshold = 130;
     r.inner.contrast = 33;
