@@ -111,29 +111,23 @@ static drogue_status find_outline(drogue_frame *f, const drogue_region *region)
 }
 
 /* Is one ellipse about where the other is, and about as large: within a third of its semi-axis? Each in the coordinates
- * of its own region. */
-static int about_the_same(const drogue_ellipse *e, const drogue_region *at, const drogue_ellipse *was,
-                          const drogue_region *was_at)
+ * of its own region, of which the one's lies (x, y) beside the other's. */
+static int about_the_same(const drogue_ellipse *e, const drogue_ellipse *was, int32_t x_px, int32_t y_px)
 {
     const drogue_q16 most = was->a_px_q16 / 3;
-    const drogue_q16 dx =
-        drogue_sat_s32((int64_t)e->xc_px_q16 - was->xc_px_q16 + (int64_t)(at->x_px - was_at->x_px) * DROGUE_Q16_ONE);
-    const drogue_q16 dy =
-        drogue_sat_s32((int64_t)e->yc_px_q16 - was->yc_px_q16 + (int64_t)(at->y_px - was_at->y_px) * DROGUE_Q16_ONE);
+    const drogue_q16 dx = drogue_sat_s32((int64_t)e->xc_px_q16 - was->xc_px_q16 + (int64_t)x_px * DROGUE_Q16_ONE);
+    const drogue_q16 dy = drogue_sat_s32((int64_t)e->yc_px_q16 - was->yc_px_q16 + (int64_t)y_px * DROGUE_Q16_ONE);
     const int64_t da = (int64_t)e->a_px_q16 - was->a_px_q16;
     return da <= most && da >= -most && drogue_square_sum(dx, dy) <= drogue_square_sum(most, 0);
 }
 
-/* Look for an outline once more, in a region that suits it. */
-static drogue_second_look look_again(drogue_frame *f)
+/* Look for an outline once more, in a region that suits what was found. */
+static drogue_second_look look_again(drogue_frame *f, const drogue_outline *was)
 {
-    const drogue_ellipse was = f->outline.ellipse;
-    const drogue_region was_at = f->out->region;
-    const drogue_q16 cover_q16 = f->outline.cover_q16;
-    const drogue_region better = region_about(&was, &was_at);
-    drogue_region clipped = better;
-    drogue_clip(&clipped.x_px, &clipped.width_px, f->image->width_px);
-    if (clipped.width_px > 0 && (uint32_t)clipped.width_px > f->workspace->capacity.width_px) {
+    const int32_t x_px = f->out->region.x_px;
+    const int32_t y_px = f->out->region.y_px;
+    const drogue_region better = region_about(&was->ellipse, &f->out->region);
+    if (!drogue_workspace_spans(f->workspace, &better, f->image)) {
         return DROGUE_SECOND_TOO_WIDE;
     }
     switch (find_outline(f, &better)) {
@@ -144,7 +138,9 @@ static drogue_second_look look_again(drogue_frame *f)
     case DROGUE_E_REGION: return DROGUE_SECOND_REGION;
     default: return DROGUE_SECOND_NO_MORE;
     }
-    return f->outline.cover_q16 >= cover_q16 && about_the_same(&f->outline.ellipse, &f->out->region, &was, &was_at)
+    return f->outline.cover_q16 >= was->cover_q16 &&
+                   about_the_same(&f->outline.ellipse, &was->ellipse, f->out->region.x_px - x_px,
+                                  f->out->region.y_px - y_px)
                ? DROGUE_SECOND_BETTER
                : DROGUE_SECOND_NO_MORE;
 }
@@ -154,14 +150,13 @@ drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region)
     const drogue_config *config = f->setup->config;
     const drogue_status first = find_outline(f, region);
     const drogue_outline found = f->outline;
-    const drogue_q16 cover_q16 = found.cover_q16;
     f->second_look = DROGUE_SECOND_NONE;
     if ((first != DROGUE_OK && first != DROGUE_E_NO_ELLIPSE) ||
-        cover_q16 < drogue_shr_round_s64(config->min_cover_q16, 1) || cover_q16 >= config->recentre_cover_q16 ||
-        ring_holds(&f->outline.ellipse, &f->mask)) {
+        found.cover_q16 < drogue_shr_round_s64(config->min_cover_q16, 1) ||
+        found.cover_q16 >= config->recentre_cover_q16 || ring_holds(&f->outline.ellipse, &f->mask)) {
         return first;
     }
-    f->second_look = look_again(f);
+    f->second_look = look_again(f, &found);
     switch (f->second_look) {
     case DROGUE_SECOND_BETTER: return DROGUE_OK;
     case DROGUE_SECOND_TOO_WIDE: return first; /* it was not begun */

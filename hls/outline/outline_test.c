@@ -37,13 +37,14 @@ static int same(bench *b, const char *what, const int32_t expected[DROGUE_HLS_OU
     return ok;
 }
 
-static void run(bench *b, frame *f, const conf_case *c)
+static void run(bench *b, frame *f, const conf_case *c, drogue_transfer transfer)
 {
     uint32_t i;
     if (!frame_read(f, c)) {
         bench_skip(b, "no region within the image and the blocks");
         return;
     }
+    f->p.config.transfer = transfer;
     frame_run_frontend(f);
     for (i = 0; i < f->list.edge_count; i++) {
         edges[i] = drogue_hls_pack_edge(&f->workspace.edges[i]);
@@ -109,7 +110,8 @@ int main(void)
     int measured = 0;
     bench_begin(&b, "outline");
     while ((c = bench_next(&b, "frame")) != NULL) {
-        run(&b, &f, c);
+        run(&b, &f, c, DROGUE_TRANSFER_SRGB);
+        run(&b, &f, c, DROGUE_TRANSFER_LINEAR);
         if (!measured && f.result.status == DROGUE_OK && f.list.arc_count > 0) {
             measured = 1;
             run_refused(&b);

@@ -87,6 +87,9 @@ typedef struct drogue_workspace {
     uint8_t *code_rows;                  /* 4 half: bit 0 candidate, bit 1 strong, bits 2-4 direction class + 1 */
 } drogue_workspace;
 
+/* Is a workspace wide enough for what of a region lies within an image? */
+int drogue_workspace_spans(const drogue_workspace *workspace, const drogue_region *region, const drogue_image *image);
+
 /* Bytes that drogue_workspace_init() needs; equals DROGUE_WORKSPACE_BYTES. */
 size_t drogue_workspace_bytes(const drogue_capacity *capacity);
 

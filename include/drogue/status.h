@@ -43,7 +43,7 @@ typedef enum drogue_second_look {
     DROGUE_SECOND_TOO_WIDE, /* the workspace is too narrow for its region: what was found first stands, maybe half an
                                outline */
     DROGUE_SECOND_FULL,     /* a table was full: what was found first stands, maybe half an outline */
-    DROGUE_SECOND_ROOM,     /* nothing cuts what stands, but there was too little room for something else that was tried:
+    DROGUE_SECOND_ROOM, /* nothing cuts what stands, but there was too little room for something else that was tried:
                                a table was full, or the workspace too narrow, or it has less than
                                DROGUE_INNER_BEYOND_POINTS edges, as that of regions up to 50 px, for a larger outline */
     DROGUE_SECOND_COUNT

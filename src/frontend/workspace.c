@@ -84,3 +84,11 @@ drogue_status drogue_frontend_check(const drogue_workspace *workspace, const dro
     }
     return DROGUE_OK;
 }
+
+int drogue_workspace_spans(const drogue_workspace *workspace, const drogue_region *region, const drogue_image *image)
+{
+    int32_t x_px = region->x_px;
+    int32_t width_px = region->width_px;
+    drogue_clip(&x_px, &width_px, image->width_px);
+    return (uint32_t)width_px <= workspace->capacity.width_px;
+}

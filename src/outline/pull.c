@@ -3,8 +3,8 @@
  *
  * Shading that runs up to the outline, or another edge nearby as that of a narrow wall, moves the place where the grey
  * changes fastest, the farther the more blur there is. So the edge is looked for at two blurs along rays: as the front
- * end sees it, and sharpened. It goes from the one towards the other. Where grey levels are encoded, the sharpened edge is
- * that of the light. */
+ * end sees it, and sharpened. It goes from the one towards the other. Where grey levels are encoded, the sharpened edge
+ * is that of the light. */
 #include "collection.h"
 
 #include <string.h>

@@ -11,6 +11,11 @@
 #define NEAREST DROGUE_Q16(2, 1) /* px: reach */
 #define FARTHEST DROGUE_Q16(512, 1)
 
+static inline int32_t mixed_q8(int32_t upper_q8, int32_t lower_q8, int32_t part_q8)
+{
+    return upper_q8 + (((lower_q8 - upper_q8) * part_q8 + 128) >> 8);
+}
+
 /* Grey between a pixel, the one to the right and those below, Q8. */
 static inline int32_t between_q8(const uint8_t *at, int32_t right, int32_t stride, int32_t x_px_q16, int32_t y_px_q16)
 {
@@ -19,7 +24,7 @@ static inline int32_t between_q8(const uint8_t *at, int32_t right, int32_t strid
     const uint8_t *below = at + stride;
     const int32_t upper = at[0] * (256 - fx) + at[right] * fx;
     const int32_t lower = below[0] * (256 - fx) + below[right] * fx;
-    return upper + (((lower - upper) * fy + 128) >> 8);
+    return mixed_q8(upper, lower, fy);
 }
 
 /* The same of light, which the levels are encoded from. */
@@ -32,7 +37,7 @@ static inline int32_t light_between_q8(const uint8_t *at, int32_t right, int32_t
     const uint8_t *below = at + stride;
     const int32_t upper = (light[at[0]] * (256 - fx) + light[at[right]] * fx + 128) >> 8;
     const int32_t lower = (light[below[0]] * (256 - fx) + light[below[right]] * fx + 128) >> 8;
-    return upper + (((lower - upper) * fy + 128) >> 8);
+    return mixed_q8(upper, lower, fy);
 }
 
 static inline const uint8_t *pixel(const drogue_image *image, int32_t x_px_q16, int32_t y_px_q16)

@@ -178,14 +178,6 @@ static drogue_region wider(const drogue_region *r)
     return w;
 }
 
-/* Is the workspace wide enough for a region's part within the image? */
-static int fits(const drogue_region *r, const drogue_image *image, const drogue_workspace *workspace)
-{
-    drogue_region clipped = *r;
-    drogue_clip(&clipped.x_px, &clipped.width_px, image->width_px);
-    return clipped.width_px <= (int32_t)workspace->capacity.width_px;
-}
-
 static int same_region(const drogue_region *p, const drogue_region *q)
 {
     return p->x_px == q->x_px && p->y_px == q->y_px && p->width_px == q->width_px && p->height_px == q->height_px;
@@ -197,11 +189,21 @@ static int measures_whole(const drogue_region *part, const drogue_model *model)
     return model->inner_radius_m_q16 == 0 || (part->width_px <= MOST_WHOLE_PX && part->height_px <= MOST_WHOLE_PX);
 }
 
+/* The region asked for. */
+static drogue_region asked(const drogue_region *region, const drogue_image *image)
+{
+    drogue_region whole;
+    whole.x_px = 0;
+    whole.y_px = 0;
+    whole.width_px = image->width_px;
+    whole.height_px = image->height_px;
+    return region != NULL ? *region : whole;
+}
+
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region)
 {
     drogue_region part;
-    drogue_region whole;
     drogue_status status;
     drogue_region last;
     best_seen best;
@@ -211,16 +213,11 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     memset(out, 0, sizeof *out);
     memset(&best, 0, sizeof best);
     memset(&last, 0, sizeof last);
-    whole.x_px = 0;
-    whole.y_px = 0;
-    whole.width_px = image->width_px;
-    whole.height_px = image->height_px;
-    whole = region != NULL ? *region : whole;
     if (image->data == NULL || image->stride < image->width_px) {
         out->status = DROGUE_E_ARGUMENT;
         return out->status;
     }
-    part = whole;
+    part = asked(region, image);
     drogue_clip(&part.x_px, &part.width_px, image->width_px);
     drogue_clip(&part.y_px, &part.height_px, image->height_px);
     status = part.width_px >= 1 && part.height_px >= 1 ? search_part(search, image, &part) : DROGUE_E_REGION;
@@ -241,18 +238,17 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         }
     }
     for (i = 0; i < WIDER && i < search->count && best.worth <= SURE && setup->model->inner_radius_m_q16 > 0; i++) {
-        const drogue_region other = wider(&search->best[i].region); /* what was sighted may be an edge within the drogue */
-        if (!fits(&other, image, workspace)) {
+        last = wider(&search->best[i].region); /* what was sighted may be an edge within the drogue */
+        if (!drogue_workspace_spans(workspace, &last, image)) {
             continue;
         }
-        last = other;
         (void)drogue_measure(out, workspace, setup, image, &last);
         if (out->status == DROGUE_OK && settles(out, setup->model)) {
             (void)keep_better(&best, out, &last, setup->model);
         }
     }
     if (best.worth <= SURE && measures_whole(&part, setup->model)) {
-        last = whole;
+        last = asked(region, image);
         (void)drogue_measure(out, workspace, setup, image, &last);
         (void)keep_better(&best, out, &last, setup->model);
     }

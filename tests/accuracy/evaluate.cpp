@@ -137,7 +137,8 @@ std::vector<Outcome> run_trials(const std::vector<Trial> &trials, const RunOptio
                 const cv::Mat region = options.processing.empty() ? picture : processed(picture, options.processing);
                 cv::Mat image = cv::Mat::zeros(t.scene.image_px, CV_8U);
                 region.copyTo(image(t.region)); /* the library looks nowhere else */
-                const Measurement m = measure(image, t.scene.camera, t.model, t.region, transfer_of(options.processing));
+                const Measurement m =
+                    measure(image, t.scene.camera, t.model, t.region, transfer_of(options.processing));
                 outcomes[i] = judge(t, m);
                 const std::lock_guard<std::mutex> lock(report);
                 done++;

@@ -29,9 +29,11 @@ done <defaults
 
 run 1 measure scene.png $camera $roi --json --set min_axis_ratio=0.9 --set min_size=0.7
 same "$(json status)" '"no_ellipse"'
+run 0 measure scene.png $camera $roi --json --set transfer=1
+if cmp -s out first; then fail "--set transfer=1 changes nothing"; fi
 run 0 track frame00.png $camera $roi --set canny_low=10 --set canny_high=20
 run 1 track frame00.png $camera $roi --set canny_low=9000 --set canny_high=9000 --set canny_least=9000
-for bad in min_cover min_cover= =1 nonsense=1 min_cover=1.1 refit_rounds=17 refit_rounds=1.5 polarity=3 min_cover=0,5 canny_low=x; do
+for bad in min_cover min_cover= =1 nonsense=1 min_cover=1.1 refit_rounds=17 refit_rounds=1.5 polarity=3 transfer=2 min_cover=0,5 canny_low=x; do
     run 2 measure scene.png $camera --set "$bad"
 done
 run 2 measure scene.png $camera --set canny_low=100

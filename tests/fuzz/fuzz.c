@@ -126,6 +126,7 @@ static void change_config(drogue_config *c, fuzz_bytes *b)
         c->polarity = (drogue_polarity)fuzz_range(b, 0, 2);
         c->max_chi2_q16 = fuzz_range(b, 0, INT32_MAX);
         c->min_chi2_gap_q16 = fuzz_range(b, 0, INT32_MAX);
+        c->transfer = (drogue_transfer)fuzz_range(b, 0, 1);
     }
 }
 

@@ -254,9 +254,9 @@ void add_encoded(Set &set)
 {
     using accuracy::Variety;
     int k = 0;
-    for (const Variety v : {Variety::plain, Variety::far, Variety::offset, Variety::noise, Variety::probe, Variety::blur,
-                            Variety::blur, Variety::tilted, Variety::half, Variety::clutter, Variety::ribs,
-                            Variety::torus}) {
+    for (const Variety v :
+         {Variety::plain, Variety::far, Variety::offset, Variety::noise, Variety::probe, Variety::blur, Variety::blur,
+          Variety::tilted, Variety::half, Variety::clutter, Variety::ribs, Variety::torus}) {
         const accuracy::Trial t = accuracy::varied_trial(43, v, k, false);
         Picture p;
         p.image = accuracy::processed(accuracy::render(t.scene, t.region), "srgb");
@@ -301,6 +301,13 @@ void add_look(Set &set)
     for (const int arcs : {1, 2, 3, 4, 6}) {
         l.arcs = arcs;
         add_one(set, "arcs-" + std::to_string(arcs), Tier::stress, {"table-full"}, p, l);
+    }
+    p.image = image_from(110, 128,
+                         [](int x, int y) { return (x - 60) * (x - 60) + (y - 64) * (y - 64) <= 46 * 46 ? 60 : 200; });
+    for (const int width : {105, 106, 107, 110, 116}) { /* the wider region's part within the image has 107 columns */
+        l = {{-30, 0, 128, 128}};
+        l.width = width;
+        add_one(set, "clipped-" + std::to_string(width), Tier::boundary, {"border", "arc", "threshold-met"}, p, l);
     }
     p = picture(71, 130, 120, 0.2, -0.1, 4.5, 0.2, -0.2);
     const int x = 65 + 22, y = 60 - 11;        /* where it is, about */

@@ -103,7 +103,8 @@ drogue_status outline_twice(Result &out, Frame &f, const Task &task, const drogu
         return status;
     }
     const std::array<int64_t, 4> better = region_about(out.outline.ellipse, out.region.tl(), library);
-    const int64_t from = std::max<int64_t>(better[0], 0), to = std::min<int64_t>(better[0] + better[2], task.image.cols);
+    const int64_t from = std::max<int64_t>(better[0], 0),
+                  to = std::min<int64_t>(better[0] + better[2], task.image.cols);
     if (to - from > static_cast<int64_t>(task.capacity.width_px)) {
         out.second_look = DROGUE_SECOND_TOO_WIDE;
         return status;
@@ -591,8 +592,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    const bool whole =
-        best.status == DROGUE_OK && !best.too_large && best.second_look <= DROGUE_SECOND_BETTER;
+    const bool whole = best.status == DROGUE_OK && !best.too_large && best.second_look <= DROGUE_SECOND_BETTER;
     if (room != DROGUE_SECOND_NONE) {
         best.second_look = whole ? DROGUE_SECOND_ROOM : room;
     }

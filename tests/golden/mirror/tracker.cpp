@@ -258,7 +258,8 @@ Measured Tracker::read(const drogue_result &r, bool twin) const
             m.noise[p][p] = squared(at_least_one(std[p]));
         }
     }
-    if (r.second_look > DROGUE_SECOND_BETTER && r.second_look != DROGUE_SECOND_ROOM) { /* a cut outline may be another than it seems */
+    if (r.second_look > DROGUE_SECOND_BETTER &&
+        r.second_look != DROGUE_SECOND_ROOM) { /* a cut outline may be another than it seems */
         const Real lacking = std::trunc((65536 - r.cover_q16) / Real(3)) / 65536;
         for (size_t p = 0; p < 5; p++) {
             m.noise[p][p] += squared(lacking * (p == Z ? m.value[Z] : p < Z ? real(model_.rim_radius_m_q16) : 1));

@@ -40,6 +40,7 @@ START_TEST(defaults_are_the_documented_ones)
     ck_assert_int_eq(c.inner_gate_px_q16, q16_of(1.5));
     ck_assert_int_eq(c.inner_gate_q16, q16_of(0.05));
     ck_assert_int_eq(c.canny_least, 8);
+    ck_assert_int_eq(c.transfer, DROGUE_TRANSFER_LINEAR);
     ck_assert_int_eq(c.min_inner_cover_q16, q16_of(0.5));
     ck_assert_int_eq(c.inner_rms_px_q16, q16_of(0.65));
     ck_assert_int_eq(c.inner_size_px_q16, q16_of(1.25));
@@ -123,6 +124,11 @@ START_TEST(each_limit)
     ck_assert(!drogue_config_valid(&c));
     c.refit_rounds = 0;
     c.polarity = (drogue_polarity)3;
+    ck_assert(!drogue_config_valid(&c));
+    c.polarity = DROGUE_POLARITY_BOTH;
+    c.transfer = DROGUE_TRANSFER_SRGB;
+    ck_assert(drogue_config_valid(&c));
+    c.transfer = (drogue_transfer)2;
     ck_assert(!drogue_config_valid(&c));
 }
 END_TEST

@@ -99,7 +99,10 @@ static void random_config(drogue_config *c, uint64_t *rng)
             case 3: c->min_arc_px = (uint32_t)rng_u64(rng) >> rng_range(rng, 0, 31); break;
             case 4: c->min_arc_share_q16 = any_up_to(rng, 65536); break;
             case 5: c->min_short_px_q16 = any_up_to(rng, INT32_MAX); break;
-            case 6: c->polarity = (drogue_polarity)rng_range(rng, 0, 2); break;
+            case 6:
+                c->polarity = (drogue_polarity)rng_range(rng, 0, 2);
+                c->transfer = (drogue_transfer)rng_range(rng, 0, 1);
+                break;
             case 7: c->quality.fit_error_px_q16 = any_up_to(rng, 1024 * 65536); break;
             case 8: c->quality.k1_q16 = any_up_to(rng, 64 * 65536); break;
             case 9: c->quality.k2_q16 = any_up_to(rng, 65535); break;

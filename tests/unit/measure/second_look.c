@@ -221,4 +221,5 @@ START_TEST(too_little_room_for_points_along_rays)
 END_TEST
 
 SUITE_MAIN("second_look", second_look_beyond_the_coordinates, second_look_of_less_cover,
-           too_little_room_for_the_lower_thresholds, too_little_room_for_points_along_rays, raised_thresholds_do_not_hide_a_cut)
+           too_little_room_for_the_lower_thresholds, too_little_room_for_points_along_rays,
+           raised_thresholds_do_not_hide_a_cut)

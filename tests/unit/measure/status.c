@@ -39,8 +39,8 @@ END_TEST
 
 START_TEST(second_looks)
 {
-    static const char *const names[DROGUE_SECOND_COUNT] = {"none", "better", "no_more", "region", "too_wide", "full",
-                                                              "room"};
+    static const char *const names[DROGUE_SECOND_COUNT] = {"none",     "better", "no_more", "region",
+                                                           "too_wide", "full",   "room"};
     int i;
     for (i = 0; i < (int)DROGUE_SECOND_COUNT; i++) {
         ck_assert_str_eq(drogue_second_look_name((drogue_second_look)i), names[i]);

@@ -417,6 +417,114 @@ START_TEST(harmonics_of_any_ellipse)
 }
 END_TEST
 
-SUITE_MAIN("pull", a_band_is_as_wide_as_it_is, shading_goes_back, half_a_band_moves_the_centre, no_more_than_noise,
-           even_grey_moves_nothing, only_where_the_outline_has_points, the_smallest, across_the_border,
-           waves_of_a_pixel, units_and_bands, harmonics_of_any_ellipse)
+/* --- levels that are encoded --- */
+
+static double encoded(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055; }
+
+static double decoded(double level) { return level <= 0.04045 ? level / 12.92 : pow((level + 0.055) / 1.055, 2.4); }
+
+/* Level so far within a disc's edge, light of 0.6 before 0.05 or the other way round. */
+static double level_within(double within, int bright)
+{
+    return encoded(bright ? 0.05 + 0.55 * step(within) : 0.6 - 0.55 * step(within));
+}
+
+/* Its slope with the front end's blur. */
+static double encoded_slope(double within, int bright)
+{
+    double sum = 0, t;
+    for (t = -6; t < 6; t += 0.05) {
+        sum += level_within(within - t, bright) * t * bell(t, 4 / 3.0);
+    }
+    return fabs(sum);
+}
+
+/* How far beyond the edge the front end sees it, between pixels as along a row. */
+static double encoded_beyond(int bright)
+{
+    double sum = 0, at;
+    int i, k;
+    for (i = 0; i < 50; i++) {
+        double before, after, highest = -1;
+        at = 0;
+        for (k = -2; k <= 2; k++) {
+            const double x = k + (i - 24.5) / 50, s = encoded_slope(-x, bright);
+            at = s > highest ? x : at;
+            highest = fmax(s, highest);
+        }
+        before = encoded_slope(1 - at, bright);
+        after = encoded_slope(-1 - at, bright);
+        sum += at + (after - before) / (2 * (2 * highest - before - after));
+    }
+    return sum / 50;
+}
+
+/* Mean error of a disc's radius at places between pixels, fitted where the front end sees its edge. */
+static double encoded_error(int bright, drogue_transfer transfer)
+{
+    const drogue_image view = {pixels, SIDE, SIDE, SIDE};
+    const double off = encoded_beyond(bright);
+    uint64_t rng = 9;
+    double sum = 0;
+    drogue_config config;
+    int i, x, y;
+    drogue_config_default(&config);
+    config.transfer = transfer;
+    for (i = 0; i < PLACES; i++) {
+        const ring r = {rng_real(&rng, 29, 31), 0, 0, 0, rng_real(&rng, 47, 48), rng_real(&rng, 47, 48), 0, !bright};
+        drogue_outline o = fitted_at(&r, r.outer + off);
+        for (y = 0; y < SIDE; y++) {
+            for (x = 0; x < SIDE; x++) {
+                pixels[y * SIDE + x] = (uint8_t)lround(255 * level_within(r.outer - hypot(x - r.xc, y - r.yc), bright));
+            }
+        }
+        drogue_outline_pull(&o, rays, &view, &config);
+        sum += radius_of(&o, &config) - r.outer;
+    }
+    return sum / PLACES;
+}
+
+START_TEST(encoded_levels_are_light)
+{
+    int bright;
+    for (bright = 0; bright < 2; bright++) {
+        const double told = encoded_error(bright, DROGUE_TRANSFER_SRGB);
+        const double not_told = encoded_error(bright, DROGUE_TRANSFER_LINEAR);
+        MUST(fabs(told) < 0.02, "%d: off by %g", bright, told);
+        MUST(bright ? not_told > 0.1 : not_told < -0.1, "%d: off by %g", bright, not_told);
+    }
+}
+END_TEST
+
+/* Light of every level, between pixels and at the border. */
+START_TEST(light_along_a_ray)
+{
+    const drogue_image view = {pixels, 16, 16, SIDE};
+    drogue_ray ray;
+    int32_t light[2];
+    int k;
+    memset(&ray, 0, sizeof ray);
+    ray.nx_q14 = 1 << 14;
+    ray.step_px_q16 = DROGUE_Q16(1, 2);
+    ray.y_px_q16 = DROGUE_Q16(13, 4); /* a quarter of the row below */
+    for (k = 0; k < 256; k++) {
+        const double a = 65280 * decoded(k / 255.0), b = 65280 * decoded((255 - k) / 255.0);
+        memset(pixels, 0, sizeof pixels);
+        pixels[3 * SIDE + 14] = (uint8_t)k;
+        pixels[3 * SIDE + 15] = (uint8_t)(255 - k);
+        ray.x_px_q16 = 14 * DROGUE_Q16_ONE;
+        drogue_ray_read_light(light, &ray, &view, 0, 2);
+        MUST(fabs(light[0] - 0.75 * a) < 1.5 && fabs(light[1] - 0.375 * (a + b)) < 1.5, "level %d: %d, %d", k,
+             (int)light[0], (int)light[1]);
+        ray.y_px_q16 = 3 * DROGUE_Q16_ONE;
+        ray.x_px_q16 = DROGUE_Q16(31, 2); /* the border stands */
+        drogue_ray_read_light(light, &ray, &view, 0, 2);
+        MUST(fabs(light[0] - b) < 1 && light[1] == light[0], "level %d: %d, %d", 255 - k, (int)light[0], (int)light[1]);
+        ray.y_px_q16 = DROGUE_Q16(13, 4);
+    }
+}
+END_TEST
+
+SUITE_MAIN("pull", encoded_levels_are_light, light_along_a_ray, a_band_is_as_wide_as_it_is, shading_goes_back,
+           half_a_band_moves_the_centre, no_more_than_noise, even_grey_moves_nothing, only_where_the_outline_has_points,
+           the_smallest, across_the_border, waves_of_a_pixel, units_and_bands, harmonics_of_any_ellipse)

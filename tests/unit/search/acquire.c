@@ -18,6 +18,7 @@ static drogue_search search;
 /* What is to be measured in the first sighting, the second, in a larger region about either, and elsewhere: in the part
  * itself. */
 static drogue_result first, second, larger[2], elsewhere;
+static drogue_workspace workspace = {.capacity = {DROGUE_MAX_SIDE, 1, 2, 1}};
 static drogue_region measured[CALLS];
 static int calls;
 
@@ -34,10 +35,10 @@ static int larger_region(const drogue_region *p, const drogue_region *q)
            p->height_px == q->height_px * 5 / 4;
 }
 
-drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
+drogue_status drogue_measure(drogue_result *out, drogue_workspace *w, const drogue_setup *setup,
                              const drogue_image *image, const drogue_region *region)
 {
-    (void)workspace;
+    (void)w;
     (void)setup;
     (void)image;
     ck_assert_int_lt(calls, CALLS);
@@ -112,7 +113,7 @@ static drogue_status acquire(drogue_result *out, const drogue_model *m, int32_t 
     }
     calls = 0;
     ck_assert_int_eq(drogue_search_init(&search, memory, sizeof memory, width), DROGUE_OK);
-    (void)drogue_acquire(out, &search, NULL, &setup, &image, NULL);
+    (void)drogue_acquire(out, &search, &workspace, &setup, &image, NULL);
     ck_assert_int_eq(search.count, discs);
     MUST(discs < 1 || abs(search.best[0].x_px - 100) < 10, "first of the sightings at %d", (int)search.best[0].x_px);
     MUST(discs < 2 || abs(search.best[1].x_px - 300) < 10, "second of the sightings at %d", (int)search.best[1].x_px);
@@ -260,6 +261,15 @@ START_TEST(the_first_two_once_more)
     second = with_inner(75, 0); /* sure */
     ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_OK);
     ck_assert_int_eq(calls, 2);
+    second = without_inner(90, 50);
+    larger[1] = with_inner(80, 1);
+    workspace.capacity.width_px = (uint32_t)search.best[0].region.width_px * 5 / 4 - 1; /* too narrow */
+    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_E_UNSURE);
+    ck_assert_int_eq(calls, 3); /* both, and the first again */
+    workspace.capacity.width_px++;
+    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_OK);
+    ck_assert_int_eq(calls, 4);
+    workspace.capacity.width_px = DROGUE_MAX_SIDE;
 }
 END_TEST
 

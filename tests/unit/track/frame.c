@@ -14,13 +14,14 @@ static drogue_search search;
 /* What is to be measured in the predicted region and elsewhere. */
 static drogue_region predicted;
 static drogue_result expected, elsewhere;
+static drogue_workspace workspace = {.capacity = {DROGUE_MAX_SIDE, 1, 2, 1}};
 static drogue_region measured[CALLS];
 static int calls;
 
-drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
+drogue_status drogue_measure(drogue_result *out, drogue_workspace *w, const drogue_setup *setup,
                              const drogue_image *image, const drogue_region *region)
 {
-    (void)workspace;
+    (void)w;
     (void)setup;
     (void)image;
     ck_assert_int_lt(calls, CALLS);
@@ -61,7 +62,7 @@ static drogue_track_state frame(drogue_result *result, drogue_track *t)
     drogue_track_begin(&predicted, &next, DT_US);
     calls = 0;
     ck_assert_int_eq(drogue_search_init(&search, memory, sizeof memory, WIDTH), DROGUE_OK);
-    return drogue_track_frame(result, &region, t, NULL, &search, NULL, &image, DT_US);
+    return drogue_track_frame(result, &region, t, &workspace, &search, NULL, &image, DT_US);
 }
 
 /* A track that has missed the drogue until it may be beside its predicted region. */
