@@ -75,7 +75,9 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[DRO
                                      const drogue_inner_expected *expected, const drogue_ellipse *outline,
                                      const drogue_config *config);
 
-/* Standard deviation of the disc's centre: a floor, a share of the disc's size, and what the rays' residuals show.
+/* Standard deviation of the disc's centre: a floor, a share of the disc's size, and what the rays' residuals show; and,
+ * where its size puts more than an eighth in doubt (drogue_inner_weigh()), so much of it: what is so small or so large
+ * may be something else.
  *
  *  expected, outline  region coordinates
  *  return             px Q16; 0 when it is not to be believed: of another size, in another place, cut by the rim, or

@@ -97,6 +97,23 @@ static int within_outline(const drogue_inner_edge *edge, const drogue_ellipse *e
     return room_q24 > 0 && drogue_square_sum(u_q24, v_q24) <= drogue_square_sum(room_q24, 0);
 }
 
+#define LARGER_Q16 DROGUE_Q16(1, 64)    /* of its size: a disc is seen to that */
+#define SMALLER_PX_Q16 DROGUE_Q16(1, 2) /* by as much blur and what touches the disc move its edge */
+#define ELSEWHERE_Q16 DROGUE_Q16(1, 8)  /* of more doubt the centre is off by as much, too */
+
+/* A disc that is too large may be that of a larger outline than the one found, and is so in one of eight; one that is
+ * too small hardly ever says more than that its edge is blurred or touched. */
+static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *expected)
+{
+    const drogue_q16 smaller_px_q16 = drogue_q16_sub(-SMALLER_PX_Q16, edge->grown_px_q16);
+    const drogue_q16 share = drogue_q16_div(edge->grown_px_q16, expected->a_px_q16);
+    const drogue_q16 beyond = drogue_q16_sub(share, LARGER_Q16);
+    if (smaller_px_q16 > 0) {
+        return drogue_q16_div(smaller_px_q16, expected->a_px_q16) / 2;
+    }
+    return beyond > LARGER_Q16 ? drogue_clamp_s32(share, 0, DROGUE_Q16_ONE - 1) : beyond > 0 ? 2 * beyond : 0;
+}
+
 drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse *expected,
                             const drogue_ellipse *outline, const drogue_config *config)
 {
@@ -105,6 +122,8 @@ drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse 
     const drogue_q16 room =
         drogue_q16_add(config->inner_size_px_q16, drogue_q16_mul(config->inner_size_q16, expected->a_px_q16));
     const drogue_q16 share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
+    const drogue_q16 doubt = doubt_of(edge, expected);
+    const drogue_q16 off = doubt > ELSEWHERE_Q16 ? drogue_q16_mul(doubt, expected->a_px_q16) : 0;
     if (edge->contrast < config->min_inner_contrast ||
         (int64_t)edge->rays * DROGUE_Q16_ONE < (int64_t)config->min_inner_cover_q16 * DROGUE_RAYS ||
         edge->rms_px_q16 > config->inner_rms_px_q16 || edge->grown_px_q16 < -room ||
@@ -115,8 +134,8 @@ drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse 
     if (edge->grown_px_q16 > room) {
         return -1;
     }
-    return drogue_sat_s32(
-        drogue_isqrt_u64(drogue_square_sum(share, config->inner_std_px_q16) + drogue_square_sum(edge->std_px_q16, 0)));
+    return drogue_sat_s32((int64_t)drogue_isqrt_u64(drogue_square_sum(share, config->inner_std_px_q16) +
+                                                    drogue_square_sum(edge->std_px_q16, off)));
 }
 
 /* A semi-axis made larger; 0 where that leaves nothing. */
@@ -139,22 +158,6 @@ static void describe(drogue_inner_part *part, const drogue_inner_edge *edge, con
     part->spread_px_q16 = edge->rms_px_q16;
     part->threshold = edge->level;
     part->contrast = edge->contrast;
-}
-
-#define LARGER_Q16 DROGUE_Q16(1, 64)    /* of its size: a disc is seen to that */
-#define SMALLER_PX_Q16 DROGUE_Q16(1, 2) /* by as much blur and what touches the disc move its edge */
-
-/* A disc that is too large may be that of a larger outline than the one found, and is so in one of eight; one that is
- * too small hardly ever says more than that its edge is blurred or touched. */
-static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *expected)
-{
-    const drogue_q16 smaller_px_q16 = drogue_q16_sub(-SMALLER_PX_Q16, edge->grown_px_q16);
-    const drogue_q16 share = drogue_q16_div(edge->grown_px_q16, expected->a_px_q16);
-    const drogue_q16 beyond = drogue_q16_sub(share, LARGER_Q16);
-    if (smaller_px_q16 > 0) {
-        return drogue_q16_div(smaller_px_q16, expected->a_px_q16) / 2;
-    }
-    return beyond > LARGER_Q16 ? drogue_clamp_s32(share, 0, DROGUE_Q16_ONE - 1) : beyond > 0 ? 2 * beyond : 0;
 }
 
 void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge *edge, const drogue_region *region,

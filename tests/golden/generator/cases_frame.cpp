@@ -136,6 +136,11 @@ void add_disturbed_scenes(Set &set)
     Frame large = photograph(s, region_of(s), 0);
     large.inner_radius = 0.2;
     add_frame(set, "large-disc", Tier::ordinary, {}, large);
+    for (const int metres : {18, 22}) { /* a sixth too large: believed, and maybe something else */
+        s = scene_at(static_cast<uint64_t>(metres), 0.4, -0.2, metres, 9, -5);
+        s.drogue.inner_radius_m = s.drogue.coupling_radius_m = 0.14;
+        add_frame(set, "small-disc-off-" + std::to_string(metres), Tier::stress, {}, photograph(s, region_of(s), 0));
+    }
     s = scene_at(32, -0.6, 0.5, 12, -14, 6);
     s.sensor.motion_length_px = 6;
     s.sensor.motion_angle_rad = 0.6;

@@ -211,10 +211,18 @@ bool trust(const Result &out, const Ellipse &expected, const drogue_config &conf
            std::hypot(u, v) <= room;
 }
 
+/* What a disc's size puts in doubt: its share where it is too large by 1/32 and more, half of it where it is too small by more
+ * than half a pixel. */
+Real size_doubt(Real grown, Real a)
+{
+    return std::max({std::min(grown / a, 2 * (grown / a - 1 / 64.0L)), (-grown - 0.5L) / a / 2, Real(0)});
+}
+
 Real inner_std(const Result &out, const Ellipse &expected, const drogue_config &config)
 {
+    const Real doubt = size_doubt(out.part.grown, expected.a);
     return std::hypot(std::hypot(real(config.inner_std_share_q16) * expected.a, real(config.inner_std_px_q16)),
-                      out.part.std);
+                      std::hypot(out.part.std, doubt > 0.125L ? doubt * expected.a : 0));
 }
 
 bool same_solution(const reference::Joint &p, const reference::Joint &q)
@@ -355,13 +363,6 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
 }
 
 namespace {
-
-/* What a disc's size puts in doubt: its share where it is too large by 1/32 and more, half of it where it is too small by more
- * than half a pixel. */
-Real size_doubt(Real grown, Real a)
-{
-    return std::max({std::min(grown / a, 2 * (grown / a - 1 / 64.0L)), (-grown - 0.5L) / a / 2, Real(0)});
-}
 
 /* Bins as from another axis, to a whole bin; halfway between two, to that of the library. */
 void turn(reference::Support &s, Real from, Real to, const drogue_ellipse &library)
