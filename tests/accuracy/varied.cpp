@@ -132,7 +132,8 @@ void add_spot(Trial &t, Random &random)
 {
     Sensor &s = t.scene.sensor;
     const double a = t.rim.a_px;
-    s.glare_at_px = cv::Point2d(t.rim.xc_px, t.rim.yc_px) + random.uniform(0.5, 1.1) * a * direction(any_angle(random));
+    const cv::Point2d aside = direction(any_angle(random));
+    s.glare_at_px = cv::Point2d(t.rim.xc_px, t.rim.yc_px) + random.uniform(0.5, 1.1) * a * aside;
     s.glare_radius_px = random.uniform(0.12, 0.35) * a;
     s.glare_grey = random.uniform(150, 350);
 }
@@ -142,8 +143,8 @@ void add_half(Trial &t, Random &random)
     Look &look = t.scene.look;
     Background &b = t.scene.background;
     look.ambient = random.uniform(0.25, 0.4);
-    look.sun = cv::normalize(cv::Vec3d(std::copysign(random.uniform(0.6, 1), random.uniform(-1, 1)),
-                                       random.uniform(-0.6, 0.2), random.uniform(-0.4, 0.1)));
+    const double ahead = random.uniform(-0.4, 0.1), down = random.uniform(-0.6, 0.2), sign = random.uniform(-1, 1);
+    look.sun = cv::normalize(cv::Vec3d(std::copysign(random.uniform(0.6, 1), sign), down, ahead));
     b.top_grey = b.bottom_grey = look.canopy_grey * random.uniform(0.45, 0.6);
     b.texture_grey = random.uniform(6, 14);
     b.texture_px = random.uniform(60, 200);
@@ -159,9 +160,10 @@ void add_clutter(Trial &t, Random &random)
                          random.uniform(30, 110), false, 1.5});
     for (int i = whole(random, 2, 6); i > 0; i--) {
         const double size = random.uniform(0.1, 0.4) * a;
-        b.clutter.push_back({centre + random.uniform(0.9, 1.5) * a * direction(any_angle(random)), size,
-                             size * random.uniform(0.1, 1), any_angle(random), random.uniform(5, 150),
-                             random.uniform(0, 1) < 0.5, std::max(1.0, random.uniform(0, 0.1) * a)});
+        const cv::Point2d aside = direction(any_angle(random));
+        b.clutter.push_back({centre + random.uniform(0.9, 1.5) * a * aside, size, size * random.uniform(0.1, 1),
+                             any_angle(random), random.uniform(5, 150), random.uniform(0, 1) < 0.5,
+                             std::max(1.0, random.uniform(0, 0.1) * a)});
     }
     b.texture_grey = random.uniform(8, 22);
     b.texture_px = random.uniform(0.3, 1.5) * a;
