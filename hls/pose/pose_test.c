@@ -142,7 +142,7 @@ static void detail_words(int32_t words[18], const frame *f)
         memcpy(words + 10, o + DROGUE_HLS_O_QUALITY, 5 * sizeof *words);
         words[15] = o[DROGUE_HLS_O_CLUSTER_MEMBERS];
         words[16] = o[DROGUE_HLS_O_COVER];
-        words[17] = result[DROGUE_HLS_R_STATUS] == DROGUE_OK ? result[DROGUE_HLS_R_DOUBT] : 0;
+        words[17] = result[DROGUE_HLS_R_DOUBT];
     }
 }
 

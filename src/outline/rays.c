@@ -56,11 +56,6 @@ static inline int32_t inside_q8(const drogue_image *image, drogue_q16 x_px_q16, 
     return is_light ? light_between_q8(at, right, stride, x, y) : between_q8(at, right, stride, x, y);
 }
 
-static int32_t grey_q8(const drogue_image *image, drogue_q16 x_px_q16, drogue_q16 y_px_q16)
-{
-    return inside_q8(image, x_px_q16, y_px_q16, 0);
-}
-
 /* Keep an edge among the steepest. */
 static void keep(drogue_ray *r, const drogue_ray_edge *e)
 {
@@ -101,7 +96,7 @@ void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_ima
         }
     } else {
         for (; grey_q8_out < end; grey_q8_out++, x += dx, y += dy) { /* bound: the same */
-            *grey_q8_out = grey_q8(&own, x, y);
+            *grey_q8_out = inside_q8(&own, x, y, 0);
         }
     }
 }

@@ -117,7 +117,8 @@ class Result:
     alternative: Optional[Pose]  # the other pose that the ellipse allows
     orientation_resolved: bool  # the inner part decided between the two
     ambiguity: float
-    doubt: float  # share of the distance in doubt by the inner part's size, at least 1/64 where it contradicts the outline; in the covariance
+    doubt: float  # share of the distance in doubt by the inner part's size, in the covariance; 1/64 and more where it
+    # contradicts the outline
     covariance: Optional[Vector]  # shape (5, 5): x, y, z in metres, yaw, pitch in radians
     position_std_m: Optional[Vector]  # shape (3,)
     axis_std_rad: Optional[float]

@@ -48,6 +48,14 @@ Picture picture(uint64_t seed, int width, int height, double x, double y, double
     return p;
 }
 
+/* A trial's region of its scene. */
+Picture picture_of(const accuracy::Trial &t)
+{
+    const accuracy::Drogue &d = t.scene.drogue;
+    return {accuracy::render(t.scene, t.region), t.scene.camera.cropped(t.region.tl()), d.rim_radius_m,
+            d.inner_radius_m, d.inner_depth_m};
+}
+
 /* One to three drogues before a plain background, by number: some cut, some with an inner part of another size or none. */
 Picture drawn_drogues(uint64_t number)
 {
@@ -258,12 +266,8 @@ void add_encoded(Set &set)
          {Variety::plain, Variety::far, Variety::offset, Variety::noise, Variety::probe, Variety::blur, Variety::blur,
           Variety::tilted, Variety::half, Variety::clutter, Variety::ribs, Variety::torus}) {
         const accuracy::Trial t = accuracy::varied_trial(43, v, k, false);
-        Picture p;
-        p.image = accuracy::processed(accuracy::render(t.scene, t.region), "srgb");
-        p.camera = t.scene.camera.cropped(t.region.tl());
-        p.radius = t.scene.drogue.rim_radius_m;
-        p.inner_radius = t.scene.drogue.inner_radius_m;
-        p.depth = t.scene.drogue.inner_depth_m;
+        Picture p = picture_of(t);
+        p.image = accuracy::processed(p.image, "srgb");
         Look l = {{0, 0, t.region.width, t.region.height}};
         l.width = l.region[2];
         l.transfer = DROGUE_TRANSFER_SRGB;
@@ -349,11 +353,7 @@ void add_look(Set &set)
         add_one(set, "wall-" + std::to_string(wall), Tier::stress, {"noise"}, p, l);
     }
     const accuracy::Trial faint = accuracy::varied_trial(41, accuracy::Variety::bright, 12, false);
-    p.image = accuracy::render(faint.scene, faint.region);
-    p.camera = faint.scene.camera.cropped(faint.region.tl());
-    p.radius = faint.scene.drogue.rim_radius_m;
-    p.inner_radius = faint.scene.drogue.inner_radius_m;
-    p.depth = faint.scene.drogue.inner_depth_m;
+    p = picture_of(faint);
     l = {{0, 0, faint.region.width, faint.region.height}};
     add_one(set, "along-rays", Tier::stress, {}, p, l);
     l.transfer = DROGUE_TRANSFER_SRGB; /* which it is not: other outlines */
