@@ -43,6 +43,9 @@ typedef struct drogue_decision {
  */
 drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup);
 
+#define DROGUE_CONTRADICTED_Q16 \
+    DROGUE_Q16(1, 64) /* the least doubt where outline and inner part contradict each other */
+
 #define DROGUE_DOUBT_PACKED 6 /* x, y, z: the first entries of a packed covariance that begins with them */
 
 /* Add a doubt to a covariance. An inner part that is not of its size may be that of a larger outline: half the square

@@ -10,6 +10,7 @@
 #define EVERY 2                    /* so many-th ray will do to find the disc, */
 #define SMALL DROGUE_Q16(10, 1)    /* px: and to measure one of less */
 #define INWARD DROGUE_Q16(45, 100) /* px: a quarter of a blurred step is this far within its middle */
+#define LARGER 64 /* so many-th part of its size: a disc that is larger by more may be something else */
 
 /* Squared residuals of the bins over their weights; the number of bins that hold rays. */
 static int32_t scatter_of(drogue_real *scatter, const drogue_ray_bins *b)
@@ -167,60 +168,100 @@ static void name_nearer(drogue_inner_edge *edge, const drogue_inner_expected *ex
 /* Rounded to 1/256 px, in which rays read the image: a first place's last bits need not move them. */
 static drogue_q16 whole(drogue_q16 v_px_q16) { return drogue_q16_add(v_px_q16, 128) & ~255; }
 
+/* Where an expected disc may be: how far off and how much larger, and how steep the edges are that say so. */
+typedef struct first_place {
+    drogue_q16 v_px_q16[3];
+    int32_t slopes_q8; /* 0: nowhere */
+} first_place;
+
+/* Look for a disc within the gate about where it is expected. Returns 1 when it is seen in its place, of its size. */
+static int look_about(first_place *out, drogue_ray rays[RAYS], const drogue_image *image, const drogue_ellipse *e,
+                      drogue_q16 gate_px_q16, const drogue_config *config)
+{
+    const drogue_q16 room =
+        drogue_q16_add(config->inner_size_px_q16, drogue_q16_mul(config->inner_size_q16, e->a_px_q16));
+    const drogue_q16 reach = drogue_q16_add(gate_px_q16, drogue_q16_add(e->a_px_q16 / 16, DROGUE_Q16(2, 1)));
+    drogue_q16 *const v = out->v_px_q16;
+    drogue_ray_sums s;
+    memset(out, 0, sizeof *out);
+    drogue_rays_cast(rays, image, e, reach, 4, EVERY, config->min_inner_contrast, 0);
+    if (!drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(gate_px_q16, DROGUE_Q16(1, 1)),
+                                larger(DROGUE_Q16(3, 2), reach / 16), 1)) {
+        return 0;
+    }
+    out->slopes_q8 = s.slopes_q8;
+    if (magnitude(v[2]) > drogue_q16_add(e->a_px_q16 / 64, DROGUE_Q16(1, 2))) {
+        prefer_size(v, rays, RAYS / 4 / EVERY);
+    }
+    return 8 * s.rays * EVERY >= 7 * RAYS && magnitude(v[2]) <= room &&
+           drogue_square_sum(v[0], v[1]) <= drogue_square_sum(gate_px_q16, 0);
+}
+
+/* Measure about a first place of one of the expected discs. */
+static drogue_status measure_at(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
+                                const drogue_inner_expected *expected, uint32_t which, const first_place *first,
+                                int32_t least)
+{
+    const drogue_q16 grown = whole(first->v_px_q16[2]);
+    drogue_ellipse at = expected->disc[which];
+    drogue_status status;
+    memset(out, 0, sizeof *out);
+    at.xc_px_q16 = whole(drogue_q16_add(at.xc_px_q16, first->v_px_q16[0]));
+    at.yc_px_q16 = whole(drogue_q16_add(at.yc_px_q16, first->v_px_q16[1]));
+    at.a_px_q16 = drogue_q16_add(at.a_px_q16, grown);
+    at.b_px_q16 = drogue_q16_add(at.b_px_q16, grown);
+    if (at.b_px_q16 < DROGUE_Q16_ONE) {
+        return DROGUE_E_NO_INNER_PART;
+    }
+    status = measure(out, rays, image, &at, least);
+    if (status != DROGUE_OK) {
+        memset(out, 0, sizeof *out);
+        return status;
+    }
+    out->grown_px_q16 = drogue_q16_add(out->grown_px_q16, grown);
+    out->which = which;
+    name_nearer(out, expected);
+    return DROGUE_OK;
+}
+
+/* What its standard deviation says of a disc: 0 where it is not to be believed. */
+static drogue_q16 credit(const drogue_inner_edge *edge, const drogue_inner_expected *expected,
+                         const drogue_ellipse *outline, const drogue_config *config)
+{
+    return drogue_inner_std(edge, &expected->disc[edge->which], outline, config);
+}
+
 drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
                                      const drogue_inner_expected *expected, const drogue_ellipse *outline,
                                      const drogue_config *config)
 {
     const drogue_q16 gate_px_q16 =
         drogue_q16_add(config->inner_gate_px_q16, drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16));
-    drogue_q16 best[3] = {0, 0, 0};
-    int32_t steepest = 0;
+    const int32_t least = config->min_inner_contrast;
+    first_place first[2];
+    drogue_inner_edge other;
+    drogue_status status;
     uint32_t which = 0;
     uint32_t i;
-    drogue_ellipse at;
-    drogue_status status;
-    memset(out, 0, sizeof *out);
+    memset(first, 0, sizeof first);
     for (i = 0; i < expected->count; i++) { /* bound: 2 */
-        const drogue_ellipse *e = &expected->disc[i];
-        const drogue_q16 reach = drogue_q16_add(gate_px_q16, drogue_q16_add(e->a_px_q16 / 16, DROGUE_Q16(2, 1)));
-        drogue_q16 v[3] = {0, 0, 0};
-        drogue_ray_sums s;
-        drogue_rays_cast(rays, image, e, reach, 4, EVERY, config->min_inner_contrast, 0);
-        if (drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(gate_px_q16, DROGUE_Q16(1, 1)),
-                                   larger(DROGUE_Q16(3, 2), reach / 16), 1) &&
-            s.slopes_q8 > steepest) {
-            steepest = s.slopes_q8;
-            if (magnitude(v[2]) > drogue_q16_add(e->a_px_q16 / 64, DROGUE_Q16(1, 2))) {
-                prefer_size(v, rays, RAYS / 4 / EVERY);
-            }
-            memcpy(best, v, sizeof best);
-            which = i;
-            if (8 * s.rays * EVERY >= 7 * RAYS && drogue_square_sum(v[0], v[1]) <= drogue_square_sum(gate_px_q16, 0)) {
-                break; /* seen in its place: the other pose's need not be sought */
-            }
+        const int seen = look_about(&first[i], rays, image, &expected->disc[i], gate_px_q16, config);
+        which = first[i].slopes_q8 > first[which].slopes_q8 ? i : which;
+        if (seen && which == i) {
+            break; /* the other pose's need not be sought */
         }
     }
-    if (steepest == 0) {
+    memset(out, 0, sizeof *out);
+    if (first[which].slopes_q8 == 0) {
         return DROGUE_E_NO_INNER_PART;
     }
-    best[0] = whole(drogue_q16_add(expected->disc[which].xc_px_q16, best[0]));
-    best[1] = whole(drogue_q16_add(expected->disc[which].yc_px_q16, best[1]));
-    best[2] = whole(best[2]);
-    at = expected->disc[which];
-    at.xc_px_q16 = best[0];
-    at.yc_px_q16 = best[1];
-    at.a_px_q16 = drogue_q16_add(at.a_px_q16, best[2]);
-    at.b_px_q16 = drogue_q16_add(at.b_px_q16, best[2]);
-    if (at.b_px_q16 < DROGUE_Q16_ONE) {
-        return DROGUE_E_NO_INNER_PART;
+    status = measure_at(out, rays, image, expected, which, &first[which], least);
+    if (first[1 - which].slopes_q8 > 0 && (status != DROGUE_OK || credit(out, expected, outline, config) == 0) &&
+        measure_at(&other, rays, image, expected, 1 - which, &first[1 - which], least) == DROGUE_OK &&
+        other.grown_px_q16 <= expected->disc[other.which].a_px_q16 / LARGER &&
+        credit(&other, expected, outline, config) > 0) {
+        *out = other; /* what is steeper is another edge of the drogue */
+        status = DROGUE_OK;
     }
-    status = measure(out, rays, image, &at, config->min_inner_contrast);
-    if (status != DROGUE_OK) {
-        memset(out, 0, sizeof *out);
-        return status;
-    }
-    out->grown_px_q16 = drogue_q16_add(out->grown_px_q16, best[2]);
-    out->which = which;
-    name_nearer(out, expected);
-    return DROGUE_OK;
+    return status;
 }

@@ -77,22 +77,23 @@ void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose pose
     }
 }
 
-/* Does the expected disc lie wholly within the outline when its centre is the part's? */
+/* Does the expected disc lie wholly within the outline when its centre is the part's? Their planes are parallel: to the
+ * outline's frame, where that is a circle, the disc is one too. */
 static int within_outline(const drogue_inner_edge *edge, const drogue_ellipse *expected, const drogue_ellipse *outline)
 {
     drogue_ellipse_frame rim;
     int32_t u_q24;
     int32_t v_q24;
     drogue_real room;
-    drogue_real b;
+    drogue_real a;
     int32_t room_q24;
     if (drogue_ellipse_frame_of(&rim, outline) != DROGUE_OK) {
         return 0;
     }
     drogue_ellipse_frame_point(&u_q24, &v_q24, &rim, edge->x_px_q16, edge->y_px_q16);
-    drogue_real_set_q16(&room, drogue_q16_sub(outline->b_px_q16, expected->a_px_q16));
-    drogue_real_set_q16(&b, outline->b_px_q16);
-    drogue_real_quotient(&room, &room, &b);
+    drogue_real_set_q16(&room, drogue_q16_sub(outline->a_px_q16, expected->a_px_q16));
+    drogue_real_set_q16(&a, outline->a_px_q16);
+    drogue_real_quotient(&room, &room, &a);
     room_q24 = drogue_real_to_s32(room, 24);
     return room_q24 > 0 && drogue_square_sum(u_q24, v_q24) <= drogue_square_sum(room_q24, 0);
 }

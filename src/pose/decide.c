@@ -65,14 +65,16 @@ static int same_solution(const drogue_joint *p, const other_solution *q)
 #define OTHER_STEPS 1 /* of the other one, of which only matters how much worse it is and whether it is the same */
 
 /* Solve for outline and inner part from the nearer pose, and far enough from the other one to know how much worse it
- * is; the other way round when it is better. 0 when they contradict each other; 'resolved' tells whether that
- * decides. */
-static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved, const drogue_joint_outline *outline,
-                          const drogue_evidence *seen, const drogue_setup *setup)
+ * is; the other way round when it is better. 'agree' tells whether they do; where not, the covariances are too small by
+ * chi2, and in that measure the other pose is worse. 'resolved' tells whether that decides. 0 when there is nothing to
+ * go by. */
+static int solve_together(drogue_joint *best, uint32_t *index, int *agree, int32_t *resolved,
+                          const drogue_joint_outline *outline, const drogue_evidence *seen, const drogue_setup *setup)
 {
     other_solution other;
     drogue_real limit;
     drogue_status near_status;
+    int alone; /* has the other pose no solution? */
     const drogue_status far_status = drogue_joint_solve(best, &seen->poses[1 - *index], outline, &seen->inner,
                                                         setup->camera, setup->model, OTHER_STEPS);
     put_by(&other, best);
@@ -88,12 +90,16 @@ static int solve_together(drogue_joint *best, uint32_t *index, int32_t *resolved
     } else if (near_status != DROGUE_OK) {
         return 0;
     }
+    drogue_real_set_q16(&limit, setup->config->max_chi2_q16);
+    *agree = drogue_real_order(&best->chi2, &limit) <= 0;
     drogue_real_difference(&other.chi2, &other.chi2, &best->chi2);
     drogue_real_set_q16(&limit, setup->config->min_chi2_gap_q16);
-    *resolved = far_status != DROGUE_OK || near_status != DROGUE_OK || same_solution(best, &other) ||
-                drogue_real_order(&other.chi2, &limit) >= 0;
-    drogue_real_set_q16(&limit, setup->config->max_chi2_q16);
-    return drogue_real_order(&best->chi2, &limit) <= 0;
+    if (!*agree) {
+        drogue_real_product(&limit, &limit, &best->chi2);
+    }
+    alone = far_status != DROGUE_OK || near_status != DROGUE_OK;
+    *resolved = alone ? *agree : same_solution(best, &other) || drogue_real_order(&other.chi2, &limit) >= 0;
+    return *agree || *resolved;
 }
 
 /* Unresolved, the truth is as likely the one pose as the other: half the square of what lies between them. */
@@ -118,8 +124,6 @@ static void add_spread(drogue_joint *joint, const drogue_pose *other)
         }
     }
 }
-
-#define CONTRADICTED_Q16 DROGUE_Q16(1, 64) /* of its size: as if an inner part that contradicts were so far off */
 
 void drogue_doubt_add(drogue_real covariance[DROGUE_DOUBT_PACKED], const drogue_q16 position_m_q16[3],
                       drogue_q16 doubt_q16, drogue_q16 rim_radius_m_q16)
@@ -175,10 +179,11 @@ static void doubt_outline(drogue_joint_outline *outline)
 
 static int has_inner(const drogue_evidence *evidence) { return evidence->inner.std_px_q16 > 0; }
 
+/* Of the distance: an inner part that contradicts the outline counts as if it were so far off its size. */
 static drogue_q16 doubt_of(const drogue_evidence *evidence, int agree)
 {
     const drogue_q16 doubt_q16 = has_inner(evidence) ? evidence->doubt_q16 : 0;
-    return has_inner(evidence) && !agree && doubt_q16 < CONTRADICTED_Q16 ? CONTRADICTED_Q16 : doubt_q16;
+    return has_inner(evidence) && !agree && doubt_q16 < DROGUE_CONTRADICTED_Q16 ? DROGUE_CONTRADICTED_Q16 : doubt_q16;
 }
 
 drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup)
@@ -187,6 +192,7 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
     drogue_joint_outline outline;
     drogue_joint joint;
     uint32_t index = evidence->nearer;
+    int together = 0;
     int agree = 0;
     memset(&joint, 0, sizeof joint);
     out->orientation_resolved = 0;
@@ -196,9 +202,9 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
         return DROGUE_E_DOMAIN;
     }
     if (has_inner(evidence)) {
-        agree = solve_together(&joint, &index, &out->orientation_resolved, &outline, evidence, setup);
+        together = solve_together(&joint, &index, &agree, &out->orientation_resolved, &outline, evidence, setup);
     }
-    if (!agree) {
+    if (!together) {
         out->orientation_resolved = 0;
         index = evidence->nearer;
         if (setup->model->inner_radius_m_q16 > 0 && !has_inner(evidence)) {
@@ -210,7 +216,7 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
         }
     }
     if (has_inner(evidence)) {
-        if (!agree) {
+        if (!together) {
             drogue_real_set_q16(&joint.chi2, setup->config->max_chi2_q16);
         }
         widen(&joint);

@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include "drogue/decide.h"
+
 /* What a search must show to be sure: where the model knows no inner part cover of the outline and reliability; else an
  * inner part that is dark, sharp and near to its size, and cover. One that decides the orientation and has its size
  * needs less of it, or need not be sharp; nor need one of some pixels within an outline that is whole. */
@@ -44,6 +46,9 @@ static int sizes(int64_t *expected, int64_t *off, const drogue_result *r, const 
     return 1;
 }
 
+/* Does the inner part decide which pose it is, and agree with the outline, in its place and about its size? */
+static int decided(const drogue_result *r) { return r->orientation_resolved && r->doubt_q16 < DROGUE_CONTRADICTED_Q16; }
+
 int drogue_result_sure(const drogue_result *r, const drogue_model *model)
 {
     int64_t expected;
@@ -56,7 +61,7 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
         return 0;
     }
     sharp = r->inner.spread_px_q16 <= MOST_SPREAD_PX;
-    if (r->orientation_resolved && 25 * (off - EXACT_PX) <= expected) {
+    if (decided(r) && 25 * (off - EXACT_PX) <= expected) {
         return r->cover_q16 >= (sharp ? DECIDED_COVER : BLURRED_COVER);
     }
     if (10 * (off - MOST_OFF_PX) > expected) {
@@ -78,13 +83,13 @@ static int32_t worth(const drogue_result *r, const drogue_model *model)
         return 0;
     }
     if (!drogue_result_sure(r, model)) {
-        return 1 + r->cover_q16 + (r->has_inner + r->orientation_resolved) * (DROGUE_Q16_ONE / 4);
+        return 1 + r->cover_q16 + (r->has_inner + decided(r)) * (DROGUE_Q16_ONE / 4);
     }
     if (!sizes(&expected, &off, r, model)) {
         return SURE + r->cover_q16;
     }
     off = drogue_div_round_s64(off * DROGUE_Q16_ONE, expected > 0 ? expected : 1);
-    return (r->orientation_resolved ? 5 * DROGUE_Q16_ONE : 3 * DROGUE_Q16_ONE) + r->cover_q16 -
+    return (decided(r) ? 5 * DROGUE_Q16_ONE : 3 * DROGUE_Q16_ONE) + r->cover_q16 -
            (int32_t)(off < DROGUE_Q16_ONE ? off : DROGUE_Q16_ONE);
 }
 
@@ -97,7 +102,7 @@ static int settles(const drogue_result *r, const drogue_model *model)
         return 0;
     }
     return model->inner_radius_m_q16 == 0 ||
-           (r->orientation_resolved && sizes(&expected, &off, r, model) && 16 * (off - MOST_OFF_PX / 2) <= expected);
+           (decided(r) && sizes(&expected, &off, r, model) && 16 * (off - MOST_OFF_PX / 2) <= expected);
 }
 
 /* What is kept of the best measurement. */

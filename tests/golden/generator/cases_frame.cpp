@@ -278,6 +278,39 @@ void add_regions(Set &set)
     add_frame(set, "inner-behind-camera", Tier::stress, {"behind-camera", "inner-missing"}, f);
 }
 
+/* A scene that varies the drogue itself. */
+Frame varied_frame(const accuracy::Trial &t, const cv::Rect &region)
+{
+    Frame f = photograph(t.scene, region, 0);
+    f.radius = t.model.rim_radius_m_q16 / 65536.0;
+    f.inner_radius = t.model.inner_radius_m_q16 / 65536.0;
+    f.depth = t.model.inner_depth_m_q16 / 65536.0;
+    return f;
+}
+
+/* Which disc it is, and what it decides: a wall's edge is steeper where the other pose expects the disc; the disc of a
+ * drogue that is tilted by 40 degrees lies near its rim; outline and disc contradict each other, and one pose is far
+ * worse than the other. */
+void add_choices(Set &set)
+{
+    using accuracy::Variety;
+    static const struct {
+        const char *name;
+        Variety variety;
+        uint64_t seed;
+        int index;
+    } chosen[] = {{"steeper-wall-0", Variety::far, 1, 10},        {"steeper-wall-1", Variety::far, 21, 22},
+                  {"steeper-wall-2", Variety::noise, 21, 4},      {"steeper-wall-3", Variety::tilted, 1, 23},
+                  {"disc-near-rim-0", Variety::tilted, 1, 21},    {"disc-near-rim-1", Variety::tilted, 11, 14},
+                  {"disc-near-rim-2", Variety::tilted, 11, 12},   {"contradicted-disc-0", Variety::half, 11, 1},
+                  {"contradicted-disc-1", Variety::offset, 1, 6}, {"contradicted-disc-2", Variety::torus, 1, 7},
+                  {"contradicted-disc-3", Variety::torus, 21, 2}};
+    for (const auto &c : chosen) {
+        const accuracy::Trial t = accuracy::varied_trial(c.seed, c.variety, c.index, false);
+        add_frame(set, c.name, Tier::stress, {"twin-pose"}, varied_frame(t, t.region));
+    }
+}
+
 /* What only many pixels together show: a rim hardly brighter than the ground behind it about a dark wall, whose edge is
  * found first; a rim narrower than the motion that blurs it. */
 void add_faint_rims(Set &set)
@@ -294,11 +327,7 @@ void add_faint_rims(Set &set)
             t.scene.camera.k1 = -0.2;
             region = region_of(t.scene);
         }
-        Frame f = photograph(t.scene, region, 0);
-        f.radius = t.model.rim_radius_m_q16 / 65536.0;
-        f.inner_radius = t.model.inner_radius_m_q16 / 65536.0;
-        f.depth = t.model.inner_depth_m_q16 / 65536.0;
-        add_frame(set, "faint-rim-" + std::to_string(k++), Tier::stress, {}, f);
+        add_frame(set, "faint-rim-" + std::to_string(k++), Tier::stress, {}, varied_frame(t, region));
     }
     /* a drogue as faint, whose inner disc is larger than the model's: nothing is beyond its rim */
     accuracy::Scene larger = scene_at(69, 0.3, 0.2, 10, 8, -6);
@@ -452,6 +481,7 @@ void add_frame(Set &set, const std::string &scenes_folder)
     add_disturbed_scenes(set);
     add_regions(set);
     add_conditions(set);
+    add_choices(set);
     add_faint_rims(set);
     add_drawings(set);
 }

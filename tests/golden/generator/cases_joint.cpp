@@ -341,6 +341,14 @@ void add_decide(Set &set)
         e.nearer = 1;
         add_evidence(set, name + "-twin", Tier::stress, {"twin-pose"}, j, e);
     }
+    for (const int tilt :
+         {1, 2, 3, 5}) { /* and the poses lie so near each other that this decides nothing, then does */
+        place(j, 0.9, -0.7, 8, tilt, -0.8 * tilt);
+        e = Evidence();
+        e.off_px = 4;
+        add_evidence(set, "inner-off-4-tilt-" + std::to_string(tilt), Tier::stress, {"twin-pose", "near-circle"}, j, e);
+    }
+    place(j, 0.9, -0.7, 8, 14, -11);
     e = Evidence();
     e.off_px = 4;
     e.max_chi2 = 10000;

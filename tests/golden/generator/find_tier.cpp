@@ -170,7 +170,8 @@ namespace {
 class Weighed {
 public:
     Weighed(const mirror::Result &r, const reference::Model &m)
-        : ok_(r.status == DROGUE_OK), has_inner_(r.has_inner), cover_(r.outline.cover), resolved_(r.resolved), model_(m)
+        : ok_(r.status == DROGUE_OK), has_inner_(r.has_inner), cover_(r.outline.cover),
+          resolved_(r.resolved && r.doubt < 1 / 64.0L), model_(m)
     {
         const Real z = r.pose.position[2], end = z + m.inner_depth;
         reliable_ = ok_ && r.outline.quality.reliability >= 0.9L;

@@ -310,41 +310,45 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     return out;
 }
 
-} // namespace
-
-Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected, const drogue_ellipse &outline,
-                const drogue_config &config, const drogue_inner_edge *library)
+reference::Ellipse real_of(const drogue_ellipse &e)
 {
-    const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * real(outline.a_px_q16);
-    const int least = config.min_inner_contrast;
-    Offset first = {0, 0, 0};
-    Place place = {0, {0, 0, 0}};
-    Real steepest = 0;
-    for (uint32_t i = 0; i < expected.count; i++) {
-        const Real reach = gate + real(expected.disc[i].a_px_q16) / 16 + 2;
-        const Rays rays = cast(view, expected.disc[i], reference::q16(reach), 2, least);
-        Offset v = {0, 0, 0};
-        Sums s;
-        if (settle(s, v, rays, gate + 1, std::max<Real>(1.5, reach / 16), true) && s.slopes > steepest) {
-            steepest = s.slopes;
-            if (std::fabs(v[2]) > real(expected.disc[i].a_px_q16) / 64 + 0.5L) {
-                prefer_size(v, rays, DROGUE_RAYS / 8);
-            }
-            first = v;
-            place.which = static_cast<int>(i);
-            if (16 * s.rays >= 7 * DROGUE_RAYS && std::hypot(v[0], v[1]) <= gate) {
-                break;
-            }
-        }
+    return {real(e.xc_px_q16), real(e.yc_px_q16), real(e.a_px_q16), real(e.b_px_q16), real(e.angle_rad_q16), true};
+}
+
+/* A first place of one of the expected discs, not rounded yet, and how steep the edges are that say so; 0: none. */
+struct First {
+    Offset v = {0, 0, 0};
+    Real slopes = 0;
+};
+
+/* Look for a disc about where it is expected. 1 when it is seen in its place, of its size. */
+bool look_about(First &out, const drogue_image &view, const drogue_ellipse &e, Real gate, const drogue_config &config)
+{
+    const Real reach = gate + real(e.a_px_q16) / 16 + 2;
+    const Rays rays = cast(view, e, reference::q16(reach), 2, config.min_inner_contrast);
+    Sums s;
+    if (!settle(s, out.v, rays, gate + 1, std::max<Real>(1.5, reach / 16), true)) {
+        return false;
     }
-    if (steepest == 0) {
-        return {};
+    out.slopes = s.slopes;
+    if (std::fabs(out.v[2]) > real(e.a_px_q16) / 64 + 0.5L) {
+        prefer_size(out.v, rays, DROGUE_RAYS / 8);
     }
-    const drogue_ellipse &e = expected.disc[place.which];
+    return 16 * s.rays >= 7 * DROGUE_RAYS && std::fabs(out.v[2]) <= room_of(real_of(e), config) &&
+           std::hypot(out.v[0], out.v[1]) <= gate;
+}
+
+/* Measure about a first place; near the middle between two in which rays read the image, that of the library's disc is
+ * taken. */
+Disc measure_at(const drogue_image &view, const drogue_inner_expected &expected, int which, const Offset &first,
+                int least, const drogue_inner_edge *library)
+{
+    const drogue_ellipse &e = expected.disc[which];
     const Real exact[3] = {256 * (real(e.xc_px_q16) + first[0]), 256 * (real(e.yc_px_q16) + first[1]), 256 * first[2]};
+    Place place = {which, {0, 0, 0}};
     Disc best;
     Real nearest = -1;
-    for (int way = 0; way < 8; way++) { /* near the middle between two places, that of the library's disc is taken */
+    for (int way = 0; way < 8; way++) {
         bool open = true;
         for (size_t k = 0; k < 3; k++) {
             const Real up = std::floor(exact[k] + 0.5L), other = up + (exact[k] < up ? -1 : 1);
@@ -365,6 +369,54 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
         }
     }
     return best;
+}
+
+} // namespace
+
+Real room_of(const reference::Ellipse &expected, const drogue_config &config)
+{
+    return real(config.inner_size_px_q16) + real(config.inner_size_q16) * expected.a;
+}
+
+bool in_its_place(const Disc &d, const reference::Ellipse &expected, const reference::Ellipse &rim,
+                  const drogue_config &config)
+{
+    const Real c = std::cos(rim.angle), s = std::sin(rim.angle), dx = d.x - rim.xc, dy = d.y - rim.yc;
+    const Real u = (dx * c + dy * s) / rim.a, v = (dy * c - dx * s) / rim.b, room = 1 - expected.a / rim.a;
+    const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * rim.a;
+    return d.found && d.contrast >= config.min_inner_contrast &&
+           static_cast<Real>(d.rays) >= real(config.min_inner_cover_q16) * DROGUE_RAYS &&
+           d.rms <= real(config.inner_rms_px_q16) && d.grown >= -room_of(expected, config) &&
+           std::hypot(d.x - expected.xc, d.y - expected.yc) <= gate && room > 0 && std::hypot(u, v) <= room;
+}
+
+Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected, const drogue_ellipse &outline,
+                const drogue_config &config, const drogue_inner_edge *library)
+{
+    const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * real(outline.a_px_q16);
+    const int least = config.min_inner_contrast;
+    const reference::Ellipse rim = real_of(outline);
+    const auto holds = [&](const Disc &d) { return in_its_place(d, real_of(expected.disc[d.which]), rim, config); };
+    std::array<First, 2> first;
+    size_t which = 0;
+    for (size_t i = 0; i < expected.count; i++) {
+        const bool seen = look_about(first[i], view, expected.disc[i], gate, config);
+        which = first[i].slopes > first[which].slopes ? i : which;
+        if (seen && which == i) {
+            break;
+        }
+    }
+    if (first[which].slopes == 0) {
+        return {};
+    }
+    const Disc steeper = measure_at(view, expected, static_cast<int>(which), first[which].v, least, library);
+    if (first[1 - which].slopes > 0 && !holds(steeper)) {
+        const Disc other = measure_at(view, expected, static_cast<int>(1 - which), first[1 - which].v, least, library);
+        if (holds(other) && other.grown <= real(expected.disc[other.which].a_px_q16) / 64) {
+            return other;
+        }
+    }
+    return steeper;
 }
 
 } // namespace mirror

@@ -26,4 +26,11 @@ struct Disc {
 Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected, const drogue_ellipse &outline,
                 const drogue_config &config, const drogue_inner_edge *library);
 
+/* By how much a disc may be larger or smaller than expected. */
+Real room_of(const reference::Ellipse &expected, const drogue_config &config);
+
+/* Is a disc seen by enough rays, of about the expected size or larger, near the expected place, and not cut by the rim? */
+bool in_its_place(const Disc &d, const reference::Ellipse &expected, const reference::Ellipse &rim,
+                  const drogue_config &config);
+
 } // namespace mirror

@@ -191,26 +191,6 @@ void find_inner(Result &out, Ellipse &expected, const Frame &f, const std::array
     }
 }
 
-Real room_of(const Ellipse &expected, const drogue_config &config)
-{
-    return real(config.inner_size_px_q16) + real(config.inner_size_q16) * expected.a;
-}
-
-/* Of about the expected size or larger, near the expected place, not cut by the rim, and seen by enough rays? */
-bool trust(const Result &out, const Ellipse &expected, const drogue_config &config)
-{
-    const Ellipse &rim = out.outline.ellipse;
-    const Real c = std::cos(rim.angle), s = std::sin(rim.angle), dx = out.part.x - rim.xc, dy = out.part.y - rim.yc;
-    const Real u = (dx * c + dy * s) / rim.a, v = (dy * c - dx * s) / rim.b, room = 1 - expected.a / rim.b;
-    const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * rim.a;
-    const Real size = room_of(expected, config);
-    return out.part.contrast >= config.min_inner_contrast && out.area >= config.min_inner_area_px &&
-           static_cast<Real>(out.part.rays) >= real(config.min_inner_cover_q16) * DROGUE_RAYS &&
-           out.part.rms <= real(config.inner_rms_px_q16) && out.part.grown >= -size &&
-           std::hypot(out.part.x - expected.xc, out.part.y - expected.yc) <= gate && room > 0 &&
-           std::hypot(u, v) <= room;
-}
-
 /* What a disc's size puts in doubt: its share where it is too large by 1/32 and more, half of it where it is too small by more
  * than half a pixel. */
 Real size_doubt(Real grown, Real a)
@@ -241,7 +221,8 @@ Real apart(const Pose &p, const drogue_pose &q)
     return sum;
 }
 
-/* The pose that outline and inner part agree with best. */
+/* The pose that outline and inner part agree with best; where they do not, it is worth something when the other one is
+ * worse by so much more. */
 struct Together {
     reference::Joint joint;
     size_t index;
@@ -270,9 +251,9 @@ Together solve_together(const std::array<Pose, 2> &poses, size_t nearer, const F
     if (t.joint.solved != reference::Solved::ok) {
         return t;
     }
-    t.resolved = !far_ok || !near_ok || same_solution(t.joint, other) ||
-                 other.chi2 - t.joint.chi2 >= static_cast<double>(real(task.config.min_chi2_gap_q16));
     t.agree = t.joint.chi2 <= static_cast<double>(real(task.config.max_chi2_q16));
+    const double gap = static_cast<double>(real(task.config.min_chi2_gap_q16)) * (t.agree ? 1 : t.joint.chi2);
+    t.resolved = !far_ok || !near_ok ? t.agree : same_solution(t.joint, other) || other.chi2 - t.joint.chi2 >= gap;
     return t;
 }
 
@@ -318,7 +299,8 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
     if (out.has_inner) {
         t = solve_together(pair, nearer, f, outline, task, library);
     }
-    if (!t.agree) {
+    const bool agree = t.agree, together = agree || t.resolved;
+    if (!together) {
         if (task.model.inner_radius > 0 && !out.has_inner) { /* it may be another edge than the rim, or partly */
             outline += 0x1p-13 * reference::Covariance::eye();
         }
@@ -334,9 +316,9 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
     out.alternative = pair[1 - t.index];
     out.covariance = t.joint.covariance;
     if (out.has_inner) {
-        out.covariance *= std::max(1.0, t.agree ? t.joint.chi2 : static_cast<double>(real(config.max_chi2_q16)));
+        out.covariance *= std::max(1.0, together ? t.joint.chi2 : static_cast<double>(real(config.max_chi2_q16)));
     }
-    out.doubt = !out.has_inner ? 0 : t.agree ? f.doubt : std::max<Real>(f.doubt, 1 / 64.0L);
+    out.doubt = !out.has_inner ? 0 : agree ? f.doubt : std::max<Real>(f.doubt, 1 / 64.0L);
     const auto doubted = doubt_covariance(out.pose.position, out.doubt, task.model.rim_radius);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -423,7 +405,8 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
         Ellipse expected = {0, 0, 0, 0, 0, false};
         find_inner(out, expected, f, pair, task);
         if (out.has_inner) {
-            from.trusted = trust(out, expected, task.config);
+            from.trusted = out.area >= task.config.min_inner_area_px &&
+                           in_its_place(out.part, expected, out.outline.ellipse, task.config);
             out.inner = {out.part.x + out.region.x, out.part.y + out.region.y};
             from.inner = {out.inner, inner_std(out, expected, task.config)};
             from.placed = reference::undistort(camera, from.inner.at);

@@ -216,6 +216,40 @@ START_TEST(one_edge_of_another_size_stays)
 }
 END_TEST
 
+/* Where one pose expects the disc there is a steeper edge, a part of a wall's or all of a disc of another size: the other
+ * pose's disc is measured, too, and stands if it is whole. */
+START_TEST(what_is_steeper_may_be_another_edge)
+{
+    const drogue_ellipse discs[2] = {circle(55, 100, 12), circle(130, 100, 12)};
+    int k;
+    for (k = 0; k < 4; k++) {
+        const drogue_ellipse swapped[2] = {discs[1], discs[0]};
+        const int faint = k != 3; /* in the last there is a wall alone */
+        drogue_inner_edge e;
+        int x, y;
+        memset(pixels, 90, sizeof pixels);
+        for (y = 0; y < SIDE; y++) {
+            for (x = 0; x < SIDE; x++) {
+                const double wall = hypot(x - 70, y - 100), disc = hypot(x - 130.5, y - 99.5);
+                if (k == 1 ? hypot(x - 55, y - 100) < 9 : wall > 27 && x < 70) {
+                    pixels[y * SIDE + x] = k == 1 ? 0 : 250;
+                } else if (disc < 12 && faint) {
+                    pixels[y * SIDE + x] = 60;
+                }
+            }
+        }
+        ck_assert_int_eq(find(&e, k == 2 ? swapped : discs, 2), DROGUE_OK);
+        if (!faint) {
+            ck_assert_uint_lt(e.rays, 40);
+            continue;
+        }
+        MUST(e.which == (k != 2), "case %d: the other one", k);
+        MUST(e.rays > 60, "case %d: %u rays", k, e.rays);
+        MUST(hypot(real_of_q16(e.x_px_q16) - 130.5, real_of_q16(e.y_px_q16) - 99.5) < 0.1, "case %d: off", k);
+    }
+}
+END_TEST
+
 START_TEST(nothing_there)
 {
     const drogue_ellipse disc = circle(100, 100, 24);
@@ -258,4 +292,4 @@ END_TEST
 
 SUITE_MAIN("edge", place_and_size, noise_shows_in_the_standard_deviation, what_touches_it_costs_rays_alone,
            neither_light_nor_a_ring_moves_it, the_size_decides_between_two_edges, one_edge_of_another_size_stays,
-           nothing_there, rays_meet_the_edge)
+           what_is_steeper_may_be_another_edge, nothing_there, rays_meet_the_edge)

@@ -209,20 +209,44 @@ START_TEST(reasons_not_to_believe)
         f.edge.y_px_q16 += k == 2 ? q16_of(0.2) : k == 3 ? -q16_of(0.2) : 0;
         ck_assert(std_of(&f) == 0);
     }
-    f = usual_finding(); /* the rim would cut it: (80 - 30) / 80 of the semi-axes is the room there is */
+    f = usual_finding(); /* the rim would cut it: (100 - 30) / 100 of the semi-axes is the room there is */
     f.config.inner_gate_q16 = INT32_MAX;
-    f.edge.x_px_q16 = q16_of(200 + 62.4);
+    f.edge.x_px_q16 = q16_of(200 + 69.9);
     ck_assert(std_of(&f) > 0);
-    f.edge.x_px_q16 = q16_of(200 + 62.6);
+    f.edge.x_px_q16 = q16_of(200 + 70.1);
     ck_assert(std_of(&f) == 0);
     f.edge.x_px_q16 = q16_of(200);
-    f.edge.y_px_q16 = q16_of(150 + 49.9);
+    f.edge.y_px_q16 = q16_of(150 + 55.9);
     ck_assert(std_of(&f) > 0);
-    f.edge.y_px_q16 = q16_of(150 + 50.1);
+    f.edge.y_px_q16 = q16_of(150 + 56.1);
     ck_assert(std_of(&f) == 0);
     f = usual_finding(); /* as large as the outline */
-    f.expected.a_px_q16 = f.expected.b_px_q16 = q16_of(81);
+    f.expected.a_px_q16 = f.expected.b_px_q16 = q16_of(101);
     ck_assert(std_of(&f) == 0);
+}
+END_TEST
+
+/* The farther a drogue is tilted, the nearer to the rim its disc lies: 0.25 sin t from the middle of 0.35 cos t, with 0.12
+ * cos t to either side, it touches the rim at a tilt of 42.6 degrees. */
+START_TEST(within_the_rim_however_tilted)
+{
+    const field usual = usual_field();
+    int tilt, turn;
+    for (tilt = 20; tilt <= 46; tilt += 2) {
+        for (turn = 0; turn < 12; turn++) {
+            const double sine = sin(tilt * TEST_PI / 180), around = turn * TEST_PI / 6;
+            const pose_real p = {
+                {0, 0, 20, atan2(sine * cos(around), cos(tilt * TEST_PI / 180)), asin(sine * sin(around))}};
+            finding g = usual_finding();
+            ellipse_real outline, disc;
+            MUST(field_outline(&outline, &usual, &p) && field_inner(&disc, &usual, &p), "tilt %d", tilt);
+            g.outline = ellipse_to_q16(&outline);
+            g.expected = ellipse_to_q16(&disc);
+            g.edge.x_px_q16 = g.expected.xc_px_q16;
+            g.edge.y_px_q16 = g.expected.yc_px_q16;
+            MUST((std_of(&g) > 0) == (tilt <= 42), "tilt %d, turned %d: %g", tilt, turn, std_of(&g));
+        }
+    }
 }
 END_TEST
 
@@ -354,4 +378,4 @@ START_TEST(doubt_by_size)
 END_TEST
 
 SUITE_MAIN("inner", expected_where_the_poses_show_it, poses_that_show_none, standard_deviation, reasons_not_to_believe,
-           no_evidence, doubt_by_size, flat_where_the_lens_folds, any_bits)
+           within_the_rim_however_tilted, no_evidence, doubt_by_size, flat_where_the_lens_folds, any_bits)

@@ -147,6 +147,42 @@ START_TEST(contradiction)
 }
 END_TEST
 
+/* An inner part farther off than it can be by what is known, where the other pose would have it many times farther off:
+ * outline and inner part are both wrong by more than they say, which the covariance takes on, and which pose it is stays
+ * clear. */
+START_TEST(a_clear_choice_for_all_disagreement)
+{
+    const field f = usual_field();
+    seen s;
+    drogue_joint_inner moved;
+    double agreed;
+    uint32_t near, nearer;
+    int i;
+    look_ahead(&s, &f, 0.4, -0.3);
+    ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
+    agreed = (double)s.result.covariance_q48[2][2];
+    near = apart(s.result.pose.axis_q16, s.evidence.poses[0].axis_q16) <
+                   apart(s.result.pose.axis_q16, s.evidence.poses[1].axis_q16)
+               ? 0
+               : 1;
+    moved = s.evidence.inner;
+    for (i = 1; i <= 4; i++) { /* across the line on which both poses have it: chi2 from about 60 to 1000 */
+        moved.x_px_q16 += q16_of(0.0025 * s.outline_px);
+        moved.y_px_q16 += q16_of(0.0033 * s.outline_px);
+        for (nearer = 0; nearer < 2; nearer++) {
+            double wider;
+            ck_assert_int_eq(decide(&s, &f, nearer, &moved), DROGUE_OK);
+            wider = (double)s.result.covariance_q48[2][2] / agreed;
+            MUST(s.result.orientation_resolved, "%d from %u", i, (unsigned)nearer);
+            MUST(apart(s.result.pose.axis_q16, s.evidence.poses[near].axis_q16) < 0.05, "%d from %u: %g off", i,
+                 (unsigned)nearer, apart(s.result.pose.axis_q16, s.evidence.poses[near].axis_q16));
+            MUST(wider > 16, "%d: %g", i, wider);
+            ck_assert_int_eq(s.result.doubt_q16, DROGUE_Q16(1, 64));
+        }
+    }
+}
+END_TEST
+
 /* An inner part off by more than it should be makes all variances chi2 times as large, one that contradicts the outline the
  * outline's max_chi2 times, and the distance 1.1 %; without one the outline's size and shape are known to 1.1 %. */
 START_TEST(disagreement_widens)
@@ -263,5 +299,5 @@ START_TEST(solutions_that_leave_the_numbers)
 }
 END_TEST
 
-SUITE_MAIN("decide", the_right_pose_from_both_sides, outline_alone, contradiction, disagreement_widens, size_in_doubt,
-           head_on, no_covariance, solutions_that_leave_the_numbers)
+SUITE_MAIN("decide", the_right_pose_from_both_sides, outline_alone, contradiction, a_clear_choice_for_all_disagreement,
+           disagreement_widens, size_in_doubt, head_on, no_covariance, solutions_that_leave_the_numbers)

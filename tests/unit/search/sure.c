@@ -44,6 +44,15 @@ START_TEST(limits_of_sure)
     ck_assert(!drogue_result_sure(&r, &model));
     r.cover_q16 = DROGUE_Q16(76, 100);
     ck_assert(drogue_result_sure(&r, &model));
+    r.orientation_resolved = 1; /* though the outline contradicts it: that does not count */
+    r.doubt_q16 = DROGUE_Q16(1, 64);
+    r.cover_q16 = DROGUE_Q16(74, 100);
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.doubt_q16--;
+    ck_assert(drogue_result_sure(&r, &model));
+    r.doubt_q16 = 0;
+    r.orientation_resolved = 0;
+    r.cover_q16 = DROGUE_Q16(76, 100);
     r.inner.area_px = 4100; /* 36.1 px: off by 3.9, a tenth and 0.6 are 3.8 */
     ck_assert(!drogue_result_sure(&r, &model));
     r.inner.area_px = 2600; /* 28.8 px: off by 3.5 */
