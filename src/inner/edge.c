@@ -12,27 +12,6 @@
 #define INWARD DROGUE_Q16(45, 100) /* px: a quarter of a blurred step is this far within its middle */
 #define LARGER 64 /* so many-th part of its size: a disc that is larger by more may be something else */
 
-/* Squared residuals of the bins over their weights; the number of bins that hold rays. */
-static int32_t scatter_of(drogue_real *scatter, const drogue_ray_bins *b)
-{
-    int32_t bins = 0;
-    int32_t k;
-    drogue_real_set(scatter, 0, 0);
-    for (k = 0; k < BINS; k++) {
-        if (b->weight[k] > 0) {
-            drogue_real square;
-            drogue_real weight;
-            drogue_real_set(&square, b->off_q16[k], -16);
-            drogue_real_product(&square, &square, &square);
-            drogue_real_set(&weight, b->weight[k], 0);
-            drogue_real_quotient(&square, &square, &weight);
-            drogue_real_sum(scatter, scatter, &square);
-            bins++;
-        }
-    }
-    return bins;
-}
-
 /* The band narrows to what agrees. */
 static int narrow(drogue_ray_sums *s, drogue_q16 v_px_q16[3], drogue_q16 *within_px_q16, const drogue_ray rays[RAYS])
 {
@@ -93,10 +72,6 @@ static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], uint32_t 
 static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
                              const drogue_ellipse *e, int32_t least)
 {
-    drogue_real normal[6];
-    drogue_real inverse[6];
-    drogue_real scatter;
-    drogue_real t;
     drogue_q16 within = DROGUE_Q16(3, 2);
     drogue_q16 v[3] = {0, 0, 0};
     drogue_q16 size;
@@ -105,7 +80,6 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     drogue_ray_bins bins;
     int32_t phases = e->a_px_q16 / DROGUE_Q16(20, 1); /* pi a over 64 */
     const int32_t every = e->a_px_q16 < SMALL ? EVERY : 1;
-    int32_t filled;
     int32_t k;
     phases = drogue_clamp_s32(phases, 1, 8);
     drogue_rays_cast(rays, image, e, 0, 4, every, least, 0);
@@ -131,17 +105,9 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
         }
         drogue_ray_sums_add_edges(&s, &bins, rays, v, within);
     }
-    filled = scatter_of(&scatter, &bins);
-    if (!drogue_ray_sums_solve(v, normal, &s, 1) || filled < 5) {
+    if (!drogue_ray_sums_place(v, &out->std_px_q16, &s, &bins)) {
         return DROGUE_E_NO_INNER_PART;
     }
-    drogue_cholesky_invert(inverse, normal, 3);
-    k = drogue_real_order(&inverse[DROGUE_PACKED(0, 0)], &inverse[DROGUE_PACKED(1, 1)]) > 0 ? 0 : 1;
-    drogue_real_product(&scatter, &scatter, &inverse[DROGUE_PACKED(k, k)]);
-    drogue_real_set(&t, filled - 3, 0);
-    drogue_real_quotient(&t, &scatter, &t);
-    drogue_real_root(&t, &t);
-    out->std_px_q16 = drogue_real_to_q16(t);
     out->rms_px_q16 = drogue_ray_sums_rms(&s);
     out->rays = ((uint32_t)every * s.rays + (uint32_t)phases / 2) / (uint32_t)phases;
     out->grown_px_q16 = drogue_q16_add(v[2], INWARD);
@@ -241,17 +207,16 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
     first_place first[2];
     drogue_inner_edge other;
     drogue_status status;
-    uint32_t which = 0;
-    uint32_t i;
-    memset(first, 0, sizeof first);
-    for (i = 0; i < expected->count; i++) { /* bound: 2 */
-        const int seen = look_about(&first[i], rays, image, &expected->disc[i], gate_px_q16, config);
-        which = first[i].slopes_q8 > first[which].slopes_q8 ? i : which;
-        if (seen && which == i) {
-            break; /* the other pose's need not be sought */
-        }
-    }
+    uint32_t which;
     memset(out, 0, sizeof *out);
+    memset(first, 0, sizeof first);
+    if (expected->count == 0) {
+        return DROGUE_E_NO_INNER_PART;
+    }
+    if (!look_about(&first[0], rays, image, &expected->disc[0], gate_px_q16, config) && expected->count > 1) {
+        (void)look_about(&first[1], rays, image, &expected->disc[1], gate_px_q16, config);
+    } /* or it is seen, and the other pose's need not be sought */
+    which = first[1].slopes_q8 > first[0].slopes_q8;
     if (first[which].slopes_q8 == 0) {
         return DROGUE_E_NO_INNER_PART;
     }

@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#define LEAST_BINS 5 /* that determine place and size, and show how they scatter */
+
 drogue_q16 drogue_ray_along(const drogue_ray *r, const drogue_q16 v_px_q16[3])
 {
     const int64_t shift = drogue_product(r->nx_q14, v_px_q16[0]) + drogue_product(r->ny_q14, v_px_q16[1]);
@@ -102,6 +104,49 @@ int drogue_ray_sums_solve(drogue_q16 v_px_q16[3], drogue_real normal[6], const d
     for (i = 0; i < (size ? 3 : 2); i++) {
         v_px_q16[i] = drogue_q16_add(v_px_q16[i], drogue_real_to_q16(down[i]));
     }
+    return 1;
+}
+
+/* Squared residuals of the bins over their weights; the number of bins that hold rays. */
+static int32_t scatter_of(drogue_real *scatter, const drogue_ray_bins *b)
+{
+    int32_t bins = 0;
+    int32_t k;
+    drogue_real_set(scatter, 0, 0);
+    for (k = 0; k < BINS; k++) {
+        if (b->weight[k] > 0) {
+            drogue_real square;
+            drogue_real weight;
+            drogue_real_set(&square, b->off_q16[k], -16);
+            drogue_real_product(&square, &square, &square);
+            drogue_real_set(&weight, b->weight[k], 0);
+            drogue_real_quotient(&square, &square, &weight);
+            drogue_real_sum(scatter, scatter, &square);
+            bins++;
+        }
+    }
+    return bins;
+}
+
+int drogue_ray_sums_place(drogue_q16 v_px_q16[3], drogue_q16 *std_px_q16, const drogue_ray_sums *s,
+                          const drogue_ray_bins *bins)
+{
+    drogue_real normal[6];
+    drogue_real inverse[6];
+    drogue_real scatter;
+    drogue_real t;
+    const int32_t filled = scatter_of(&scatter, bins);
+    int k;
+    if (!drogue_ray_sums_solve(v_px_q16, normal, s, 1) || filled < LEAST_BINS) {
+        return 0;
+    }
+    drogue_cholesky_invert(inverse, normal, 3);
+    k = drogue_real_order(&inverse[DROGUE_PACKED(0, 0)], &inverse[DROGUE_PACKED(1, 1)]) > 0 ? 0 : 1;
+    drogue_real_product(&scatter, &scatter, &inverse[DROGUE_PACKED(k, k)]);
+    drogue_real_set(&t, filled - 3, 0);
+    drogue_real_quotient(&t, &scatter, &t);
+    drogue_real_root(&t, &t);
+    *std_px_q16 = drogue_real_to_q16(t);
     return 1;
 }
 

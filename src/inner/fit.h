@@ -23,7 +23,7 @@ typedef struct drogue_ray_sums {
 /* Residuals of four neighbours, of all phases together: they see one edge. */
 typedef struct drogue_ray_bins {
     int64_t off_q16[BINS]; /* weighted */
-    int64_t weight[BINS];
+    int32_t weight[BINS];  /* at most 2^16 of 4 rays in 8 phases */
 } drogue_ray_bins;
 
 /* Where an offset puts the edge on a ray, within 2^14 px. */
@@ -45,6 +45,11 @@ void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const 
 /* Solve for the offset: 'size' 0 leaves the size as it is. 'normal' becomes the root of the normal equations. 0 when
  * there are too few rays. */
 int drogue_ray_sums_solve(drogue_q16 v_px_q16[3], drogue_real normal[6], const drogue_ray_sums *s, int size);
+
+/* Solve for place and size, and say how far off the place may be, by the residuals of the bins. 0 when there are too few
+ * rays or bins. */
+int drogue_ray_sums_place(drogue_q16 v_px_q16[3], drogue_q16 *std_px_q16, const drogue_ray_sums *s,
+                          const drogue_ray_bins *bins);
 
 /* From all edges within the gate to those about one place: place alone, then, where 'size' says so, with its size. 0
  * where too few are left. */
