@@ -97,5 +97,9 @@ drogue_status drogue_frame_judge(drogue_frame *f)
     if (f->setup->model->inner_radius_m_q16 > 0) {
         find_inner(&evidence, f);
     }
-    return decide(out, &evidence, f->setup);
+    status = decide(out, &evidence, f->setup);
+    if (status == DROGUE_OK && out->has_inner && out->doubt_q16 > f->doubt_q16) {
+        f->doubt_q16 = out->doubt_q16; /* where they contradict each other, too, another outline may be right */
+    }
+    return status;
 }

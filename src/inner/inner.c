@@ -115,11 +115,23 @@ static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *
     return beyond > LARGER_Q16 ? drogue_clamp_s32(share, 0, DROGUE_Q16_ONE - 1) : beyond > 0 ? 2 * beyond : 0;
 }
 
+#define EVIDENT_PX_Q16 DROGUE_Q16(3, 10) /* and a 64th: of its size */
+
+/* Sharp, of its size and seen nearly all about: then it is the disc, and what puts it elsewhere than expected is that
+ * an outline seen nearly head-on, or one that is the wall's on one side, says little of its own tilt. */
+static int evident(const drogue_inner_edge *edge, const drogue_ellipse *expected, const drogue_config *config)
+{
+    const drogue_q16 off = edge->grown_px_q16 < 0 ? drogue_q16_sub(0, edge->grown_px_q16) : edge->grown_px_q16;
+    return 8 * edge->rays >= 7 * DROGUE_RAYS && 2 * (int64_t)edge->rms_px_q16 <= config->inner_rms_px_q16 &&
+           off <= drogue_q16_add(EVIDENT_PX_Q16, drogue_q16_mul(LARGER_Q16, expected->a_px_q16));
+}
+
 drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse *expected,
                             const drogue_ellipse *outline, const drogue_config *config)
 {
-    const drogue_q16 gate =
+    const drogue_q16 near_px_q16 =
         drogue_q16_add(config->inner_gate_px_q16, drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16));
+    const drogue_q16 gate = evident(edge, expected, config) ? drogue_q16_add(near_px_q16, near_px_q16) : near_px_q16;
     const drogue_q16 room =
         drogue_q16_add(config->inner_size_px_q16, drogue_q16_mul(config->inner_size_q16, expected->a_px_q16));
     const drogue_q16 share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);

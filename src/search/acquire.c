@@ -8,7 +8,8 @@
 
 /* What a search must show to be sure: where the model knows no inner part cover of the outline and reliability; else an
  * inner part that is dark, sharp and near to its size, and cover. One that decides the orientation and has its size
- * needs less of it, or need not be sharp; nor need one of some pixels within an outline that is whole. */
+ * needs less of it, none where it is so sharp and so exactly of its size as nothing else is, or need not be sharp; nor
+ * need one of some pixels within an outline that is whole. */
 #define SURE_COVER DROGUE_Q16(3, 4)
 #define SURE_RELIABILITY DROGUE_Q16(9, 10)
 #define DECIDED_COVER DROGUE_Q16(6, 10)
@@ -17,6 +18,7 @@
 #define EVIDENT_RELIABILITY DROGUE_Q16(99, 100)
 #define EVIDENT_PX DROGUE_Q16(5, 1) /* radius of the inner part */
 #define MOST_SPREAD_PX DROGUE_Q16(3, 10)
+#define WITNESS_PX DROGUE_Q16(2, 10)    /* and a 64th, of the inner part's radius: by no chance; */
 #define MOST_OFF_PX DROGUE_Q16(6, 10)   /* and a tenth, of the inner part's radius: near; */
 #define EXACT_PX DROGUE_Q16(3, 10)      /* and a twenty-fifth: its size */
 #define SETTLED_COVER DROGUE_Q16(8, 10) /* of a result after which only larger outlines about it are looked at */
@@ -61,6 +63,9 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
         return 0;
     }
     sharp = r->inner.spread_px_q16 <= MOST_SPREAD_PX;
+    if (decided(r) && sharp && expected >= EVIDENT_PX && 64 * (off - WITNESS_PX) <= expected) {
+        return 1;
+    }
     if (decided(r) && 25 * (off - EXACT_PX) <= expected) {
         return r->cover_q16 >= (sharp ? DECIDED_COVER : BLURRED_COVER);
     }

@@ -189,9 +189,11 @@ public:
             return ok_ && cover_ >= 0.75L && reliable_;
         }
         const bool decides = resolved_ && off_ <= 0.3L + expected_ / 25;
+        const bool witness = resolved_ && sharp_ && expected_ >= 5 && off_ <= 0.2L + expected_ / 64;
         return seen_ && dark_ &&
-               (decides ? cover_ >= (sharp_ ? 0.6L : 0.9L)
-                        : sharp_ && cover_ >= 0.75L && off_ <= 0.6L + expected_ / 10);
+               (witness   ? true
+                : decides ? cover_ >= (sharp_ ? 0.6L : 0.9L)
+                          : sharp_ && cover_ >= 0.75L && off_ <= 0.6L + expected_ / 10);
     }
     bool settles() const
     {

@@ -383,7 +383,9 @@ bool in_its_place(const Disc &d, const reference::Ellipse &expected, const refer
 {
     const Real c = std::cos(rim.angle), s = std::sin(rim.angle), dx = d.x - rim.xc, dy = d.y - rim.yc;
     const Real u = (dx * c + dy * s) / rim.a, v = (dy * c - dx * s) / rim.b, room = 1 - expected.a / rim.a;
-    const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * rim.a;
+    const bool evident = 8 * d.rays >= 7 * DROGUE_RAYS && 2 * d.rms <= real(config.inner_rms_px_q16) &&
+                         std::fabs(d.grown) <= 0.3L + expected.a / 64;
+    const Real gate = (evident ? 2 : 1) * (real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * rim.a);
     return d.found && d.contrast >= config.min_inner_contrast &&
            static_cast<Real>(d.rays) >= real(config.min_inner_cover_q16) * DROGUE_RAYS &&
            d.rms <= real(config.inner_rms_px_q16) && d.grown >= -room_of(expected, config) &&

@@ -419,7 +419,7 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
         doubt = from.trusted ? from.doubt : 1;
     }
     finish(out, task, from, library);
-    return doubt;
+    return out.status == DROGUE_OK && out.has_inner ? std::max(doubt, out.doubt) : doubt;
 }
 
 /* A larger outline along rays about the best one. */

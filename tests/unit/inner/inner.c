@@ -202,6 +202,7 @@ START_TEST(reasons_not_to_believe)
     ck_assert(std_of(&f) == 0);
     for (k = 0; k < 4; k++) { /* 1.5 px and a twentieth of the semi-axis off, each way */
         f = usual_finding();
+        f.edge.rays = 55;
         f.edge.x_px_q16 += k == 0 ? q16_of(6.4) : k == 1 ? -q16_of(6.4) : 0;
         f.edge.y_px_q16 += k == 2 ? q16_of(6.4) : k == 3 ? -q16_of(6.4) : 0;
         ck_assert(std_of(&f) > 0);
@@ -222,6 +223,34 @@ START_TEST(reasons_not_to_believe)
     ck_assert(std_of(&f) == 0);
     f = usual_finding(); /* as large as the outline */
     f.expected.a_px_q16 = f.expected.b_px_q16 = q16_of(101);
+    ck_assert(std_of(&f) == 0);
+}
+END_TEST
+
+/* A disc that is evident may lie twice as far from where it is expected: seen by seven rays of eight, within half of what
+ * rays may scatter, of its size to 0.3 px and a 64th. */
+START_TEST(evident_elsewhere)
+{
+    finding f = usual_finding();
+    int k;
+    f.edge.rays = 56;
+    f.edge.rms_px_q16 = q16_of(0.324);
+    for (k = -1; k <= 1; k += 2) {
+        f.edge.grown_px_q16 = k * q16_of(0.76); /* 0.3 + 30 / 64 is 0.769 */
+        f.edge.x_px_q16 = q16_of(210 + 12.9);
+        ck_assert(std_of(&f) > 0);
+        f.edge.x_px_q16 = q16_of(210 + 13.1);
+        ck_assert(std_of(&f) == 0);
+        f.edge.x_px_q16 = q16_of(210 + 6.6);
+        ck_assert(std_of(&f) > 0);
+        f.edge.grown_px_q16 = k * q16_of(0.78);
+        ck_assert(std_of(&f) == 0);
+    }
+    f.edge.grown_px_q16 = 0;
+    f.edge.rms_px_q16 = q16_of(0.326);
+    ck_assert(std_of(&f) == 0);
+    f.edge.rms_px_q16 = 0;
+    f.edge.rays = 55;
     ck_assert(std_of(&f) == 0);
 }
 END_TEST
@@ -378,4 +407,5 @@ START_TEST(doubt_by_size)
 END_TEST
 
 SUITE_MAIN("inner", expected_where_the_poses_show_it, poses_that_show_none, standard_deviation, reasons_not_to_believe,
-           within_the_rim_however_tilted, no_evidence, doubt_by_size, flat_where_the_lens_folds, any_bits)
+           evident_elsewhere, within_the_rim_however_tilted, no_evidence, doubt_by_size, flat_where_the_lens_folds,
+           any_bits)

@@ -567,11 +567,11 @@ START_TEST(inner_part_that_contradicts)
     for (turn = 0; turn < 3; turn++) {
         s = usual;
         s.yaw = 0.3;
-        s.inner_shift[turn == 0] = 0.04; /* m across, sideways and up or down */
+        s.inner_shift[turn == 0] = 0.07; /* m across, sideways and up or down */
         if (turn == 2) {
             s.depth = -0.2; /* seen in the place of the other pose's, or nearly */
             s.inner_shift[0] = 0;
-            s.inner_shift[1] = 0.05;
+            s.inner_shift[1] = 0.08;
         }
         draw(&s);
         ck_assert_int_eq(measure(&r, &t, &c, &model, &whole), DROGUE_OK);

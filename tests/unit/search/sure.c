@@ -64,6 +64,34 @@ START_TEST(limits_of_sure)
 }
 END_TEST
 
+/* So exactly of its size and so sharp, and it decides: then the outline need not be covered. */
+START_TEST(a_witness)
+{
+    drogue_result r = measured();
+    r.cover_q16 = DROGUE_Q16(3, 10);
+    ck_assert(drogue_result_sure(&r, &model));
+    r.inner.area_px = 3409; /* 32.94 px: off by 0.68, a 64th and 0.2 are 0.7 */
+    ck_assert(drogue_result_sure(&r, &model));
+    r.inner.area_px = 3417; /* 32.98 px: off by 0.72 */
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.inner.area_px = 3269;
+    r.inner.spread_px_q16 = DROGUE_Q16(31, 100);
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.inner.spread_px_q16 = DROGUE_Q16(1, 10);
+    r.orientation_resolved = 0;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.orientation_resolved = 1;
+    r.doubt_q16 = DROGUE_Q16(1, 64);
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.doubt_q16 = 0;
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(154, 10); /* where 4.97 px are expected */
+    r.inner.area_px = 78;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(156, 10); /* 5.03 px */
+    ck_assert(drogue_result_sure(&r, &model));
+}
+END_TEST
+
 START_TEST(dark_and_sharp)
 {
     drogue_result r = measured();
@@ -171,5 +199,5 @@ START_TEST(acquire_without_an_inner_part)
 }
 END_TEST
 
-SUITE_MAIN("sure", limits_of_sure, dark_and_sharp, behind_or_beside_the_camera_nothing_is_sure,
+SUITE_MAIN("sure", limits_of_sure, a_witness, dark_and_sharp, behind_or_beside_the_camera_nothing_is_sure,
            without_an_inner_part_cover_and_reliability_decide, acquire_without_an_inner_part)
