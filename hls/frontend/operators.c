@@ -18,12 +18,19 @@ uint8_t drogue_hls_smooth_row(uint16_t c0, uint16_t c1, uint16_t c2, uint16_t c3
     return drogue_smooth_normalise(drogue_binomial5(c0, c1, c2, c3, c4));
 }
 
-uint32_t drogue_hls_gradient(uint8_t t0, uint8_t t1, uint8_t t2, uint8_t c0, uint8_t c2, uint8_t b0, uint8_t b1,
-                             uint8_t b2)
+uint64_t drogue_hls_sides(uint8_t t0, uint8_t t1, uint8_t t2, uint8_t c0, uint8_t c2, uint8_t b0, uint8_t b1, uint8_t b2)
 {
-    const uint16_t gx = (uint16_t)drogue_sobel_gx(t0, c0, b0, t2, c2, b2);
-    const uint16_t gy = (uint16_t)drogue_sobel_gy(t0, t1, t2, b0, b1, b2);
-    return gx | (uint32_t)gy << 16;
+    return drogue_sobel_121(t0, c0, b0) | (uint64_t)drogue_sobel_121(t2, c2, b2) << 16 |
+           (uint64_t)drogue_sobel_121(t0, t1, t2) << 32 | (uint64_t)drogue_sobel_121(b0, b1, b2) << 48;
+}
+
+uint32_t drogue_hls_gradient(uint64_t sides)
+{
+    const int32_t left = (int32_t)(sides & 0x3FFu);
+    const int32_t right = (int32_t)(sides >> 16 & 0x3FFu);
+    const int32_t above = (int32_t)(sides >> 32 & 0x3FFu);
+    const int32_t below = (int32_t)(sides >> 48 & 0x3FFu);
+    return (uint16_t)(right - left) | (uint32_t)(uint16_t)(below - above) << 16;
 }
 
 uint16_t drogue_hls_magnitude(uint32_t gradient)
@@ -34,21 +41,21 @@ uint16_t drogue_hls_magnitude(uint32_t gradient)
 /* A derivative of a gradient word: 11 bits and a sign, which keeps what follows narrow. */
 static int16_t derivative(uint32_t half) { return (int16_t)((int32_t)(half << 20) >> 20); }
 
-/* |gx| of a gradient word. */
-static uint32_t abs_gx(uint32_t gradient)
+uint16_t drogue_hls_absolute(uint32_t half)
 {
-    const int16_t gx = derivative(gradient & 0xFFFu);
-    return (uint32_t)(gx < 0 ? -gx : gx);
+    const int16_t v = derivative(half);
+    return (uint16_t)((v < 0 ? -v : v) & 0x7FF);
 }
 
-uint32_t drogue_hls_tangent(uint32_t gradient) { return abs_gx(gradient) * (uint32_t)DROGUE_CANNY_TG22; }
+uint32_t drogue_hls_tangent(uint16_t absolute_x) { return absolute_x * (uint32_t)DROGUE_CANNY_TG22; }
 
-uint32_t drogue_hls_sector(uint32_t gradient, uint32_t tangent)
+uint32_t drogue_hls_sector(uint32_t gradient, uint16_t absolute_x, uint16_t absolute_y, uint32_t tangent)
 {
     const int16_t gx = derivative(gradient & 0xFFFu);
     const int16_t gy = derivative(gradient >> 16);
-    return (uint32_t)drogue_canny_sector_by(gx, gy, abs_gx(gradient), tangent & 0x1FFFFFFu) |
-           (drogue_direction_class(gx, gy) + 1u) << 2;
+    const drogue_sector sector = drogue_canny_sector_of(absolute_x, absolute_y, tangent & 0x1FFFFFFu);
+    const int anti = sector == DROGUE_SECTOR_DIAGONAL && (gx ^ gy) < 0;
+    return (uint32_t)(anti ? DROGUE_SECTOR_ANTIDIAGONAL : sector) | (drogue_direction_class(gx, gy) + 1u) << 2;
 }
 
 uint64_t drogue_hls_neighbours(uint16_t t0, uint16_t t1, uint16_t t2, uint16_t c0, uint16_t c1, uint16_t c2,
@@ -96,8 +103,16 @@ static drogue_canny_vertex unpack_vertex(uint64_t word)
 
 uint64_t drogue_hls_vertex(uint64_t neighbours)
 {
-    const drogue_canny_vertex v =
+    drogue_canny_vertex v =
         drogue_canny_vertex_begin(magnitude(neighbours, 0), magnitude(neighbours, 1), magnitude(neighbours, 2));
+    v.rest = 0;
+    return pack_vertex(&v);
+}
+
+uint64_t drogue_hls_vertex_rest(uint64_t vertex)
+{
+    drogue_canny_vertex v = unpack_vertex(vertex);
+    v.rest = 32 * (v.slope + v.curvature) + v.curvature;
     return pack_vertex(&v);
 }
 
