@@ -251,6 +251,9 @@ class Function:
         first = self.value(f"i{bits}", operands[0].split()[-1])
         if found[1] == "abs":
             self.wire(v, bits, f"{first}[{bits - 1}] ? -{first} : {first}")
+        elif found[1] == "fshl":  # a word out of two
+            second, places = self.value(f"i{bits}", operands[1].split()[-1]), int(operands[2].split()[-1])
+            self.wire(v, bits, f"({first} << {places}) | ({second} >> {bits - places})")
         elif found[1] in INTRINSICS:
             second = self.value(f"i{bits}", operands[1].split()[-1])
             self.wire(v, bits, INTRINSICS[found[1]].format(a=first, b=second))
