@@ -39,7 +39,7 @@ static drogue_hls_write give(drogue_hls_near *n, uint32_t candidate)
     const uint32_t left = n->may_left & n->labelled;
     const uint32_t by_left = left & (n->fixed ^ 1u);
     const uint32_t none = candidate & ((left | n->is_near) ^ 1u);
-    const uint32_t new = none & (n->may_right ^ 1u);
+    const uint32_t new = none &(n->may_right ^ 1u);
     const uint32_t given = new & n->room;
     const uint32_t label = (n->label & drogue_hls_when((int)(candidate & by_left))) |
                            (n->nearest & drogue_hls_when((int)(candidate & n->is_near & (by_left ^ 1u)))) |
@@ -52,7 +52,7 @@ static drogue_hls_write give(drogue_hls_near *n, uint32_t candidate)
     n->label = label;
     n->labelled = candidate & (left | n->is_near | n->may_right | n->room);
     n->given = given;
-    n->full |= new & (n->room ^ 1u);
+    n->full |= new &(n->room ^ 1u);
     n->room &= (given & (uint32_t)(n->count == DROGUE_HLS_LABELS - 1u)) ^ 1u;
     n->count = drogue_hls_narrow(n->count + given, LABEL_BITS);
     return parent;
@@ -133,24 +133,24 @@ void drogue_hls_settle_begin(drogue_hls_settling *s, uint32_t merges, uint32_t m
     s->done = s->here[0] ^ 1u;
 }
 
-/* The parent of a label, through what the merge before wrote: that came too late for the look. */
-static uint32_t parent_of(const drogue_hls_settling *s, uint32_t label, uint32_t parent)
-{
-    return label == s->written_at ? s->written : parent;
-}
-
 drogue_hls_settled drogue_hls_settle(drogue_hls_settling *s, uint32_t merges, uint32_t merge, uint32_t parent,
                                      uint32_t parent_2)
 {
     const uint32_t back = s->back;
-    const uint32_t a = parent_of(s, s->label[2], s->parent);
-    const uint32_t b = parent_of(s, s->label_2[2], s->parent_2);
-    const uint32_t first_less = a < b;
+    /* A parent is what the merge before wrote, where it wrote that: too late for the look. All is compared at once. */
+    const uint32_t late = (uint32_t)(s->label[2] == s->written_at);
+    const uint32_t late_2 = (uint32_t)(s->label_2[2] == s->written_at);
+    const uint32_t a = late ? s->written : s->parent;
+    const uint32_t b = late_2 ? s->written : s->parent_2;
+    const uint32_t less = s->parent < s->parent_2;
+    const uint32_t less_late = s->written < s->parent_2;
+    const uint32_t less_late_2 = s->parent < s->written;
+    const uint32_t first_less = late ? less_late & (late_2 ^ 1u) : late_2 ? less_late_2 : less;
     const uint32_t low = first_less ? a : b;
     const uint32_t high = first_less ? b : a;
     const uint32_t written_at = back ? s->label_2[2] : high;
     const uint32_t written = back ? a : low;
-    const uint32_t follow = s->here[0] | s->coming;               /* others come after the merge that is in the second stage */
+    const uint32_t follow = s->here[0] | s->coming; /* others come after the merge that is in the second stage */
     const uint32_t turn = s->here[2] & ((s->here[1] | follow | back) ^ 1u); /* the last one's way forward ends */
     drogue_hls_settled now;
     now.parent = drogue_hls_write_of(written_at, written, s->here[2]);

@@ -14,8 +14,8 @@ uint32_t drogue_hls_append(drogue_hls_lists *list, uint64_t point, const drogue_
     return listed;
 }
 
-void drogue_hls_count(drogue_hls_lists *list, uint32_t arc, uint32_t listed, uint32_t anew, const drogue_hls_words *read,
-                      drogue_hls_places *places, drogue_hls_writes *write)
+void drogue_hls_count(drogue_hls_lists *list, uint32_t arc, uint32_t listed, uint32_t anew,
+                      const drogue_hls_words *read, drogue_hls_places *places, drogue_hls_writes *write)
 {
     list->sum = drogue_hls_narrow((list->again ? list->sum : list->before) + list->counts[1], POINT_BITS);
     write->arc_points = drogue_hls_write_of(list->counted[1], list->sum, 1);
@@ -81,8 +81,8 @@ static void find_arc(drogue_hls_lists *l, const drogue_hls_words *read, drogue_h
     l->root[2] = l->root[1];
     l->root[1] = l->root[0];
     l->strong[0] = (uint32_t)read->component_strong & 1u;
-    write->arc_parent =
-        drogue_hls_write_of(l->at[4], find_root(l, (uint32_t)read->arc_parent, (uint32_t)read->arc_parent_2), l->here[4]);
+    write->arc_parent = drogue_hls_write_of(
+        l->at[4], find_root(l, (uint32_t)read->arc_parent, (uint32_t)read->arc_parent_2), l->here[4]);
     l->component[1] = drogue_hls_narrow((uint32_t)read->component_parent, LABEL_BITS);
     l->component[0] = drogue_hls_narrow((uint32_t)read->arc_component, LABEL_BITS);
     for (k = 5; k > 0; k--) {
@@ -124,29 +124,33 @@ static void place_arc(drogue_hls_lists *l, uint32_t min_arc_px, const drogue_hls
 static void sort_point(drogue_hls_lists *l, const drogue_hls_words *read, drogue_hls_places *places,
                        drogue_hls_writes *write)
 {
-    const uint32_t next = l->again ? l->sum : l->next;
-    const uint32_t listed = (uint32_t)(next != 0);
+    const uint32_t next = l->again ? l->sum : l->next[0];
+    const uint32_t has_next = l->again ? l->has_next : (uint32_t)(l->next[0] != 0);
     const uint32_t kept = (uint32_t)(l->root[2] != 0) & l->here[6];
     places->point_arc = l->at[0];
     places->arc_root = l->label;
     places->arc_place = l->root[0];
     places->points = l->at[4];
-    write->edges = drogue_hls_write_of(listed ? next - 1u : l->last, l->point, kept);
-    write->arc_place = drogue_hls_write_of(l->root[2], next + 1u, kept & listed);
-    l->last = drogue_hls_narrow(l->last + (kept & (listed ^ 1u)), POINT_BITS);
+    write->edges = drogue_hls_write_of(l->has_next ? l->next[1] - 1u : l->last, l->point[1], l->kept);
+    l->last = drogue_hls_narrow(l->last + (l->kept & (l->has_next ^ 1u)), POINT_BITS);
+    write->arc_place = drogue_hls_write_of(l->root[2], next + 1u, kept & has_next);
     /* The arc's next place by the point before, which came too late for the look. */
-    l->sum = drogue_hls_narrow(next + 1u, POINT_BITS) & drogue_hls_when((int)listed);
+    l->sum = drogue_hls_narrow(next + 1u, POINT_BITS);
     l->again = (uint32_t)(l->root[1] == l->root[2]) & l->here[6];
-    l->next = drogue_hls_narrow((uint32_t)read->arc_place, POINT_BITS);
-    l->point = read->points;
+    l->next[1] = next;
+    l->has_next = has_next;
+    l->kept = kept;
+    l->point[1] = l->point[0];
+    l->next[0] = drogue_hls_narrow((uint32_t)read->arc_place, POINT_BITS);
+    l->point[0] = read->points;
     l->root[2] = l->root[1];
     l->root[1] = l->root[0];
     l->root[0] = drogue_hls_narrow((uint32_t)read->arc_root, LABEL_BITS);
     l->label = drogue_hls_narrow((uint32_t)read->point_arc, LABEL_BITS);
 }
 
-uint32_t drogue_hls_lists_step(drogue_hls_lists *list, uint32_t phase, uint32_t min_arc_px, const drogue_hls_words *read,
-                               drogue_hls_places *places, drogue_hls_writes *write)
+uint32_t drogue_hls_lists_step(drogue_hls_lists *list, uint32_t phase, uint32_t min_arc_px,
+                               const drogue_hls_words *read, drogue_hls_places *places, drogue_hls_writes *write)
 {
     const uint32_t here = list->at[0] < list->entries;
     uint32_t busy = here;

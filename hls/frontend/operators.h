@@ -7,18 +7,22 @@
 #include <stdint.h>
 
 /* Vertical sum of smoothing. */
-uint16_t drogue_hls_smooth_column(uint8_t p0, uint8_t p1, uint8_t p2, uint8_t p3, uint8_t p4);
+uint16_t drogue_hls_smooth_column(uint16_t p0, uint16_t p1, uint16_t p2, uint16_t p3, uint16_t p4);
 
 /* Horizontal sum of smoothing, normalised. */
 uint8_t drogue_hls_smooth_row(uint16_t c0, uint16_t c1, uint16_t c2, uint16_t c3, uint16_t c4);
 
 /* Sobel gradient of a 3x3 window, its middle left out: the sums of its sides, left, right, top, bottom, from the lowest bits
  * up, 16 each; of these the gradient, gx in the lower half of the word, gy in the upper one. */
-uint64_t drogue_hls_sides(uint8_t t0, uint8_t t1, uint8_t t2, uint8_t c0, uint8_t c2, uint8_t b0, uint8_t b1, uint8_t b2);
+uint64_t drogue_hls_sides(uint8_t t0, uint8_t t1, uint8_t t2, uint8_t c0, uint8_t c2, uint8_t b0, uint8_t b1,
+                          uint8_t b2);
 uint32_t drogue_hls_gradient(uint64_t sides);
 
 /* L1 magnitude of a gradient word. */
 uint16_t drogue_hls_magnitude(uint32_t gradient);
+
+/* A derivative in a half of a gradient word: 11 bits and a sign, which keeps what follows narrow. */
+static inline int16_t drogue_hls_derivative(uint32_t half) { return (int16_t)((int32_t)(half << 20) >> 20); }
 
 /* |gx| or |gy| of a half of a gradient word. */
 uint16_t drogue_hls_absolute(uint32_t half);

@@ -76,6 +76,14 @@ static void pick_rows(drogue_hls_windows *w)
     }
 }
 
+/* Rows of one weight: the sum takes them as one. */
+static void pair_rows(drogue_hls_windows *w)
+{
+    w->outer_rows = (uint16_t)(w->rows[0] + w->rows[4]);
+    w->inner_rows = (uint16_t)(w->rows[1] + w->rows[3]);
+    w->middle_row = w->rows[2];
+}
+
 static void sum_rows(drogue_hls_windows *w)
 {
     int k;
@@ -85,8 +93,8 @@ static void sum_rows(drogue_hls_windows *w)
     for (k = 0; k < 5; k++) {
         w->middle[k] = w->middle[k + 1];
     }
-    w->sum[4] = drogue_hls_smooth_column(w->rows[0], w->rows[1], w->rows[2], w->rows[3], w->rows[4]);
-    w->middle[5] = w->rows[2];
+    w->sum[4] = drogue_hls_smooth_column(w->outer_rows, w->inner_rows, w->middle_row, 0, 0);
+    w->middle[5] = w->middle_row;
 }
 
 static void pick_columns(drogue_hls_windows *w)
@@ -97,7 +105,7 @@ static void pick_columns(drogue_hls_windows *w)
     }
 }
 
-/* Columns of one weight: the sum takes them as one. */
+/* And columns. */
 static void pair_columns(drogue_hls_windows *w)
 {
     w->outer = (uint16_t)(w->columns[0] + w->columns[4]);
@@ -153,7 +161,7 @@ static void stack_magnitudes(drogue_hls_windows *w, const drogue_hls_frame *fram
     w->stacked[0] = (uint16_t)(older & 0x7FFu);
     w->stacked[1] = (uint16_t)(older >> 16 & 0x7FFu);
     w->stacked[2] = w->magnitude;
-    w->middle_gradient[AT_ABSOLUTE] = (uint32_t)read->gradient_row;
+    w->middle_gradient[AT_ABSOLUTE] = (uint32_t)read->gradient_row & 0x0FFF0FFFu;
     w->has_above[1] = w->has_above[0];
     w->has_below[1] = w->has_below[0];
     w->has_above[0] = y >= 1;
@@ -193,8 +201,8 @@ static void locate(drogue_hls_windows *w, const drogue_hls_frame *frame)
     int k;
     e.x_q5 = (uint16_t)(32 * w->x[AT_PLACE] + (int8_t)(uint8_t)(w->offset & 0xFFu));
     e.y_q5 = (uint16_t)(32 * (w->y[AT_PLACE] - 4) + (int8_t)(uint8_t)(w->offset >> 8));
-    e.gx = (int16_t)(uint16_t)(w->middle_gradient[AT_PLACE] & 0xFFFFu);
-    e.gy = (int16_t)(uint16_t)(w->middle_gradient[AT_PLACE] >> 16);
+    e.gx = drogue_hls_derivative(w->middle_gradient[AT_PLACE] & 0xFFFu);
+    e.gy = drogue_hls_derivative(w->middle_gradient[AT_PLACE] >> 16);
     for (k = AT_LIST; k > AT_LABEL; k--) {
         w->point[k] = w->point[k - 1];
     }
@@ -280,6 +288,7 @@ void drogue_hls_pixels_tick(drogue_hls_windows *w, const drogue_hls_frame *frame
     fold(w->column_folded, w->column_about);
     about(w->column_about, w->x[AT_ABOUT_COLUMNS]);
     sum_rows(w);
+    pair_rows(w);
     pick_rows(w);
     take_rows(w, (uint32_t)read->raw_rows, write);
     tap(w->row_tap, w->near_row, w->y[AT_ABOUT_ROWS + 3] - 2);

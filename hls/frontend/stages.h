@@ -16,31 +16,32 @@ enum {
     AT_TAKE = 3,          /* the pixel is taken from the stream */
     AT_ROWS = 4,          /* it and the four above it */
     AT_PICK_ROWS = 5,     /* which rows smoothing sums */
-    AT_ABOUT_COLUMNS = 5, /* the same */
-    AT_SUM_ROWS = 6,      /* its vertical sum */
-    AT_PICK_COLUMNS = 9,
-    AT_PAIR_COLUMNS = 10, /* the two next to the middle, the two outside */
-    AT_SUM_COLUMNS = 11,  /* its horizontal sum: a smoothed pixel */
-    AT_LEVELS = 12,       /* three of them, one above the other */
-    AT_WINDOW = 13,       /* they enter their window */
-    AT_SIDES = 15,        /* sums of the window's sides */
-    AT_GRADIENT = 16,
-    AT_MAGNITUDE = 17,
-    AT_MAGNITUDES = 18, /* three, one above the other */
-    AT_COLUMN = 19,     /* 0 outside; then they enter their window */
-    AT_ABSOLUTE = 19,   /* of the middle row's gradient */
-    AT_TANGENT = 20,
-    AT_SECTOR = 21,
-    AT_NEIGHBOURS = 22,
-    AT_SUPPRESS = 23,
-    AT_VERTEX = 23,
-    AT_REST = 24,   /* the division begins */
-    AT_DIVIDE = 25, /* five ticks */
-    AT_OFFSET = 30,
-    AT_PLACE = 31, /* the word of the edge list */
-    AT_LABEL = 32, /* the component's; the arc's a tick later */
-    AT_LIST = 34,
-    PLACES = 35
+    AT_ABOUT_COLUMNS = 6, /* the same */
+    AT_PAIR_ROWS = 6,     /* the two next to the middle, the two outside */
+    AT_SUM_ROWS = 7,      /* its vertical sum */
+    AT_PICK_COLUMNS = 10,
+    AT_PAIR_COLUMNS = 11, /* the same */
+    AT_SUM_COLUMNS = 12,  /* its horizontal sum: a smoothed pixel */
+    AT_LEVELS = 13,       /* three of them, one above the other */
+    AT_WINDOW = 14,       /* they enter their window */
+    AT_SIDES = 16,        /* sums of the window's sides */
+    AT_GRADIENT = 17,
+    AT_MAGNITUDE = 18,
+    AT_MAGNITUDES = 19, /* three, one above the other */
+    AT_COLUMN = 20,     /* 0 outside; then they enter their window */
+    AT_ABSOLUTE = 20,   /* of the middle row's gradient */
+    AT_TANGENT = 21,
+    AT_SECTOR = 22,
+    AT_NEIGHBOURS = 23,
+    AT_SUPPRESS = 24,
+    AT_VERTEX = 24,
+    AT_REST = 25,   /* the division begins */
+    AT_DIVIDE = 26, /* five ticks */
+    AT_OFFSET = 31,
+    AT_PLACE = 32, /* the word of the edge list */
+    AT_LABEL = 33, /* the component's; the arc's a tick later */
+    AT_LIST = 35,
+    PLACES = 36
 };
 
 /* A row of ticks is IDLE_PX longer than the region is wide: the roots of labels above come three columns ahead, arcs and
@@ -192,8 +193,11 @@ typedef struct drogue_hls_windows {
     uint8_t row_tap[5];    /* which of rows y - 4 .. y are the five of smoothing */
     uint8_t raw[5];        /* rows y - 4 .. y */
     uint8_t rows[5];       /* those five */
-    uint16_t sum[5];       /* vertical sums of the newest five columns */
-    uint8_t middle[6];     /* and their middle pixels */
+    uint16_t outer_rows;   /* sums of two of them, and the middle one */
+    uint16_t inner_rows;
+    uint8_t middle_row;
+    uint16_t sum[5];         /* vertical sums of the newest five columns */
+    uint8_t middle[6];       /* and their middle pixels */
     int16_t column_about[5]; /* and so the columns */
     int16_t column_folded[5];
     int16_t near_column[5];
@@ -211,10 +215,10 @@ typedef struct drogue_hls_windows {
     uint64_t sides;
     uint32_t gradient[2]; /* of a pixel; and of the one whose magnitude this is */
     uint16_t magnitude;
-    uint8_t has_above[2];  /* is there a row above x[AT_MAGNITUDES]'s that is suppressed, in the region? One below? */
-    uint8_t has_below[2];  /* And those of x[AT_COLUMN] */
-    uint16_t stacked[3];   /* magnitudes of a column, top to bottom, as they lie there */
-    uint16_t column[3];    /* and 0 outside */
+    uint8_t has_above[2]; /* is there a row above x[AT_MAGNITUDES]'s that is suppressed, in the region? One below? */
+    uint8_t has_below[2]; /* And those of x[AT_COLUMN] */
+    uint16_t stacked[3];  /* magnitudes of a column, top to bottom, as they lie there */
+    uint16_t column[3];   /* and 0 outside */
     uint16_t magnitudes[3][3];
     uint32_t middle_gradient[AT_PLACE + 1]; /* gradient of the middle row, by tick */
     uint16_t absolute_x[2];                 /* |gx| of x[AT_TANGENT], x[AT_SECTOR]; |gy| */
@@ -242,12 +246,12 @@ void drogue_hls_pixels_tick(drogue_hls_windows *w, const drogue_hls_frame *frame
 /* Registers of labels.c, in each table the same: what lies about the pixel whose label comes next, as far as it can be known
  * before the label on its left is. */
 typedef struct drogue_hls_near {
-    uint32_t count;     /* labels given + 1 */
-    uint32_t room;      /* 1: there is one left */
-    uint32_t full;      /* 1: a pixel found none left */
-    uint32_t next;      /* label as stored, three columns ahead; then its root comes */
-    uint32_t coming;    /* 1: that is a label */
-    uint32_t right;     /* root above right, and whether there is one */
+    uint32_t count;  /* labels given + 1 */
+    uint32_t room;   /* 1: there is one left */
+    uint32_t full;   /* 1: a pixel found none left */
+    uint32_t next;   /* label as stored, three columns ahead; then its root comes */
+    uint32_t coming; /* 1: that is a label */
+    uint32_t right;  /* root above right, and whether there is one */
     uint32_t has_right;
     uint32_t above; /* the same above */
     uint32_t has_above;
@@ -285,12 +289,12 @@ void drogue_hls_labels_tick(drogue_hls_labels *l, const drogue_hls_windows *w, c
 /* The merges of a row in one table: a merge a clock forward, to join, then one backward, so that every label of the row points
  * at its root: drogue_labels_resolve(). A merge's word, its labels, their parents, and what is made of them are a clock each. */
 typedef struct drogue_hls_settling {
-    uint32_t at;        /* the merge whose word is there */
-    uint32_t coming;    /* 1: it is to be taken */
-    uint32_t back;      /* 1: on the way back */
-    uint32_t here[3];   /* 1: a merge is in this stage: its parents are asked for, there, in registers */
-    uint32_t place[3];  /* its place */
-    uint32_t label[3];  /* its labels */
+    uint32_t at;       /* the merge whose word is there */
+    uint32_t coming;   /* 1: it is to be taken */
+    uint32_t back;     /* 1: on the way back */
+    uint32_t here[3];  /* 1: a merge is in this stage: its parents are asked for, there, in registers */
+    uint32_t place[3]; /* its place */
+    uint32_t label[3]; /* its labels */
     uint32_t label_2[3];
     uint32_t parent;
     uint32_t parent_2;
@@ -324,21 +328,23 @@ typedef struct drogue_hls_lists {
     uint32_t before;     /* points of the arc */
     uint32_t again;      /* 1: the same arc as the pixel before it, whose points are these */
     uint32_t sum;
-    uint32_t entries;              /* of the phase */
+    uint32_t entries;               /* of the phase */
     uint32_t at[LIST_STAGES + 1];   /* the entry asked for; the one whose words are there; those of the clocks before */
     uint32_t here[LIST_STAGES + 1]; /* 1: there is one; [0] not used */
-    uint32_t label;        /* what a stage hands to the next: an arc; */
-    uint32_t parent;       /* a parent, and its own parent; */
+    uint32_t label;                 /* what a stage hands to the next: an arc; */
+    uint32_t parent;                /* a parent, and its own parent; */
     uint32_t grandparent;
-    uint32_t follows[2];   /* 1: the parent is the entry before; */
+    uint32_t follows[2]; /* 1: the parent is the entry before; */
     uint32_t root[3];
     uint32_t component[2]; /* the arc's component, and that one's root; */
     uint32_t strong[3];
     uint32_t count[6];
     uint32_t is_root;
     uint32_t key[2];
-    uint32_t next;
-    uint64_t point;
+    uint32_t next[2];
+    uint32_t has_next; /* 1: the point's arc is in the table; */
+    uint32_t kept;     /* 1: it is in a strong component */
+    uint64_t point[2];
     uint32_t arcs; /* entries of the arc table */
     uint32_t arcs_full;
     uint32_t first; /* points in arcs so far */
@@ -349,10 +355,10 @@ typedef struct drogue_hls_lists {
 /* All registers of the block. A phase is a bit: to know it is one register, not a compare before every other one. */
 enum {
     PHASE_IDLE = 0,
-    PHASE_ROWS = 1,        /* a tick a clock */
-    PHASE_SETTLE = 2,      /* the merges of a row, where there are any */
-    PHASE_SQUARES = 4,     /* a bit a clock */
-    PHASE_NINE = 8,        /* times one of them */
+    PHASE_ROWS = 1,    /* a tick a clock */
+    PHASE_SETTLE = 2,  /* the merges of a row, where there are any */
+    PHASE_SQUARES = 4, /* a bit a clock */
+    PHASE_NINE = 8,    /* times one of them */
     PHASE_BEGIN = 16,
     PHASE_COMPONENTS = 32, /* the roots of components, which of them are strong */
     PHASE_ARCS = 64,       /* the roots of arcs, 0 in a weak component, and their points */
@@ -363,7 +369,7 @@ enum {
 typedef struct drogue_hls_registers {
     uint32_t phase;
     uint32_t status;
-    uint32_t refused[4]; /* 1: a register of the frame is not one that DROGUE_E_ARGUMENT, _REGION, _WORKSPACE allow */
+    uint32_t refused[7]; /* 1: a register of the frame is not one that DROGUE_E_ARGUMENT, _REGION, _WORKSPACE allow */
     uint32_t row;        /* of ticks */
     uint32_t last_row;
     uint32_t column; /* tick of the row */
@@ -401,12 +407,13 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
                      drogue_hls_places *places, drogue_hls_writes *write);
 
 /* Append a point when it has an arc; count it there in the clocks after, which are any up to those of PHASE_COMPONENTS. */
-uint32_t drogue_hls_append(drogue_hls_lists *list, uint64_t point, const drogue_hls_near *arc, drogue_hls_writes *write);
-void drogue_hls_count(drogue_hls_lists *list, uint32_t arc, uint32_t listed, uint32_t anew, const drogue_hls_words *read,
-                      drogue_hls_places *places, drogue_hls_writes *write);
+uint32_t drogue_hls_append(drogue_hls_lists *list, uint64_t point, const drogue_hls_near *arc,
+                           drogue_hls_writes *write);
+void drogue_hls_count(drogue_hls_lists *list, uint32_t arc, uint32_t listed, uint32_t anew,
+                      const drogue_hls_words *read, drogue_hls_places *places, drogue_hls_writes *write);
 
 /* A clock of a phase from PHASE_COMPONENTS on; 1 when the phase is complete. */
-uint32_t drogue_hls_lists_step(drogue_hls_lists *list, uint32_t phase, uint32_t min_arc_px, const drogue_hls_words *read,
-                               drogue_hls_places *places, drogue_hls_writes *write);
+uint32_t drogue_hls_lists_step(drogue_hls_lists *list, uint32_t phase, uint32_t min_arc_px,
+                               const drogue_hls_words *read, drogue_hls_places *places, drogue_hls_writes *write);
 
 #endif

@@ -6,22 +6,26 @@ enum { SQUARE_BITS = 21 };
 
 /* What the library's drogue_frontend_begin() says of the arguments: each part in a clock, and what follows from them in the
  * next. */
-static void check(uint32_t refused[4], const drogue_hls_asked *a)
+static void check(uint32_t refused[7], const drogue_hls_asked *a)
 {
-    const drogue_mask ring = {a->centre2_x, a->centre2_y, a->longest_px};
+    const drogue_mask x = {a->centre2_x, 0, 1};
+    const drogue_mask y = {0, a->centre2_y, 1};
+    const drogue_mask longest = {0, 0, a->longest_px};
     refused[0] = (uint32_t)(a->canny_low < 0 || a->canny_high < a->canny_low);
-    refused[1] = (uint32_t)(a->use_ring && !drogue_mask_valid(&ring));
-    refused[2] = (uint32_t)(a->width_px < 1 || a->width_px > DROGUE_MAX_SIDE || a->height_px < 1 ||
-                            a->height_px > DROGUE_MAX_SIDE);
-    refused[3] = (uint32_t)(a->width_px > DROGUE_HLS_WIDTH || a->height_px > DROGUE_HLS_HEIGHT);
+    refused[1] = (uint32_t)(a->use_ring && !drogue_mask_valid(&x));
+    refused[2] = (uint32_t)(a->use_ring && !drogue_mask_valid(&y));
+    refused[3] = (uint32_t)(a->use_ring && !drogue_mask_valid(&longest));
+    refused[4] = (uint32_t)(a->width_px < 1 || a->width_px > DROGUE_MAX_SIDE);
+    refused[5] = (uint32_t)(a->height_px < 1 || a->height_px > DROGUE_MAX_SIDE);
+    refused[6] = (uint32_t)(a->width_px > DROGUE_HLS_WIDTH || a->height_px > DROGUE_HLS_HEIGHT);
 }
 
-static drogue_status checked(const uint32_t refused[4])
+static drogue_status checked(const uint32_t refused[7])
 {
-    return refused[0] | refused[1] ? DROGUE_E_ARGUMENT
-           : refused[2]            ? DROGUE_E_REGION
-           : refused[3]            ? DROGUE_E_WORKSPACE
-                                   : DROGUE_OK;
+    return refused[0] | refused[1] | refused[2] | refused[3] ? DROGUE_E_ARGUMENT
+           : refused[4] | refused[5]                         ? DROGUE_E_REGION
+           : refused[6]                                      ? DROGUE_E_WORKSPACE
+                                                             : DROGUE_OK;
 }
 
 static uint16_t threshold(int32_t magnitude) { return (uint16_t)(magnitude < 2040 ? magnitude : 2040); }
@@ -31,7 +35,6 @@ static int32_t narrow(int32_t centre2) { return (int32_t)((uint32_t)centre2 << 1
 
 static void start(drogue_hls_registers *r, const drogue_hls_asked *a)
 {
-    static const drogue_hls_lists empty;
     check(r->refused, a);
     r->phase = PHASE_SQUARES;
     r->frame.width_px = a->width_px & 0xFFF;
@@ -43,9 +46,6 @@ static void start(drogue_hls_registers *r, const drogue_hls_asked *a)
     r->ring_dx = -narrow(a->centre2_x); /* of the column that comes to AT_LABEL - 1 in the third tick */
     r->ring_dy = 2 * -LAG_ROWS - narrow(a->centre2_y);
     r->bit = SQUARE_BITS + 1;
-    r->lists = empty;
-    drogue_hls_pixels_begin(&r->windows);
-    drogue_hls_labels_begin(&r->labels);
 }
 
 static uint32_t size_of(int32_t v) { return (uint32_t)(v < 0 ? -v : v) & 0x3FFFFu; }
@@ -56,6 +56,8 @@ static void begin_frame(drogue_hls_registers *r, int32_t longest_px)
     const int32_t last_x = r->frame.width_px + (IDLE_PX - 1);
     int k;
     r->status = (uint32_t)checked(r->refused);
+    r->lists.left = 0; /* all there will be of a frame refused */
+    r->lists.arcs = 0;
     r->frame.last_x = (last_x > LEAST_PERIOD - 1 ? last_x : LEAST_PERIOD - 1) & 0xFFF;
     r->frame.turn_x = 2 * r->frame.width_px - 2;
     r->frame.turn_y = 2 * r->frame.height_px - 2;
@@ -88,7 +90,7 @@ static void square(drogue_hls_registers *r, int32_t longest_px)
     }
 }
 
-/* A row of labels begins: the ring in it. */
+/* A row of ticks comes next: the ring in its row of labels. */
 static void begin_row(drogue_hls_registers *r)
 {
     const int64_t side2 = (int64_t)r->square[2];
@@ -101,10 +103,6 @@ static void begin_row(drogue_hls_registers *r)
     r->row_step += 8;
     r->column = 0;
     r->ends = 0;
-    r->components.at = 0;
-    r->arcs.at = 0;
-    r->labels.component.merges = 0;
-    r->labels.arc.merges = 0;
 }
 
 static void begin_list(drogue_hls_lists *l, uint32_t first, uint32_t entries)
@@ -128,8 +126,8 @@ static void end_row(drogue_hls_registers *r)
     const int last = r->row == r->last_row;
     r->phase = last ? PHASE_COMPONENTS : PHASE_ROWS;
     r->row = drogue_hls_narrow(r->row + 1u, ROW_BITS);
-    begin_list(&r->lists, 1, r->labels.component.count);
-    begin_row(r);
+    r->labels.component.merges = 0;
+    r->labels.arc.merges = 0;
 }
 
 static void tick(drogue_hls_registers *r, uint32_t pixel, const drogue_hls_words *read, drogue_hls_places *places,
@@ -139,6 +137,7 @@ static void tick(drogue_hls_registers *r, uint32_t pixel, const drogue_hls_words
     const uint32_t ends = r->ends;
     const uint32_t component_merges = r->labels.component.merges;
     const uint32_t arc_merges = r->labels.arc.merges;
+    const uint32_t components = r->labels.component.count;
     const uint32_t listed = drogue_hls_append(&r->lists, w->point[AT_LIST], &r->labels.arc, write);
     drogue_hls_count(&r->lists, r->labels.arc.label, listed, r->labels.arc.given, read, places, write);
     drogue_hls_labels_tick(&r->labels, w, read, places, write);
@@ -147,9 +146,13 @@ static void tick(drogue_hls_registers *r, uint32_t pixel, const drogue_hls_words
     take_nine(r);
     r->ends = (uint32_t)(r->column + 1u == (uint32_t)r->frame.last_x);
     r->column = drogue_hls_narrow(r->column + 1u, COLUMN_BITS);
-    if (ends) { /* all merges are noted before: nothing is above right of a region's last column */
+    r->components.at = 0; /* the first merge's word is there in the last tick of a row */
+    r->arcs.at = 0;
+    if (ends) { /* all merges are noted, all labels given: nothing is right of a region's last column */
         drogue_hls_settle_begin(&r->components, component_merges, (uint32_t)read->component_merges);
         drogue_hls_settle_begin(&r->arcs, arc_merges, (uint32_t)read->arc_merges);
+        begin_list(&r->lists, 1, components);
+        begin_row(r);
         r->phase = PHASE_SETTLE;
     }
 }
@@ -185,9 +188,9 @@ static uint32_t status_of(const drogue_hls_labels *labels, const drogue_hls_list
                            (lists->points_full ? DROGUE_HLS_EDGES_FULL : 0u) |
                            (lists->arcs_full ? DROGUE_HLS_ARCS_FULL : 0u);
     const drogue_status status = labels->component.full || labels->arc.full ? DROGUE_E_LABELS_FULL
-                                 : lists->points_full                         ? DROGUE_E_EDGES_FULL
-                                 : lists->arcs_full                           ? DROGUE_E_ARCS_FULL
-                                                                              : DROGUE_OK;
+                                 : lists->points_full                       ? DROGUE_E_EDGES_FULL
+                                 : lists->arcs_full                         ? DROGUE_E_ARCS_FULL
+                                                                            : DROGUE_OK;
     return which | (uint32_t)status;
 }
 
@@ -223,6 +226,7 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
 {
     static const drogue_hls_places nowhere;
     static const drogue_hls_writes nothing;
+    static const drogue_hls_lists empty;
     const uint32_t phase = drogue_hls_narrow(r->phase, PHASE_BITS);
     *places = nowhere;
     *write = nothing;
@@ -231,7 +235,14 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
         tick(r, asked->pixel, read, places, write);
     } else if (phase & PHASE_SETTLE) {
         settle(r, read, places, write);
-    } else if (phase >= PHASE_COMPONENTS) {
+    } else if (phase & PHASE_BEGIN) {
+        r->row = 0;
+        r->phase = PHASE_ROWS;
+        r->lists = empty;
+        drogue_hls_pixels_begin(&r->windows);
+        drogue_hls_labels_begin(&r->labels);
+        begin_row(r);
+    } else if (phase & (PHASE_COMPONENTS | PHASE_ARCS | PHASE_PLACE | PHASE_SORT)) {
         list(r, asked, read, places, write);
     } else if (phase & PHASE_SQUARES) {
         square(r, asked->longest_px);
@@ -239,10 +250,6 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
         take_nine(r);
         r->row_step = 4 * r->ring_dy + 4;
         r->phase = PHASE_BEGIN;
-    } else if (phase & PHASE_BEGIN) {
-        r->row = 0;
-        r->phase = PHASE_ROWS;
-        begin_row(r);
     } else if (asked->start) {
         start(r, asked);
     }
