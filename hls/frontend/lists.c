@@ -3,6 +3,17 @@
  * points sorted. */
 #include "stages.h"
 
+void drogue_hls_lists_begin(drogue_hls_lists *list)
+{
+    list->points = 0;
+    list->points_full = 0;
+    list->arcs = 0;
+    list->arcs_full = 0;
+    list->first = 0;
+    list->last = 0;
+    list->left = 0;
+}
+
 uint32_t drogue_hls_append(drogue_hls_lists *list, uint64_t point, const drogue_hls_near *arc, drogue_hls_writes *write)
 {
     const uint32_t room = list->points < DROGUE_HLS_EDGES;

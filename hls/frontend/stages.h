@@ -406,6 +406,9 @@ static inline uint32_t drogue_hls_takes(const drogue_hls_registers *r)
 void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, const drogue_hls_words *read,
                      drogue_hls_places *places, drogue_hls_writes *write);
 
+/* No point and no arc; the stages are empty at the end of a frame. */
+void drogue_hls_lists_begin(drogue_hls_lists *list);
+
 /* Append a point when it has an arc; count it there in the clocks after, which are any up to those of PHASE_COMPONENTS. */
 uint32_t drogue_hls_append(drogue_hls_lists *list, uint64_t point, const drogue_hls_near *arc,
                            drogue_hls_writes *write);

@@ -226,7 +226,6 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
 {
     static const drogue_hls_places nowhere;
     static const drogue_hls_writes nothing;
-    static const drogue_hls_lists empty;
     const uint32_t phase = drogue_hls_narrow(r->phase, PHASE_BITS);
     *places = nowhere;
     *write = nothing;
@@ -238,7 +237,7 @@ void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, con
     } else if (phase & PHASE_BEGIN) {
         r->row = 0;
         r->phase = PHASE_ROWS;
-        r->lists = empty;
+        drogue_hls_lists_begin(&r->lists);
         drogue_hls_pixels_begin(&r->windows);
         drogue_hls_labels_begin(&r->labels);
         begin_row(r);

@@ -214,9 +214,14 @@ class Function:
     def phi(self, block, v, code):
         t, rest = re.match(r"phi (\S+) (.*)", code).groups()
         ways = re.findall(rf"\[ ([^,]+), ({NAME}) \]", rest)
-        expression = self.value(t, ways[-1][0])
-        for of, via in reversed(ways[:-1]):
-            expression = f"{self.edges[via, block]} ? {self.value(t, of)} : {expression}"
+        values = {}  # value -> conditions of the ways that bring it
+        for of, via in ways:
+            values.setdefault(self.value(t, of), []).append(self.edges[via, block])
+        else_value = max(values, key=lambda value: len(values[value]))  # what most ways bring asks for no condition
+        expression = else_value
+        for value, conditions in values.items():
+            if value != else_value:
+                expression = f"({' | '.join(conditions)}) ? {value} : {expression}"
         self.wire(v, int(t[1:]), expression, max(self.need(t, of) for of, _ in ways))
 
     def pointer(self, text):
@@ -344,9 +349,12 @@ class Function:
         elif operation in OPERATORS or operation == "ashr":
             t, a, b = re.match(r"\w+ (\S+) ([^,]+), (.+)", code).groups()
             most = self.reach(operation, int(t[1:]), b, self.need(t, a), self.need(t, b))
+            one = operation == "mul" and self.need(t, a) <= 1
             places = [i for i in range(64) if operation == "mul" and re.fullmatch(r"\d+", b) and int(b) >> i & 1]
             a, b = self.value(t, a), self.value(t, b)
-            if 1 <= len(places) <= 3:  # no multiplier for that
+            if one:  # no multiplier for a bit, nor for few places
+                return self.wire(v, int(t[1:]), f"{a}[0] ? {b} : {t[1:]}'d0", most)
+            if 1 <= len(places) <= 3:
                 return self.wire(v, int(t[1:]), " + ".join(f"({a} << {i})" for i in places), most)
             expression = f"$signed({a}) >>> {b}" if operation == "ashr" else f"{a} {OPERATORS[operation]} {b}"
             self.wire(v, int(t[1:]), expression, most)
