@@ -10,7 +10,7 @@ if ! command -v bambu >/dev/null; then
     exit 77
 fi
 status=0
-for header in hls/choose_label.h hls/frontend/operators.h; do
+for header in hls/frontend/operators.h; do
     for operator in $(grep -oE '\bdrogue_hls_[a-z_]+\(' "$header" | tr -d '(' | awk '!seen[$0]++'); do
         work=build/hls/bambu/operators/$operator
         rm -rf "$work"

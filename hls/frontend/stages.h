@@ -12,32 +12,41 @@
 /* Ticks between a place's being counted off and the stage that it then is in; in a window, the place in its middle, but
  * where something enters it. */
 enum {
-    AT_REFLECT_ROWS = 1,    /* the indices about it come a tick before, which of five lines they are a tick after */
-    AT_TAKE = 2,            /* the pixel is taken from the stream */
-    AT_PICK_ROWS = 3,       /* which rows smoothing sums */
-    AT_SUM_ROWS = 4,        /* its vertical sum */
-    AT_REFLECT_COLUMNS = 5, /* the same */
-    AT_PICK_COLUMNS = 7,
-    AT_SUM_COLUMNS = 8, /* its horizontal sum: a smoothed pixel */
-    AT_LEVELS = 9,      /* three of them, one above the other */
-    AT_WINDOW = 10,     /* they enter their window */
-    AT_GRADIENT = 12,
-    AT_MAGNITUDE = 13,
-    AT_MAGNITUDES = 14, /* three, one above the other */
-    AT_TANGENT = 15,    /* they enter their window */
-    AT_SECTOR = 16,
-    AT_NEIGHBOURS = 17,
-    AT_SUPPRESS = 18,
-    AT_DIVIDE = 19, /* three ticks */
-    AT_PLACE = 22,  /* the word of the edge list */
-    AT_LABEL = 23,  /* the component's; the arc's a tick later */
-    AT_LIST = 25,
-    PLACES = 26
+    AT_ABOUT_ROWS = 1,    /* indices of the rows about it; the border reflected in two ticks; which of five lines */
+    AT_TAKE = 3,          /* the pixel is taken from the stream */
+    AT_ROWS = 4,          /* it and the four above it */
+    AT_PICK_ROWS = 5,     /* which rows smoothing sums */
+    AT_ABOUT_COLUMNS = 6, /* the same */
+    AT_PAIR_ROWS = 6,     /* the two next to the middle, the two outside */
+    AT_SUM_ROWS = 7,      /* its vertical sum */
+    AT_PICK_COLUMNS = 10,
+    AT_PAIR_COLUMNS = 11, /* the same */
+    AT_SUM_COLUMNS = 12,  /* its horizontal sum: a smoothed pixel */
+    AT_LEVELS = 13,       /* three of them, one above the other */
+    AT_WINDOW = 14,       /* they enter their window */
+    AT_SIDES = 16,        /* sums of the window's sides */
+    AT_GRADIENT = 17,
+    AT_MAGNITUDE = 18,
+    AT_MAGNITUDES = 19, /* three, one above the other */
+    AT_COLUMN = 20,     /* 0 outside; then they enter their window */
+    AT_ABSOLUTE = 20,   /* of the middle row's gradient */
+    AT_TANGENT = 21,
+    AT_SECTOR = 22,
+    AT_NEIGHBOURS = 23,
+    AT_SUPPRESS = 24,
+    AT_VERTEX = 24,
+    AT_REST = 25,   /* the division begins */
+    AT_DIVIDE = 26, /* five ticks */
+    AT_OFFSET = 31,
+    AT_PLACE = 32, /* the word of the edge list */
+    AT_LABEL = 33, /* the component's; the arc's a tick later */
+    AT_LIST = 35,
+    PLACES = 36
 };
 
-/* A row of ticks is IDLE_PX longer than the region is wide: labels are read three columns ahead, arcs and points follow two
- * ticks behind. It is LEAST_PERIOD at least: before so many ticks no word of a line buffer is met again. Labels of row 0
- * come LAG_ROWS rows of ticks after the start. */
+/* A row of ticks is IDLE_PX longer than the region is wide: the roots of labels above come three columns ahead, arcs and
+ * points follow two ticks behind. It is LEAST_PERIOD at least: before so many ticks no word of a line buffer is met
+ * again. Labels of row 0 come LAG_ROWS rows of ticks after the start. */
 enum { IDLE_PX = 5, LEAST_PERIOD = PLACES - 1, LAG_ROWS = 5 };
 #define DROGUE_HLS_PERIOD (DROGUE_HLS_WIDTH + LEAST_PERIOD)
 
@@ -159,7 +168,9 @@ typedef struct drogue_hls_asked {
 typedef struct drogue_hls_frame {
     int32_t width_px;
     int32_t height_px;
-    int32_t period; /* ticks a row */
+    int32_t last_x; /* the last tick of a row */
+    int32_t turn_x; /* twice the last column, row: what reflects at it */
+    int32_t turn_y;
     int32_t smooth;
     uint16_t low;
     uint16_t high;
@@ -172,38 +183,59 @@ typedef struct drogue_hls_frame {
 typedef struct drogue_hls_windows {
     uint16_t x[PLACES]; /* places of the last ticks, the newest first: row y of pixels comes in while row y - 2 is */
     uint16_t y[PLACES]; /* smoothed, y - 3 has its gradient taken, y - 4 is suppressed and labelled */
-    uint32_t take;      /* is there a pixel at x[AT_TAKE]? */
+    uint32_t wraps;     /* 1: x[0] is a row's last */
+    uint8_t inside[AT_SUPPRESS + 1]; /* is x one of the region's columns? From 1 on */
+    uint32_t take;                   /* is there a pixel at x[AT_TAKE]? */
     uint8_t pixel;
-    int16_t row_about[5];    /* indices of the five rows about the one smoothed */
-    int16_t near_row[5];     /* the same, border reflected */
-    uint8_t row_tap[5];      /* which of rows y - 4 .. y are the five of smoothing */
-    uint8_t rows[5];         /* those */
+    int16_t row_about[5];  /* indices of the five rows about the one smoothed */
+    int16_t row_folded[5]; /* the same, reflected at 0 */
+    int16_t near_row[5];   /* and at the last, for its sign */
+    uint8_t row_tap[5];    /* which of rows y - 4 .. y are the five of smoothing */
+    uint8_t raw[5];        /* rows y - 4 .. y */
+    uint8_t rows[5];       /* those five */
+    uint16_t outer_rows;   /* sums of two of them, and the middle one */
+    uint16_t inner_rows;
+    uint8_t middle_row;
     uint16_t sum[5];         /* vertical sums of the newest five columns */
     uint8_t middle[6];       /* and their middle pixels */
     int16_t column_about[5]; /* and so the columns */
+    int16_t column_folded[5];
     int16_t near_column[5];
     uint8_t column_tap[5];
     uint16_t columns[5];
+    uint16_t outer; /* sums of two columns, and the middle one */
+    uint16_t inner;
+    uint16_t centre;
     uint8_t smoothed;
+    uint8_t is_top; /* 1: the row of the gradient at x[AT_LEVELS] is the first; the last */
+    uint8_t is_bottom;
     uint8_t level_column[3];
+    uint8_t is_first;     /* 1: x[AT_WINDOW] is 0 */
     uint8_t levels[3][3]; /* window of smoothed pixels, [row][column] */
+    uint64_t sides;
     uint32_t gradient[2]; /* of a pixel; and of the one whose magnitude this is */
     uint16_t magnitude;
-    uint16_t column[3]; /* magnitudes of a column, top to bottom */
+    uint8_t has_above[2]; /* is there a row above x[AT_MAGNITUDES]'s that is suppressed, in the region? One below? */
+    uint8_t has_below[2]; /* And those of x[AT_COLUMN] */
+    uint16_t stacked[3];  /* magnitudes of a column, top to bottom, as they lie there */
+    uint16_t column[3];   /* and 0 outside */
     uint16_t magnitudes[3][3];
     uint32_t middle_gradient[AT_PLACE + 1]; /* gradient of the middle row, by tick */
+    uint16_t absolute_x[2];                 /* |gx| of x[AT_TANGENT], x[AT_SECTOR]; |gy| */
+    uint16_t absolute_y[2];
     uint32_t tangent;
-    uint32_t sector[AT_PLACE + 1]; /* sector and direction class, by tick */
+    uint32_t sector[AT_OFFSET + 1]; /* sector and direction class, by tick */
     uint64_t neighbours;
-    uint32_t code[AT_LABEL + 1]; /* drogue_hls_suppress()'s, by tick */
-    uint64_t vertex[AT_PLACE + 1];
+    uint32_t is_in;              /* is x[AT_SUPPRESS] in the region? */
+    uint32_t code[AT_LABEL + 1]; /* drogue_hls_suppress()'s, by tick; at AT_LABEL 0 outside the ring */
+    uint64_t vertex[AT_OFFSET + 1];
     uint32_t offset;
     uint64_t point[AT_LIST + 1]; /* word of the edge list, by tick */
-    int64_t ring_square;         /* (2x - centre2_x)^2 of the column that comes to AT_LABEL after the next */
+    int64_t ring_square;         /* (2x - centre2_x)^2 of the column that comes to AT_LABEL - 1 after the next */
     int64_t ring_tested;         /* that of the next, and nine times that */
     int64_t ring_tested_x9;
-    int32_t ring_dx;
-    uint32_t in_ring; /* the column at AT_LABEL */
+    int32_t ring_step; /* what the next square is more */
+    uint32_t in_ring;  /* the column at AT_LABEL - 1 */
 } drogue_hls_windows;
 
 /* Stages of pixels.c. */
@@ -211,48 +243,63 @@ void drogue_hls_pixels_begin(drogue_hls_windows *w);
 void drogue_hls_pixels_tick(drogue_hls_windows *w, const drogue_hls_frame *frame, const drogue_hls_words *read,
                             drogue_hls_writes *write);
 
-/* Registers of labels.c. A pixel of the row above and its labels: as stored, then its roots. */
+/* Registers of labels.c, in each table the same: what lies about the pixel whose label comes next, as far as it can be known
+ * before the label on its left is. */
+typedef struct drogue_hls_near {
+    uint32_t count;  /* labels given + 1 */
+    uint32_t room;   /* 1: there is one left */
+    uint32_t full;   /* 1: a pixel found none left */
+    uint32_t next;   /* label as stored, three columns ahead; then its root comes */
+    uint32_t coming; /* 1: that is a label */
+    uint32_t right;  /* root above right, and whether there is one */
+    uint32_t has_right;
+    uint32_t above; /* the same above */
+    uint32_t has_above;
+    uint32_t fixed;     /* 1: the pixel has the label above it */
+    uint32_t nearest;   /* that, or the one above left; */
+    uint32_t is_near;   /* 1: it can be its label */
+    uint32_t may_right; /* 1: the one above right can */
+    uint32_t may_left;  /* 1: the left one can, where there is one */
+    uint32_t label;     /* of the pixel of the tick before, 0: none */
+    uint32_t labelled;  /* 1: it has one, */
+    uint32_t given;     /* that nobody had before */
+    uint32_t meets;     /* 1: it may join two labels, */
+    uint32_t met[2];    /* these */
+    uint32_t merges;    /* of the row */
+} drogue_hls_near;
 typedef struct drogue_hls_labels {
-    uint32_t component_count; /* labels given + 1 */
-    uint32_t arc_count;
-    uint32_t components_full;
-    uint32_t arcs_full;
-    uint32_t component_merges; /* merges of the row in each table */
-    uint32_t arc_merges;
-    uint32_t component_next;
-    uint32_t component_above[3]; /* left, middle, right */
-    uint32_t component_left;
-    uint32_t component_met[4]; /* labels about the candidate of the tick before, above and left first */
-    uint32_t component;        /* of the pixel whose arc comes next, and its direction class + 1; 0: in no arc */
-    uint32_t key;
-    uint32_t arc_next;
-    uint32_t arc_above[3];
-    uint32_t arc_left;
-    uint32_t arc_met[4];
-    uint32_t key_next;
-    uint32_t key_above[3];
-    uint32_t key_left;
-    uint32_t arc;       /* of the pixel that may be listed */
-    uint32_t arc_fresh; /* 1: the first of that label */
+    drogue_hls_near component;
+    drogue_hls_near arc;
+    uint32_t strong;       /* is the pixel of the component's label strong? */
+    uint32_t key;          /* and its direction class + 1 */
+    uint32_t component_of; /* component of the pixel of the arc's label, and its key */
+    uint32_t key_of;
+    uint32_t key_next; /* keys of the pixels above, as their labels */
+    uint32_t key_coming;
+    uint32_t key_right;
+    uint32_t key_above;
 } drogue_hls_labels;
 
 void drogue_hls_labels_begin(drogue_hls_labels *l);
 
-/* 1 unless the row has no merge, with what the tick at work adds. */
-uint32_t drogue_hls_row_merges(uint32_t merges, const uint32_t met[4]);
-
 /* Label the arc of the pixel at AT_LABEL + 1, then the component of the pixel at AT_LABEL. */
 void drogue_hls_labels_tick(drogue_hls_labels *l, const drogue_hls_windows *w, const drogue_hls_words *read,
-                            drogue_hls_writes *write, uint32_t code);
+                            drogue_hls_places *places, drogue_hls_writes *write);
 
 /* The merges of a row in one table: a merge a clock forward, to join, then one backward, so that every label of the row points
- * at its root: drogue_labels_resolve(). */
+ * at its root: drogue_labels_resolve(). A merge's word, its labels, their parents, and what is made of them are a clock each. */
 typedef struct drogue_hls_settling {
-    uint32_t at;      /* the merge whose labels are there */
-    uint32_t back;    /* 1: on the way back */
-    uint32_t pending; /* 1: parents of a merge are there */
-    uint32_t merge;   /* and its place */
-    uint32_t label;   /* on the way back: whose parent is written */
+    uint32_t at;       /* the merge whose word is there */
+    uint32_t coming;   /* 1: it is to be taken */
+    uint32_t back;     /* 1: on the way back */
+    uint32_t here[3];  /* 1: a merge is in this stage: its parents are asked for, there, in registers */
+    uint32_t place[3]; /* its place */
+    uint32_t label[3]; /* its labels */
+    uint32_t label_2[3];
+    uint32_t parent;
+    uint32_t parent_2;
+    uint32_t written; /* what the merge before wrote, and where */
+    uint32_t written_at;
     uint32_t done;
 } drogue_hls_settling;
 
@@ -264,27 +311,40 @@ typedef struct drogue_hls_settled {
     drogue_hls_write merge;
 } drogue_hls_settled;
 
-void drogue_hls_settle_begin(drogue_hls_settling *s, uint32_t any);
+/* In the last tick of a row: the first merge's word is there. */
+void drogue_hls_settle_begin(drogue_hls_settling *s, uint32_t merges, uint32_t merge);
 drogue_hls_settled drogue_hls_settle(drogue_hls_settling *s, uint32_t merges, uint32_t merge, uint32_t parent,
                                      uint32_t parent_2);
 
-/* The merge that the next clock looks at. */
-uint32_t drogue_hls_settle_place(const drogue_hls_settling *s);
-
-/* The lists at the end of a frame: lists.c. Labels and points go through one a clock: asked for, then four stages. */
+/* The lists: lists.c. At the end of a frame labels and points go through one a clock: asked for, then LIST_STAGES stages. A
+ * word read is a register before anything is made of it. */
+enum { LIST_STAGES = 7 };
 typedef struct drogue_hls_lists {
     uint32_t points; /* listed so far */
     uint32_t points_full;
-    uint32_t at[4];   /* the entry asked for; the one whose words are there; those of the two clocks before */
-    uint32_t here[5]; /* 1: there is one; [0] not used */
-    uint32_t strong;  /* what a stage hands to the next */
-    uint32_t root;
-    uint32_t count[2];
+    uint32_t counted[2]; /* arcs of the two pixels whose points are counted: its word is there; and is a register */
+    uint32_t counts[2];  /* 1: it is listed */
+    uint32_t anew;       /* 1: the first of its arc */
+    uint32_t before;     /* points of the arc */
+    uint32_t again;      /* 1: the same arc as the pixel before it, whose points are these */
+    uint32_t sum;
+    uint32_t entries;               /* of the phase */
+    uint32_t at[LIST_STAGES + 1];   /* the entry asked for; the one whose words are there; those of the clocks before */
+    uint32_t here[LIST_STAGES + 1]; /* 1: there is one; [0] not used */
+    uint32_t label;                 /* what a stage hands to the next: an arc; */
+    uint32_t parent;                /* a parent, and its own parent; */
+    uint32_t grandparent;
+    uint32_t follows[2]; /* 1: the parent is the entry before; */
+    uint32_t root[3];
+    uint32_t component[2]; /* the arc's component, and that one's root; */
+    uint32_t strong[3];
+    uint32_t count[6];
     uint32_t is_root;
-    uint32_t key;
-    uint32_t next;
-    uint32_t kept;
-    uint64_t point[3];
+    uint32_t key[2];
+    uint32_t next[2];
+    uint32_t has_next; /* 1: the point's arc is in the table; */
+    uint32_t kept;     /* 1: it is in a strong component */
+    uint64_t point[2];
     uint32_t arcs; /* entries of the arc table */
     uint32_t arcs_full;
     uint32_t first; /* points in arcs so far */
@@ -292,31 +352,36 @@ typedef struct drogue_hls_lists {
     uint32_t left;  /* points in strong components */
 } drogue_hls_lists;
 
-/* All registers of the block. */
+/* All registers of the block. A phase is a bit: to know it is one register, not a compare before every other one. */
 enum {
-    PHASE_IDLE,
-    PHASE_SQUARES, /* a bit a clock */
-    PHASE_NINE,    /* times one of them */
-    PHASE_BEGIN,
-    PHASE_ROWS,       /* a tick a clock */
-    PHASE_SETTLE,     /* the merges of a row, where there are any */
-    PHASE_COMPONENTS, /* the roots of components, which of them are strong */
-    PHASE_ARCS,       /* the roots of arcs, 0 in a weak component, and their points */
-    PHASE_PLACE,      /* the arc table */
-    PHASE_SORT,       /* the edge list */
-    PHASE_BITS = 4
+    PHASE_IDLE = 0,
+    PHASE_ROWS = 1,    /* a tick a clock */
+    PHASE_SETTLE = 2,  /* the merges of a row, where there are any */
+    PHASE_SQUARES = 4, /* a bit a clock */
+    PHASE_NINE = 8,    /* times one of them */
+    PHASE_BEGIN = 16,
+    PHASE_COMPONENTS = 32, /* the roots of components, which of them are strong */
+    PHASE_ARCS = 64,       /* the roots of arcs, 0 in a weak component, and their points */
+    PHASE_PLACE = 128,     /* the arc table */
+    PHASE_SORT = 256,      /* the edge list */
+    PHASE_BITS = 9
 };
 typedef struct drogue_hls_registers {
     uint32_t phase;
     uint32_t status;
-    uint32_t row;    /* of ticks */
+    uint32_t refused[7]; /* 1: a register of the frame is not one that DROGUE_E_ARGUMENT, _REGION, _WORKSPACE allow */
+    uint32_t row;        /* of ticks */
+    uint32_t last_row;
     uint32_t column; /* tick of the row */
     uint32_t ends;   /* 1: its last */
     drogue_hls_frame frame;
-    int32_t ring_dx;     /* 2x - centre2_x of the first column that a row of ticks tests */
-    int32_t ring_dy;     /* 2y - centre2_y of the row of labels that begins next */
-    uint32_t bit;        /* of the three squares at work */
-    uint64_t square[3];  /* of ring_dx, ring_dy, the ring's longest side */
+    int32_t ring_dx;    /* 2x - centre2_x of the first column that a row of ticks tests */
+    int32_t ring_dy;    /* 2y - centre2_y of row -LAG_ROWS */
+    int32_t row_step;   /* what the square of the next row of labels is more */
+    uint32_t bit;       /* of the three squares at work */
+    uint32_t side[3];   /* ring_dx, ring_dy, the ring's longest side: their size, the bit at work on top */
+    uint32_t factor[3]; /* the size */
+    uint64_t square[3];
     int64_t ring_dy2_x9; /* nine times the second */
     drogue_hls_windows windows;
     drogue_hls_labels labels;
@@ -328,7 +393,7 @@ typedef struct drogue_hls_registers {
 /* 1 when the clock takes a pixel: it must wait for one. */
 static inline uint32_t drogue_hls_takes(const drogue_hls_registers *r)
 {
-    return (uint32_t)(r->phase == PHASE_ROWS) & r->windows.take;
+    return (uint32_t)((r->phase & PHASE_ROWS) != 0) & r->windows.take;
 }
 
 /* One clock.
@@ -341,13 +406,17 @@ static inline uint32_t drogue_hls_takes(const drogue_hls_registers *r)
 void drogue_hls_step(drogue_hls_registers *r, const drogue_hls_asked *asked, const drogue_hls_words *read,
                      drogue_hls_places *places, drogue_hls_writes *write);
 
-/* Append a point when it has an arc, and count it there. */
-void drogue_hls_append(drogue_hls_lists *list, uint64_t point, const drogue_hls_labels *labels,
-                       const drogue_hls_words *read, drogue_hls_writes *write);
+/* No point and no arc; the stages are empty at the end of a frame. */
+void drogue_hls_lists_begin(drogue_hls_lists *list);
+
+/* Append a point when it has an arc; count it there in the clocks after, which are any up to those of PHASE_COMPONENTS. */
+uint32_t drogue_hls_append(drogue_hls_lists *list, uint64_t point, const drogue_hls_near *arc,
+                           drogue_hls_writes *write);
+void drogue_hls_count(drogue_hls_lists *list, uint32_t arc, uint32_t listed, uint32_t anew,
+                      const drogue_hls_words *read, drogue_hls_places *places, drogue_hls_writes *write);
 
 /* A clock of a phase from PHASE_COMPONENTS on; 1 when the phase is complete. */
-uint32_t drogue_hls_lists_step(drogue_hls_lists *list, const drogue_hls_labels *labels, uint32_t phase,
-                               uint32_t min_arc_px, const drogue_hls_words *read, drogue_hls_places *places,
-                               drogue_hls_writes *write);
+uint32_t drogue_hls_lists_step(drogue_hls_lists *list, uint32_t phase, uint32_t min_arc_px,
+                               const drogue_hls_words *read, drogue_hls_places *places, drogue_hls_writes *write);
 
 #endif

@@ -13,7 +13,7 @@ work=build/hls/rtl/$width
 mkdir -p "$work"
 flags=(-std=c99 -w -Iinclude -Ihls "-DDROGUE_HLS_WIDTH=$width")
 
-sources=(hls/rtl/step_rtl.c hls/choose_label.c hls/frontend/{step,labels,lists,operators,pixels}.c)
+sources=(hls/rtl/step_rtl.c hls/frontend/{step,labels,lists,operators,pixels}.c)
 bitcode=()
 for source in "${sources[@]}"; do
     bitcode+=("$work/$(basename "$source" .c).bc")

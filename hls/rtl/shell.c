@@ -90,8 +90,10 @@ static void inputs(void)
 static void outputs(void)
 {
     printf("    assign busy = now_%u != 32'd%d || edge_write;\n", WIRE(phase), PHASE_IDLE);
-    printf("    assign listing = now_%u > 32'd%d;\n", WIRE(phase), PHASE_SETTLE);
-    printf("    assign pixel_ready = now_%u == 32'd%d && now_%u[0];\n", WIRE(phase), PHASE_ROWS, WIRE(windows.take));
+    printf("    assign listing = (now_%u & 32'd%d) != 0;\n", WIRE(phase),
+           PHASE_COMPONENTS | PHASE_ARCS | PHASE_PLACE | PHASE_SORT);
+    printf("    assign pixel_ready = (now_%u & 32'd%d) != 0 && now_%u[0];\n", WIRE(phase), PHASE_ROWS,
+           WIRE(windows.take));
     printf("    assign enable = !pixel_ready || pixel_valid;\n");
     printf("    assign status = now_%u;\n    assign edge_count = now_%u;\n    assign arc_count = now_%u;\n",
            WIRE(status), WIRE(lists.left), WIRE(lists.arcs));

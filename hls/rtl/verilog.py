@@ -9,6 +9,9 @@ of its lowest bit in the struct; those of an 'in' are for the surroundings to de
 is what its members, registers, become at the clock: surroundings give 'clock', 'reset' and 'enable'. A block of the control
 flow has a condition under which it is reached; where ways join, these choose the value. What cannot be expressed so is an
 error: nothing is guessed.
+
+A register has as many bits as the values that can reach it from 0 on: those above them would be flip-flops that yosys keeps,
+since it does not see that they are only ever handed on. That is found by assuming none, and more where a value has more.
 """
 import re
 import sys
@@ -97,7 +100,9 @@ class Types:
 
 
 class Function:
-    def __init__(self, text, name, ports):
+    def __init__(self, text, name, ports, kept):
+        self.kept = kept  # lowest bit of a register -> bits that it can need
+        self.most = {}  # value -> bits that it can need
         self.types = Types(text)
         head = re.search(rf"^define [^@]*@{name}\((.*)\)[^)]*\{{$", text, re.M)
         body = text[head.end() : text.index("\n}", head.end())]
@@ -144,7 +149,18 @@ class Function:
             fail(f"{v} is used before it is known")
         return self.names[v]
 
-    def wire(self, v, bits, expression):
+    def need(self, t, v):
+        """Bits that a value can need."""
+        if v in ("undef", "poison", "false"):
+            return 0
+        if v == "true":
+            return 1
+        if re.fullmatch(r"-?\d+", v):
+            return (int(v) % (1 << int(t[1:]))).bit_length()
+        return self.most[v]
+
+    def wire(self, v, bits, expression, most=None):
+        self.most[v] = bits if most is None else min(bits, most)
         self.names[v] = f"v{len(self.names)}"
         self.width[v] = bits
         self.lines.append(f"    wire [{bits - 1}:0] {self.names[v]} = {expression};")
@@ -198,10 +214,15 @@ class Function:
     def phi(self, block, v, code):
         t, rest = re.match(r"phi (\S+) (.*)", code).groups()
         ways = re.findall(rf"\[ ([^,]+), ({NAME}) \]", rest)
-        expression = self.value(t, ways[-1][0])
-        for of, via in reversed(ways[:-1]):
-            expression = f"{self.edges[via, block]} ? {self.value(t, of)} : {expression}"
-        self.wire(v, int(t[1:]), expression)
+        values = {}  # value -> conditions of the ways that bring it
+        for of, via in ways:
+            values.setdefault(self.value(t, of), []).append(self.edges[via, block])
+        else_value = max(values, key=lambda value: len(values[value]))  # what most ways bring asks for no condition
+        expression = else_value
+        for value, conditions in values.items():
+            if value != else_value:
+                expression = f"({' | '.join(conditions)}) ? {value} : {expression}"
+        self.wire(v, int(t[1:]), expression, max(self.need(t, of) for of, _ in ways))
 
     def pointer(self, text):
         """(port, bytes) of an address."""
@@ -236,6 +257,11 @@ class Function:
         if port is None or self.ports[port][1] == "in":
             fail(code)
         self.stores.setdefault(port, []).append((block, 8 * at, int(t[1:]), self.value(t, v)))
+        if self.ports[port][1] != "out":
+            for bit, bits in self.members[port].items():
+                if 8 * at <= bit < 8 * at + int(t[1:]):
+                    below = max(0, min(bits, self.need(t, v) - (bit - 8 * at)))
+                    self.kept[bit] = max(self.kept.get(bit, 0), below)
 
     def call(self, v, code):
         found = re.search(r"@llvm\.(\w+)[\w.]*\((.*)\)", code) or fail(code)
@@ -251,11 +277,32 @@ class Function:
         first = self.value(f"i{bits}", operands[0].split()[-1])
         if found[1] == "abs":
             self.wire(v, bits, f"{first}[{bits - 1}] ? -{first} : {first}")
+        elif found[1] == "fshl":  # a word out of two
+            second, places = self.value(f"i{bits}", operands[1].split()[-1]), int(operands[2].split()[-1])
+            self.wire(v, bits, f"({first} << {places}) | ({second} >> {bits - places})")
         elif found[1] in INTRINSICS:
             second = self.value(f"i{bits}", operands[1].split()[-1])
             self.wire(v, bits, INTRINSICS[found[1]].format(a=first, b=second))
         else:
             fail(code)
+
+    @staticmethod
+    def reach(operation, bits, by, a, b):
+        """Bits that a result can need, from those of its operands; 'by' is the text of the second one."""
+        places = int(by) if re.fullmatch(r"\d+", by) else None
+        if operation == "and":
+            return min(a, b)
+        if operation in ("or", "xor"):
+            return max(a, b)
+        if operation == "add":
+            return max(a, b) + 1
+        if operation == "mul":
+            return a + b
+        if operation == "shl" and places is not None:
+            return a + places
+        if operation == "lshr" or operation == "ashr" and a < bits:
+            return max(0, a - (places or 0))
+        return bits
 
     def instruction(self, block, line):
         assigned = re.match(rf"({NAME}) = (.*)", line)
@@ -275,14 +322,17 @@ class Function:
             port, at = self.pointer(where)
             if port is None or self.ports[port][1] != "in":
                 fail(line)
-            self.wire(v, int(t[1:]), self.load(port, 8 * at, int(t[1:])) or fail(line))
+            registers = self.ports[port][0] == "now" and self.members[port].get(8 * at) == int(t[1:])
+            most = min(self.kept.get(8 * at, 0), int(t[1:])) if registers else None
+            self.wire(v, int(t[1:]), self.load(port, 8 * at, int(t[1:])) or fail(line), most)
         elif operation == "store":
             self.store(block, code)
         elif operation in ("call", "tail"):
             self.call(v, code)
         elif operation == "select":
             parts = [p.split() for p in split(code[7:])]
-            self.wire(v, int(parts[1][0][1:]), "{} ? {} : {}".format(*(self.value(*p[:2]) for p in parts)))
+            most = max(self.need(*p[:2]) for p in parts[1:])
+            self.wire(v, int(parts[1][0][1:]), "{} ? {} : {}".format(*(self.value(*p[:2]) for p in parts)), most)
         elif operation == "icmp":
             how, t, a, b = re.match(r"icmp (\w+) (\S+) ([^,]+), (.+)", code).groups()
             sign = "$signed({})" if how[0] == "s" else "{}"
@@ -291,15 +341,23 @@ class Function:
         elif operation in ("zext", "sext", "trunc"):
             t, a, to = re.match(r"\w+ (\S+) (\S+) to (\S+)", code).groups()
             of, bits, more = self.value(t, a), int(to[1:]), int(to[1:]) - int(t[1:])
-            top = f"{of}[{int(t[1:]) - 1}]" if operation == "sext" else "1'd0"
-            self.wire(v, bits, f"{of}[{bits - 1}:0]" if operation == "trunc" else f"{{{{{more}{{{top}}}}}, {of}}}")
+            most = self.need(t, a)
+            signed = operation == "sext" and most == int(t[1:])
+            top = f"{of}[{int(t[1:]) - 1}]" if signed else "1'd0"
+            expression = f"{of}[{bits - 1}:0]" if operation == "trunc" else f"{{{{{more}{{{top}}}}}, {of}}}"
+            self.wire(v, bits, expression, None if signed else most)
         elif operation in OPERATORS or operation == "ashr":
             t, a, b = re.match(r"\w+ (\S+) ([^,]+), (.+)", code).groups()
+            most = self.reach(operation, int(t[1:]), b, self.need(t, a), self.need(t, b))
+            one = operation == "mul" and self.need(t, a) <= 1
             places = [i for i in range(64) if operation == "mul" and re.fullmatch(r"\d+", b) and int(b) >> i & 1]
             a, b = self.value(t, a), self.value(t, b)
-            if 1 <= len(places) <= 3:  # no multiplier for that
-                return self.wire(v, int(t[1:]), " + ".join(f"({a} << {i})" for i in places))
-            self.wire(v, int(t[1:]), f"$signed({a}) >>> {b}" if operation == "ashr" else f"{a} {OPERATORS[operation]} {b}")
+            if one:  # no multiplier for a bit, nor for few places
+                return self.wire(v, int(t[1:]), f"{a}[0] ? {b} : {t[1:]}'d0", most)
+            if 1 <= len(places) <= 3:
+                return self.wire(v, int(t[1:]), " + ".join(f"({a} << {i})" for i in places), most)
+            expression = f"$signed({a}) >>> {b}" if operation == "ashr" else f"{a} {OPERATORS[operation]} {b}"
+            self.wire(v, int(t[1:]), expression, most)
         else:
             fail(line)
 
@@ -318,11 +376,21 @@ class Function:
         for k, (port, way) in enumerate(self.ports):
             if way not in ("in", "out"):  # registers
                 for bit, bits in self.members[k].items():
-                    yield f"    reg [{bits - 1}:0] {way}_{bit} = {bits}'d0;"
+                    yield from self.register(way, bit, bits)
         yield from self.lines
         for k, (port, way) in enumerate(self.ports):
             if way != "in":
                 yield from self.assigned(port, way, self.members[k], self.stores[k])
+
+    def register(self, way, bit, bits):
+        most = min(self.kept.get(bit, 0), bits)
+        if most == 0:
+            yield f"    wire [{bits - 1}:0] {way}_{bit} = {bits}'d0;"
+        elif most == bits:
+            yield f"    reg [{bits - 1}:0] {way}_{bit} = {bits}'d0;"
+        else:
+            yield f"    reg [{most - 1}:0] kept_{bit} = {most}'d0;"
+            yield f"    wire [{bits - 1}:0] {way}_{bit} = {{{bits - most}'d0, kept_{bit}}};"
 
     def assigned(self, port, way, members, stores):
         """Each member once; one that no store names is 0."""
@@ -339,18 +407,27 @@ class Function:
         for bit, bits in members.items():
             yield f"    wire [{bits - 1}:0] {port}_{bit} = {values.get(bit, f'{bits}' + chr(39) + 'd0')};"
         if way != "out":
+            kept = {bit: (min(self.kept.get(bit, 0), bits), bits) for bit, bits in members.items() if self.kept.get(bit, 0)}
+            name = {bit: f"{way if most == bits else 'kept'}_{bit}" for bit, (most, bits) in kept.items()}
             yield "    always @(posedge clock) if (reset) begin"
-            yield from (f"        {way}_{bit} <= {bits}'d0;" for bit, bits in members.items())
+            yield from (f"        {name[bit]} <= {most}'d0;" for bit, (most, _) in kept.items())
             yield "    end else if (enable) begin"
-            yield from (f"        {way}_{bit} <= {port}_{bit};" for bit in members)
+            yield from (f"        {name[bit]} <= {port}_{bit}[{most - 1}:0];" for bit, (most, _) in kept.items())
             yield "    end"
 
 
 def main():
     path, name, *ports = sys.argv[1:]
-    function = Function(open(path).read(), name, [p.split("=") for p in ports])
+    kept, before, passes = {}, None, 0
+    while kept != before:
+        grown = {bit for bit in kept if before is not None and kept[bit] != before.get(bit, 0)}
+        if passes > 16:  # it counts without end: all of it
+            kept.update({bit: 64 for bit in grown})
+        before = dict(kept)
+        passes += 1
+        lines = list(Function(open(path).read(), name, [p.split("=") for p in ports], kept).body())
     print("    // Made from C by hls/rtl/verilog.py.")
-    for line in function.body():
+    for line in lines:
         print(line)
 
 
