@@ -69,7 +69,8 @@ typedef struct drogue_config {
     uint32_t min_inner_area_px;    /* 9 px: smaller inner parts are noise */
     int32_t min_inner_contrast;    /* 6 grey levels, [0, 255]: less contrast with its surround is no inner part */
     drogue_q16 inner_gate_px_q16;  /* 1.5 px, 0.05: the inner part is believed when it lies within so many pixels and */
-    drogue_q16 inner_gate_q16;     /* this share of the major semi-axis of where a pose expects it */
+    drogue_q16 inner_gate_q16;     /* this share of the major semi-axis of where a pose expects it; twice as
+                                      far where it is sharp, of its size and seen nearly all about */
     drogue_q16 min_inner_cover_q16; /* 0.5: and when this share of the rays across its edge agrees */
     drogue_q16 inner_rms_px_q16;    /* 0.65 px: and these lie about it by no more, root mean square */
     drogue_q16
@@ -81,7 +82,8 @@ typedef struct drogue_config {
     drogue_q16 inner_std_px_q16;        /* 0.05 px: standard deviation of the inner disc's centre, */
     drogue_q16 inner_std_share_q16;     /* 0.005: and what its size adds, as a share of the disc's semi-axis */
     drogue_q16 max_chi2_q16;            /* 16: outline and inner part contradict each other above this */
-    drogue_q16 min_chi2_gap_q16;        /* 9: the orientation is resolved when the other pose is worse by so much */
+    drogue_q16 min_chi2_gap_q16;        /* 9: the orientation is resolved when the other pose is worse by so much, where
+                                           they contradict each other by so many times chi2 */
 } drogue_config;
 
 /* Fill in the defaults given above. */

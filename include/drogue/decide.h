@@ -31,20 +31,21 @@ typedef struct drogue_decision {
     int64_t axis_std_rad_q32;      /* root mean square angle between measured and true axis, Q32 */
 } drogue_decision;
 
-/* Solve for outline and inner part together; for the outline alone when they contradict each other or there is no inner
- * part to be believed. Where there is one, the covariance is chi2 times as large where that, 0.5 on average of frames
- * that are as supposed, is above 1, and max_chi2 times where they contradict each other; and what the inner part's size
- * puts in doubt is added, at least 1/64 where they contradict each other. Where the model has an inner part and none is
- * to be believed, the outline may be another edge than the rim, or partly: 1.1 % of its size is added to every
- * parameter of the outline.
+/* Solve for outline and inner part together; for the outline alone where there is no inner part to be believed, or where
+ * the two contradict each other (chi2 above max_chi2) and neither pose is clearly the better one. That one is resolved
+ * where the other pose's chi2 is larger by min_chi2_gap, where they contradict each other by that times chi2: both are
+ * wrong by more than they say, and which pose it is stays clear. Where there is an inner part, the covariance is chi2
+ * times as large where that, 0.5 on average of frames that are as supposed, is above 1, and max_chi2 times that of the
+ * outline alone; and what the inner part's size puts in doubt is added, at least DROGUE_CONTRADICTED_Q16 where they
+ * contradict each other. Where the model has an inner part and none is to be believed, the outline may be another edge
+ * than the rim, or partly: 1.1 % of its size is added to every parameter of the outline.
  *
  *  out     undefined on failure
  *  return  DROGUE_OK, DROGUE_E_DOMAIN
  */
 drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup);
 
-#define DROGUE_CONTRADICTED_Q16 \
-    DROGUE_Q16(1, 64) /* the least doubt where outline and inner part contradict each other */
+#define DROGUE_CONTRADICTED_Q16 DROGUE_Q16(1, 64) /* least doubt where outline and inner part do so */
 
 #define DROGUE_DOUBT_PACKED 6 /* x, y, z: the first entries of a packed covariance that begins with them */
 
