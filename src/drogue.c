@@ -27,8 +27,9 @@ static void clear(drogue_result *out)
 
 /* What may be tried, in this order: the configured thresholds of Canny or those of the region's own noise, and of
  * either the outline found or a larger one about it; then, where the inner disc is too large for the best of them, one
- * along rays. */
-enum { FIRST, FIRST_LARGER, OWN, OWN_LARGER, BEYOND };
+ * along rays; before that, where the disc is far off its size or there is none, one about a disc that is seen without
+ * an outline. */
+enum { FIRST, FIRST_LARGER, OWN, OWN_LARGER, BEYOND, DISC };
 
 #define RAISES 2     /* at most, of thresholds of the noise that fill a table */
 #define LARGEST 1530 /* L1 Sobel magnitude that there is: a corner's */
@@ -123,6 +124,8 @@ static drogue_status try_own(drogue_second_look *room, drogue_frame *f, const dr
 #define SURE_Q16 DROGUE_Q16(1, 256)    /* of less doubt nothing else is tried */
 #define LEAST_Q16 DROGUE_Q16(2, 100)   /* by less the disc is too large for no other outline along rays */
 #define BEYOND_Q16 DROGUE_Q16(15, 100) /* by more than this it is too large for anything beyond the outline */
+#define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
+#define OF_SIZE_Q16 DROGUE_Q16(1, 64)  /* and then it must be of its size */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 
 /* Take back what was measured. */
@@ -163,7 +166,7 @@ static void return_to(const best_try *best, drogue_frame *f, const drogue_region
 {
     const int found = best->result->ellipse.a_px_q16 > 0; /* its arcs are in the list of that outline, pose or not */
     drogue_edge_list list;
-    if (found && (last == BEYOND || (best->what < OWN && last >= OWN))) {
+    if (found && best->what != last && (last >= BEYOND || (best->what < OWN && last >= OWN))) {
         if (best->what < OWN) {
             set_thresholds(f, f->setup->config->canny_high);
         }
@@ -219,6 +222,24 @@ static void try_beyond(best_try *best, drogue_frame *f)
     }
 }
 
+/* Look for the disc itself, and for an outline about it. DROGUE_E_NO_INNER_PART: there is none, the edges are as they
+ * were. */
+static drogue_status try_disc(best_try *best, drogue_frame *f, const drogue_region *region)
+{
+    drogue_status status;
+    begin_try(f);
+    clear(f->out);
+    status = drogue_frame_about_disc(f, region);
+    if (status == DROGUE_OK) {
+        status = judge(f, DISC);
+        if (status == DROGUE_OK && f->doubt_q16 <= OF_SIZE_Q16 && f->doubt_q16 < best->least_q16 - CLEARLY_Q16 &&
+            f->out->cover_q16 >= best->result->cover_q16 / 4 * 3) { /* what shows far less of an outline is no better */
+            keep_try(best, f, DISC, status);
+        }
+    }
+    return status;
+}
+
 /* Measure; while the inner disc is not seen or not of its size, try what else the outline may be. What has the disc
  * nearest to its size stands. */
 static drogue_status measure(drogue_frame *f, const drogue_region *region)
@@ -259,15 +280,23 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
             room = short_of_room(f, status);
         }
     }
+    if (best.least_q16 > DISC_Q16 && f->setup->model->inner_radius_m_q16 > 0) {
+        const drogue_edge_list list = f->out->list;
+        status = try_disc(&best, f, region);
+        if (status == DROGUE_E_NO_INNER_PART) {
+            f->out->list = list;
+        } else {
+            last = DISC;
+            room = room == DROGUE_SECOND_NONE ? short_of_room(f, status) : room;
+        }
+    }
     if (asks_beyond(&best) && f->workspace->capacity.edges >= DROGUE_INNER_BEYOND_POINTS) {
         try_beyond(&best, f);
         last = BEYOND;
     } else if (asks_beyond(&best) && room == DROGUE_SECOND_NONE) {
         room = DROGUE_SECOND_FULL;
     }
-    if (best.what != last || f->others) {
-        return_to(&best, f, region, last);
-    }
+    return_to(&best, f, region, last);
     if (too_large(&best)) {
         refuse(f->out);
         best.result->status = DROGUE_E_NO_ELLIPSE;

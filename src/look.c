@@ -2,6 +2,8 @@
 /* Region, front end, outline; and the second look at an outline that the ring cuts. */
 #include "look.h"
 
+#include <string.h>
+
 #include "drogue/frontend.h"
 #include "drogue/inner.h"
 
@@ -110,11 +112,11 @@ static drogue_status find_outline(drogue_frame *f, const drogue_region *region)
                : status;
 }
 
-/* Is one ellipse about where the other is, and about as large: within a third of its semi-axis? Each in the coordinates
+/* Is one ellipse about where the other is, and about as large: within a part of its semi-axis? Each in the coordinates
  * of its own region, of which the one's lies (x, y) beside the other's. */
-static int about_the_same(const drogue_ellipse *e, const drogue_ellipse *was, int32_t x_px, int32_t y_px)
+static int about_the_same(const drogue_ellipse *e, const drogue_ellipse *was, int32_t x_px, int32_t y_px, int32_t part)
 {
-    const drogue_q16 most = was->a_px_q16 / 3;
+    const drogue_q16 most = was->a_px_q16 / part;
     const drogue_q16 dx = drogue_sat_s32((int64_t)e->xc_px_q16 - was->xc_px_q16 + (int64_t)x_px * DROGUE_Q16_ONE);
     const drogue_q16 dy = drogue_sat_s32((int64_t)e->yc_px_q16 - was->yc_px_q16 + (int64_t)y_px * DROGUE_Q16_ONE);
     const int64_t da = (int64_t)e->a_px_q16 - was->a_px_q16;
@@ -140,7 +142,7 @@ static drogue_second_look look_again(drogue_frame *f, const drogue_outline *was)
     }
     return f->outline.cover_q16 >= was->cover_q16 &&
                    about_the_same(&f->outline.ellipse, &was->ellipse, f->out->region.x_px - x_px,
-                                  f->out->region.y_px - y_px)
+                                  f->out->region.y_px - y_px, 3)
                ? DROGUE_SECOND_BETTER
                : DROGUE_SECOND_NO_MORE;
 }
@@ -193,6 +195,99 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
     out->list.edge_count = drogue_inner_beyond(f->workspace, &f->view, &about, by_px_q16);
     return out->list.edge_count > 0 &&
                    drogue_outline_enlarge(outline, f->workspace, &out->list, &f->mask, f->setup->config)
+               ? DROGUE_OK
+               : DROGUE_E_NO_ELLIPSE;
+}
+
+static drogue_ellipse moved(const drogue_ellipse *e, int32_t x_px, int32_t y_px)
+{
+    drogue_ellipse m = *e;
+    m.xc_px_q16 = drogue_q16_add(m.xc_px_q16, drogue_q16_from_int(x_px));
+    m.yc_px_q16 = drogue_q16_add(m.yc_px_q16, drogue_q16_from_int(y_px));
+    return m;
+}
+
+/* Of the outlines that a disc allows the one that edge points cover best, if better than what there is. */
+static void best_ring(drogue_ellipse *best, drogue_q16 *most_q16, const drogue_frame *f,
+                      const drogue_inner_sight *sight)
+{
+    const int32_t turns = DROGUE_INNER_TURNS;
+    int32_t yaw;
+    int32_t pitch;
+    uint32_t i;
+    for (yaw = 0; yaw <= turns; yaw++) { /* bound: 7; of 13. What is turned the opposite way comes with it */
+        for (pitch = yaw == 0 ? 0 : -turns; pitch <= turns; pitch++) {
+            drogue_inner_expected rims;
+            if (yaw * yaw + pitch * pitch > turns * turns) {
+                continue;
+            }
+            drogue_inner_rims(&rims, sight, yaw, pitch, f->setup, f->out->region.x_px, f->out->region.y_px);
+            for (i = 0; i < rims.count; i++) {
+                const drogue_q16 cover =
+                    drogue_outline_covered(&rims.disc[i], f->workspace, &f->out->list, &f->mask, f->setup->config);
+                if (cover > *most_q16) {
+                    *most_q16 = cover;
+                    *best = rims.disc[i];
+                }
+            }
+        }
+    }
+}
+
+/* Is the ring mask made for an outline of that size: has it a twentieth to spare to either side? */
+static int of_size(const drogue_ellipse *e, const drogue_mask *mask)
+{
+    const int64_t longest = (int64_t)mask->longest_px * DROGUE_Q16_ONE;
+    return 21 * (int64_t)e->a_px_q16 <= 10 * longest && 57 * (int64_t)e->b_px_q16 >= 20 * longest;
+}
+
+drogue_status drogue_frame_ring(drogue_ellipse *ring, drogue_frame *f, const drogue_region *region)
+{
+    drogue_result *out = f->out;
+    drogue_region about = *region;
+    drogue_ellipse disc[2];
+    drogue_inner_sight sight[2];
+    drogue_inner_expected rims;
+    drogue_q16 most = 0;
+    uint32_t count;
+    uint32_t i;
+    drogue_status status = place_view(f, region);
+    f->second_look = DROGUE_SECOND_NONE;
+    memset(ring, 0, sizeof *ring);
+    count = status == DROGUE_OK ? drogue_inner_seek(disc, f->workspace->rays, &f->view, &f->mask, f->setup) : 0;
+    for (i = 0; i < count; i++) {
+        disc[i] = moved(&disc[i], out->region.x_px, out->region.y_px);
+        if (!drogue_inner_sight_of(&sight[i], &disc[i], f->setup->camera)) {
+            count = i;
+        }
+    }
+    if (count == 0) {
+        return DROGUE_E_NO_INNER_PART;
+    }
+    drogue_inner_rims(&rims, &sight[count - 1], 0, 0, f->setup, out->region.x_px, out->region.y_px);
+    if (rims.count > 0 && !of_size(&rims.disc[0], &f->mask)) {
+        about = region_about(&rims.disc[0], &out->region);
+    }
+    if (!drogue_workspace_spans(f->workspace, &about, f->image)) {
+        f->second_look = DROGUE_SECOND_TOO_WIDE;
+        return DROGUE_E_NO_ELLIPSE;
+    }
+    status = drogue_frame_edges(f, &about);
+    for (i = 0; i < count && status == DROGUE_OK; i++) {
+        best_ring(ring, &most, f, &sight[i]);
+    }
+    return status;
+}
+
+drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *region)
+{
+    drogue_ellipse ring;
+    const drogue_status status = drogue_frame_ring(&ring, f, region);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    return drogue_outline_settle(&f->outline, &ring, f->workspace, &f->out->list, &f->mask, f->setup->config) &&
+                   about_the_same(&f->outline.ellipse, &ring, 0, 0, 16)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;
 }

@@ -110,6 +110,45 @@ void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge
                         const drogue_inner_expected *expected, const drogue_ellipse *outline,
                         const drogue_pose poses[2], const drogue_setup *setup);
 
+/* Look for the inner disc about a region's middle, where no outline says where it is and how large: a dark circle of
+ * which 24 of 32 rays see the edge, from the place among 13 whose rays see the steepest one. Two where another lies
+ * within it, as the disc does in a collar.
+ *
+ *  out     region coordinates, semi-axes alike
+ *  rays    work area; the workspace has one
+ *  view    the region's pixels
+ *  mask    of the region asked for, as if made for a drogue in its middle: 2.4 times the outline's semi-axis
+ *  return  how many there are; none where the disc would be under 3 px, or the model has none
+ */
+uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
+                           const drogue_mask *mask, const drogue_setup *setup);
+
+/* A disc as seen from the camera. */
+typedef struct drogue_inner_sight {
+    drogue_q16 x_q16; /* tangents of its middle's direction */
+    drogue_q16 y_q16;
+    drogue_q16 length_q16; /* of (x, y, 1) */
+    drogue_q16 yaw_rad_q16;
+    drogue_q16 pitch_rad_q16;
+    drogue_q16 radius_q16; /* tangent of its radius on the optical axis, about */
+} drogue_inner_sight;
+
+/* Where a disc is; 0 when it reaches farther than 45 degrees off the axis, or beyond the lens model.
+ *
+ *  disc  as the lens shows it, px of the whole image
+ */
+int drogue_inner_sight_of(drogue_inner_sight *sight, const drogue_ellipse *disc, const drogue_camera *camera);
+
+#define DROGUE_INNER_TURNS 6 /* steps of 0.08 rad by which a drogue is turned from the line of sight at most */
+
+/* Outlines of two drogues whose disc is seen there, turned from the line of sight by so many steps and by the opposite:
+ * a first guess, to some per cent of their size. Through the lens; as drogue_inner_expect().
+ *
+ *  yaw, pitch  [-DROGUE_INNER_TURNS, DROGUE_INNER_TURNS]
+ */
+void drogue_inner_rims(drogue_inner_expected *rims, const drogue_inner_sight *sight, int32_t yaw, int32_t pitch,
+                       const drogue_setup *setup, int32_t x_px, int32_t y_px);
+
 #define DROGUE_INNER_BEYOND_POINTS 511 /* at most: the outline looks at all of so many at once */
 
 /* Look along rays for the outline that an inner disc is of the size for which is too large for the one found; its step

@@ -72,6 +72,17 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
 int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                            const drogue_mask *mask, const drogue_config *config);
 
+/* Share of an ellipse that edge points cover; 0 where it is no plausible outline. */
+drogue_q16 drogue_outline_covered(const drogue_ellipse *ring, const drogue_workspace *workspace,
+                                  const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config);
+
+/* Fit the edge points about an ellipse, as an outline without arcs.
+ *
+ *  return  1; 0: they cover too little, and 'out' has none
+ */
+int drogue_outline_settle(drogue_outline *out, const drogue_ellipse *ring, const drogue_workspace *workspace,
+                          const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config);
+
 /* None: no ellipse, no arcs. */
 void drogue_outline_clear(drogue_outline *outline);
 

@@ -64,19 +64,8 @@ static int put_point(drogue_edge *out, drogue_ray *r, const drogue_ray_edge *e, 
 static void cast(drogue_ray rays[RAYS], const drogue_image *view, const drogue_ellipse *about, drogue_q16 beyond_px_q16,
                  int32_t phase)
 {
-    int32_t k;
     drogue_rays_cast(rays, view, about, reach_of(beyond_px_q16), phase, 1, LEAST, 1);
-    for (k = 0; k < RAYS; k++) {
-        drogue_ray *r = &rays[k];
-        uint32_t kept = 0;
-        uint32_t i;
-        for (i = 0; i < r->count; i++) { /* bound: DROGUE_RAY_EDGES */
-            if (r->edges[i].at_px_q16 > -(beyond_px_q16 / 2)) {
-                r->edges[kept++] = r->edges[i];
-            }
-        }
-        r->count = kept;
-    }
+    drogue_rays_keep(rays, -(beyond_px_q16 / 2), DROGUE_Q16_MAX);
 }
 
 uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about,

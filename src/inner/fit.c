@@ -29,6 +29,22 @@ int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogu
     return best;
 }
 
+void drogue_rays_keep(drogue_ray rays[RAYS], drogue_q16 above_px_q16, drogue_q16 below_px_q16)
+{
+    int32_t k;
+    for (k = 0; k < RAYS; k++) {
+        drogue_ray *r = &rays[k];
+        uint32_t kept = 0;
+        uint32_t i;
+        for (i = 0; i < r->count; i++) { /* bound: DROGUE_RAY_EDGES */
+            if (r->edges[i].at_px_q16 > above_px_q16 && r->edges[i].at_px_q16 < below_px_q16) {
+                r->edges[kept++] = r->edges[i];
+            }
+        }
+        r->count = kept;
+    }
+}
+
 void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, const int32_t weight[2], const int32_t off_q16[2])
 {
     const int32_t both = weight[0] + weight[1];

@@ -354,6 +354,54 @@ static int ring_covered(const drogue_ellipse *ring, context *c)
     return c->looked_as == bright_bins || look(c, ring, bright_bins) == DROGUE_OK;
 }
 
+static void begin_rings(context *c, const drogue_workspace *workspace, const drogue_edge_list *list,
+                        const drogue_mask *mask, const drogue_config *config)
+{
+    memset(c, 0, sizeof *c);
+    c->workspace = workspace;
+    c->room = workspace->outline;
+    c->list = list;
+    c->mask = mask;
+    c->config = config;
+    drogue_collection_of_region(&c->room->sum);
+}
+
+drogue_q16 drogue_outline_covered(const drogue_ellipse *ring, const drogue_workspace *workspace,
+                                  const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config)
+{
+    context c;
+    begin_rings(&c, workspace, list, mask, config);
+    return plausible(ring, mask, config) && look(&c, ring, 0) == DROGUE_OK ? drogue_support_cover(&c.room->support) : 0;
+}
+
+/* As fitted and with what blur took put back. */
+static void finish_ring(drogue_outline *out, const drogue_config *config)
+{
+    out->fitted = out->ellipse;
+    drogue_undo_blur(&out->ellipse, config);
+}
+
+int drogue_outline_settle(drogue_outline *out, const drogue_ellipse *ring, const drogue_workspace *workspace,
+                          const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config)
+{
+    context c;
+    begin_rings(&c, workspace, list, mask, config);
+    drogue_outline_clear(out);
+    if (ring_covered(ring, &c) <= 0) {
+        return 0;
+    }
+    out->ellipse = *ring;
+    refit(out, &c);
+    if (out->cover_q16 < config->min_cover_q16) {
+        drogue_outline_clear(out);
+        return 0;
+    }
+    drogue_quality_of_cover(&out->quality, &out->ellipse, DROGUE_Q16_ONE, out->cover_q16, &config->quality);
+    out->cluster_members = 1;
+    finish_ring(out, config);
+    return 1;
+}
+
 int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
                            const drogue_mask *mask, const drogue_config *config)
 {
@@ -362,13 +410,7 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
     drogue_outline *trial;
     context c;
     int k;
-    memset(&c, 0, sizeof c);
-    c.workspace = workspace;
-    c.room = workspace->outline;
-    c.list = list;
-    c.mask = mask;
-    c.config = config;
-    drogue_collection_of_region(&c.room->sum);
+    begin_rings(&c, workspace, list, mask, config);
     trial = &c.room->trial;
     best = &c.room->best;
     *best = *out;
@@ -396,7 +438,6 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
         return 0;
     }
     *out = *best;
-    out->fitted = out->ellipse;
-    drogue_undo_blur(&out->ellipse, config);
+    finish_ring(out, config);
     return 1;
 }

@@ -199,7 +199,11 @@ public:
     {
         return sure() && cover_ >= 0.8L && (model_.inner_radius <= 0 || (resolved_ && off_ <= 0.3L + expected_ / 16));
     }
-    Real worth() const
+    /* To whole units of Q16: of what is equal in it the first stands. */
+    Real worth() const { return std::floor(exact_worth() * 65536 + 0.5L) / 65536; }
+
+private:
+    Real exact_worth() const
     {
         return !ok_      ? 0
                : !sure() ? 1 / 65536.0L + cover_ + (has_inner_ + resolved_) * 0.25L
@@ -207,7 +211,6 @@ public:
                          : (resolved_ ? 5 : 3) + cover_ - std::min<Real>(off_ / expected_, 1);
     }
 
-private:
     bool ok_, has_inner_, reliable_ = false, seen_ = false, sharp_ = false, dark_ = false;
     Real cover_;
     bool resolved_;

@@ -5,10 +5,16 @@
 #define drogue_outline_clear decisions_outline_clear
 #define drogue_outline_find decisions_outline_find
 #define drogue_outline_enlarge decisions_outline_enlarge
+#define drogue_outline_covered decisions_outline_covered
+#define drogue_outline_settle decisions_outline_settle
 drogue_status decisions_outline_find(drogue_outline *, const drogue_workspace *, const drogue_edge_list *,
                                      const drogue_mask *, const drogue_config *);
 int decisions_outline_enlarge(drogue_outline *, const drogue_workspace *, const drogue_edge_list *, const drogue_mask *,
                               const drogue_config *);
+drogue_q16 decisions_outline_covered(const drogue_ellipse *, const drogue_workspace *, const drogue_edge_list *,
+                                     const drogue_mask *, const drogue_config *);
+int decisions_outline_settle(drogue_outline *, const drogue_ellipse *, const drogue_workspace *,
+                             const drogue_edge_list *, const drogue_mask *, const drogue_config *);
 #include "../../../src/outline/outline.c"
 
 /* As refit() in outline.c, written down on the way. */

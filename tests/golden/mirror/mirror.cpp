@@ -8,6 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
+extern "C" {
+#include "../../../src/look.h"
+}
+
 namespace mirror {
 
 using reference::Ellipse;
@@ -453,6 +457,56 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     return f.front->list.edge_count > 0 && enlarge(out.outline, *f.front, f.mask, task.config, f.follow);
 }
 
+/* An outline about the inner disc where no outline says where that is: which ellipse the edge points are collected about is
+ * the library's choice, as edge points are. */
+bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
+{
+    const drogue_setup setup = {&task.library_camera, &task.library_model, &task.config};
+    const drogue_image image = {task.image.data, task.image.cols, task.image.rows,
+                                static_cast<int32_t>(task.image.step)};
+    const drogue_region region = {static_cast<int32_t>(task.region[0]), static_cast<int32_t>(task.region[1]),
+                                  static_cast<int32_t>(task.region[2]), static_cast<int32_t>(task.region[3])};
+    auto front = std::make_unique<FrontEnd>();
+    drogue_result held = {};
+    drogue_frame frame = {};
+    drogue_ellipse ring;
+    front->memory.resize(drogue_workspace_bytes(&task.capacity) / 4 + 1);
+    out.tried = 5;
+    out.status =
+        drogue_workspace_init(&front->workspace, front->memory.data(), front->memory.size() * 4, &task.capacity);
+    if (out.status != DROGUE_OK) {
+        return false;
+    }
+    frame.out = &held;
+    frame.workspace = &front->workspace;
+    frame.setup = &setup;
+    frame.image = &image;
+    frame.canny_low = task.config.canny_low;
+    frame.canny_high = task.config.canny_high;
+    out.status = drogue_frame_ring(&ring, &frame, &region);
+    out.second_look = frame.second_look;
+    if (out.status != DROGUE_OK) {
+        return false;
+    }
+    out.region = {held.region.x_px, held.region.y_px, held.region.width_px, held.region.height_px};
+    f.asked = {frame.asked.x_px, frame.asked.y_px, frame.asked.width_px, frame.asked.height_px};
+    f.mask = frame.mask;
+    f.view = task.image(out.region).clone();
+    front->status = DROGUE_OK;
+    front->list = held.list;
+    number(*front);
+    f.front = std::move(front);
+    f.follow.library = nullptr;
+    if (follow) {
+        f.follow.library = &f.decided;
+        (void)drogue_outline_settle(&f.decided, &ring, &f.front->workspace, &f.front->list, &f.mask, &task.config);
+    }
+    const Ellipse was = {real(ring.xc_px_q16), real(ring.yc_px_q16), real(ring.a_px_q16), 0, 0, true};
+    const bool found = settle(out.outline, ring, *f.front, f.mask, task.config, f.follow);
+    const Ellipse &e = out.outline.ellipse;
+    return found && std::fabs(e.a - was.a) <= was.a / 16 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 16;
+}
+
 bool is_full(drogue_status status)
 {
     return status == DROGUE_E_LABELS_FULL || status == DROGUE_E_EDGES_FULL || status == DROGUE_E_ARCS_FULL;
@@ -552,6 +606,27 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
         if (doubt < least - 1 / 256.0L && (status == DROGUE_OK || best.status != DROGUE_OK)) {
+            least = doubt;
+            best = out;
+            decided = f.decided;
+            asked_for = f.asked;
+            if (features != nullptr) {
+                *features = from;
+            }
+        }
+    }
+    if (least > 0.04L && task.model.inner_radius > 0) {
+        Result out;
+        Features from = {};
+        out.outline.arcs.fill(DROGUE_NO_ARC);
+        const Real doubt = about_disc(out, f, task, library != nullptr) ? judge(out, from, f, task, library) : DOUBTED;
+        if (room == DROGUE_SECOND_NONE) {
+            room = is_full(out.status)                         ? DROGUE_SECOND_FULL
+                   : out.second_look >= DROGUE_SECOND_TOO_WIDE ? out.second_look
+                                                               : DROGUE_SECOND_NONE;
+        }
+        if (out.status == DROGUE_OK && doubt < std::min<Real>(1, least - 1 / 256.0L) &&
+            out.outline.cover >= best.outline.cover * 3 / 4) {
             least = doubt;
             best = out;
             decided = f.decided;

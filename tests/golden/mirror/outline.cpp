@@ -79,6 +79,7 @@ public:
     {}
     drogue_status find(Outline &out);
     bool enlarge(Outline &out) const;
+    bool settle(Outline &out, const Ellipse &ring) const;
 
 private:
     using Arcs = std::array<uint32_t, 4>;
@@ -98,6 +99,7 @@ private:
     reference::Band band_about(const Ellipse &e) const;
     Outline refine(const Candidate &candidate) const;
     void refit(Outline &o, const decisions_round *rounds, int known) const;
+    bool on_ring(Outline &out, const Ellipse &ring) const;
     void narrow(reference::Band &band, const Support &s, const Ellipse &e) const;
     reference::ClusterConfig cluster() const;
 
@@ -346,6 +348,25 @@ void Finder::refit(Outline &o, const decisions_round *rounds, int known) const
                                                   : DROGUE_POLARITY_BOTH;
 }
 
+/* Refit about an ellipse; false when too little of it or of the outline is covered. */
+bool Finder::on_ring(Outline &out, const Ellipse &ring) const
+{
+    Real slack = 0;
+    uint32_t bright = 0;
+    if (cover(bright, slack, ring) < real(config_.min_cover_q16)) {
+        return false;
+    }
+    decisions_round rounds[DECISIONS_MAX];
+    const drogue_ellipse start = {q16(ring.xc), q16(ring.yc), q16(ring.a), q16(ring.b), q16(ring.angle)};
+    const int known = follow_.library != nullptr
+                          ? decisions_of_ring(rounds, &front_.workspace, &front_.list, &mask_, &config_, &start, bright)
+                          : 0;
+    out.ellipse = ring;
+    out.support.bright = bright;
+    refit(out, rounds, known);
+    return out.cover >= real(config_.min_cover_q16);
+}
+
 bool Finder::enlarge(Outline &out) const
 {
     Ellipse ring = out.fitted;
@@ -353,26 +374,12 @@ bool Finder::enlarge(Outline &out) const
     best.cover = 0;
     for (int k = 0; k < 14; k++) {
         Outline trial = out;
-        Real slack = 0;
-        uint32_t bright = 0;
         ring.a += ring.a / 40;
         ring.b += ring.b / 40;
         if (!plausible(ring)) {
             break;
         }
-        if (cover(bright, slack, ring) < real(config_.min_cover_q16)) {
-            continue;
-        }
-        decisions_round rounds[DECISIONS_MAX];
-        const drogue_ellipse start = {q16(ring.xc), q16(ring.yc), q16(ring.a), q16(ring.b), q16(ring.angle)};
-        const int known = follow_.library != nullptr ? decisions_of_ring(rounds, &front_.workspace, &front_.list,
-                                                                         &mask_, &config_, &start, bright)
-                                                     : 0;
-        trial.ellipse = ring;
-        trial.support.bright = bright;
-        refit(trial, rounds, known);
-        if (trial.cover >= best.cover && trial.cover >= real(config_.min_cover_q16) &&
-            trial.ellipse.b * 50 > out.fitted.b * 51) {
+        if (on_ring(trial, ring) && trial.cover >= best.cover && trial.ellipse.b * 50 > out.fitted.b * 51) {
             best = trial;
         }
     }
@@ -380,6 +387,19 @@ bool Finder::enlarge(Outline &out) const
         return false;
     }
     out = best;
+    return true;
+}
+
+bool Finder::settle(Outline &out, const Ellipse &ring) const
+{
+    out = Outline();
+    out.arcs.fill(NONE);
+    if (!plausible(ring) || !on_ring(out, ring)) {
+        return false;
+    }
+    out.quality = reference::quality_of_cover(out.ellipse, 1, out.cover, real(config_.quality.k1_q16),
+                                              real(config_.quality.k2_q16));
+    out.members = 1;
     return true;
 }
 
@@ -412,8 +432,7 @@ drogue_status Finder::find(Outline &out)
 
 } // namespace
 
-/* The list's edge points as numbers. */
-static void number(FrontEnd &front)
+void number(FrontEnd &front)
 {
     front.edges.clear();
     for (uint32_t i = 0; i < front.list.edge_count; i++) {
@@ -477,6 +496,19 @@ bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const
              const Follow &follow)
 {
     if (!Finder(front, mask, config, follow).enlarge(out)) {
+        return false;
+    }
+    out.fitted = out.ellipse;
+    undo_blur(out.ellipse, config);
+    return true;
+}
+
+bool settle(Outline &out, const drogue_ellipse &ring, const FrontEnd &front, const drogue_mask &mask,
+            const drogue_config &config, const Follow &follow)
+{
+    const Ellipse start = {real(ring.xc_px_q16), real(ring.yc_px_q16),     real(ring.a_px_q16),
+                           real(ring.b_px_q16),  real(ring.angle_rad_q16), true};
+    if (!Finder(front, mask, config, follow).settle(out, start)) {
         return false;
     }
     out.fitted = out.ellipse;

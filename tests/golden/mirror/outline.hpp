@@ -62,6 +62,13 @@ struct Outline {
 drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
                            const Follow &follow);
 
+/* The list's edge points as numbers. */
+void number(FrontEnd &front);
+
+/* The outline about an ellipse, as drogue_outline_settle(); false: none. */
+bool settle(Outline &out, const drogue_ellipse &ring, const FrontEnd &front, const drogue_mask &mask,
+            const drogue_config &config, const Follow &follow);
+
 /* A larger outline about the one found, as drogue_outline_enlarge(); false: none, 'out' as it was. */
 bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
              const Follow &follow);

@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The inner disc where no outline says where it is and how large, and the outlines that it allows. */
+#include "drogue/inner.h"
+
+#include <string.h>
+
+#include "drogue/undistort.h"
+#include "fit.h"
+
+#define PLACES 13                     /* tried about the region's middle */
+#define EVERY 2                       /* so many-th ray will do */
+#define ENOUGH (3 * RAYS / 4 / EVERY) /* rays that agree */
+#define LAST_PX DROGUE_Q16(3, 2)      /* they agree within this, or a sixteenth of the radius */
+#define SMALLEST_PX DROGUE_Q16(3, 1)  /* radius as the region suggests it, */
+#define LEAST_PX DROGUE_Q16(2, 1)     /* and as it is found */
+
+/* The places, in sixths of the outline's semi-axis as the region suggests it. */
+static const int8_t places[PLACES][2] = {{0, 0}, {1, 0},  {-1, 0}, {0, 1},  {0, -1}, {2, 0},  {-2, 0},
+                                         {0, 2}, {0, -2}, {1, 1},  {-1, 1}, {1, -1}, {-1, -1}};
+
+/* Settle on a circle about a first one; the sum of the slopes of the rays that agree, 0 when too few do. 'within' above
+ * 0: on one that lies farther within the first. */
+static int32_t settle(drogue_ellipse *e, drogue_ray rays[RAYS], const drogue_image *view, drogue_q16 reach_px_q16,
+                      drogue_q16 within_px_q16, const drogue_config *config)
+{
+    drogue_q16 v_px_q16[3] = {0, 0, 0};
+    drogue_ray_sums s;
+    drogue_rays_cast(rays, view, e, reach_px_q16, 4, EVERY, config->min_inner_contrast, 0);
+    drogue_rays_keep(rays, -DROGUE_Q16_MAX, within_px_q16 > 0 ? -within_px_q16 : DROGUE_Q16_MAX);
+    if (!drogue_ray_sums_settle(&s, v_px_q16, rays, reach_px_q16, larger(LAST_PX, e->a_px_q16 / 16), 1) ||
+        s.rays < ENOUGH || drogue_q16_add(e->a_px_q16, v_px_q16[2]) < LEAST_PX) {
+        return 0;
+    }
+    e->xc_px_q16 = drogue_q16_add(e->xc_px_q16, v_px_q16[0]);
+    e->yc_px_q16 = drogue_q16_add(e->yc_px_q16, v_px_q16[1]);
+    e->a_px_q16 = drogue_q16_add(e->a_px_q16, v_px_q16[2]);
+    e->b_px_q16 = e->a_px_q16;
+    return s.slopes_q8;
+}
+
+uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[RAYS], const drogue_image *view,
+                           const drogue_mask *mask, const drogue_setup *setup)
+{
+    const drogue_q16 a = drogue_sat_s32((int64_t)mask->longest_px * DROGUE_Q16(5, 12)); /* 2.4 of it in the region */
+    const drogue_q16 r =
+        drogue_q16_div(drogue_q16_mul(a, setup->model->inner_radius_m_q16), setup->model->rim_radius_m_q16);
+    int32_t steepest = 0;
+    int32_t k;
+    if (r < SMALLEST_PX || r > a) {
+        return 0;
+    }
+    for (k = 0; k < PLACES; k++) {
+        drogue_ellipse e;
+        int32_t slopes_q8;
+        memset(&e, 0, sizeof e);
+        e.xc_px_q16 = drogue_q16_add(mask->centre2_x * (DROGUE_Q16_ONE / 2), places[k][0] * (a / 6));
+        e.yc_px_q16 = drogue_q16_add(mask->centre2_y * (DROGUE_Q16_ONE / 2), places[k][1] * (a / 6));
+        e.a_px_q16 = r;
+        e.b_px_q16 = r;
+        slopes_q8 = settle(&e, rays, view, r / 4 * 3, 0, setup->config);
+        if (slopes_q8 > 0) { /* once more from there, where all rays see it alike */
+            slopes_q8 = settle(&e, rays, view, r / 4, 0, setup->config);
+        }
+        if (slopes_q8 > steepest) {
+            steepest = slopes_q8;
+            out[0] = e;
+        }
+    }
+    if (steepest == 0) {
+        return 0;
+    }
+    out[1] = out[0];
+    return settle(&out[1], rays, view, out[0].a_px_q16 / 3, out[0].a_px_q16 / 16, setup->config) > 0 ? 2 : 1;
+}
+
+/* Tangents of a pixel's direction; 0 where that is more than 45 degrees off the axis, or beyond the lens model. */
+static int direction_of(drogue_q16 tangent_q16[2], drogue_q16 x_px_q16, drogue_q16 y_px_q16,
+                        const drogue_camera *camera)
+{
+    if (drogue_undistort_point(&x_px_q16, &y_px_q16, camera) != DROGUE_OK) {
+        return 0;
+    }
+    tangent_q16[0] = drogue_q16_div(drogue_q16_sub(x_px_q16, camera->cx_px_q16), camera->fx_px_q16);
+    tangent_q16[1] = drogue_q16_div(drogue_q16_sub(y_px_q16, camera->cy_px_q16), camera->fy_px_q16);
+    return tangent_q16[0] <= DROGUE_Q16_ONE && tangent_q16[0] >= -DROGUE_Q16_ONE && tangent_q16[1] <= DROGUE_Q16_ONE &&
+           tangent_q16[1] >= -DROGUE_Q16_ONE;
+}
+
+int drogue_inner_sight_of(drogue_inner_sight *sight, const drogue_ellipse *disc, const drogue_camera *camera)
+{
+    const drogue_q16 x = disc->xc_px_q16;
+    const drogue_q16 y = disc->yc_px_q16;
+    const drogue_q16 a = disc->a_px_q16;
+    drogue_q16 middle[2];
+    drogue_q16 end[4][2];
+    uint64_t across2_q32;
+    if (!direction_of(middle, x, y, camera) || !direction_of(end[0], drogue_q16_sub(x, a), y, camera) ||
+        !direction_of(end[1], drogue_q16_add(x, a), y, camera) ||
+        !direction_of(end[2], x, drogue_q16_sub(y, a), camera) ||
+        !direction_of(end[3], x, drogue_q16_add(y, a), camera)) {
+        return 0;
+    }
+    sight->radius_q16 = (end[1][0] - end[0][0] + end[3][1] - end[2][1]) / 4;
+    across2_q32 = drogue_square_sum(middle[0], DROGUE_Q16_ONE);
+    sight->x_q16 = middle[0];
+    sight->y_q16 = middle[1];
+    sight->length_q16 = (drogue_q16)drogue_isqrt_u64(across2_q32 + drogue_square_sum(middle[1], 0));
+    sight->yaw_rad_q16 = (drogue_q16)drogue_shr_round_s64(drogue_atan2_q29(middle[0], DROGUE_Q16_ONE), 13);
+    sight->pitch_rad_q16 =
+        (drogue_q16)drogue_shr_round_s64(drogue_atan2_q29(middle[1], (int64_t)drogue_isqrt_u64(across2_q32)), 13);
+    return sight->radius_q16 > 0;
+}
+
+/* A drogue whose disc is there and whose axis is turned by so much from the line of sight. */
+static void turn(drogue_pose *pose, const drogue_inner_sight *sight, drogue_q16 yaw_rad_q16, drogue_q16 pitch_rad_q16,
+                 const drogue_model *model)
+{
+    /* Seen head-on its mean semi-axis is as much as on the optical axis times (1 + length) / 2, turned times (1 + cos) / 2,
+     * which is near 1 - turn^2 / 4. */
+    const drogue_q16 turn2_q16 = drogue_sat_s32((int64_t)(drogue_square_sum(yaw_rad_q16, pitch_rad_q16) >> 16));
+    const drogue_q16 facing_q16 = drogue_q16_mul(drogue_q16_add(DROGUE_Q16_ONE, sight->length_q16) / 2,
+                                                 drogue_q16_sub(DROGUE_Q16_ONE, turn2_q16 / 4));
+    const drogue_q16 z = drogue_q16_mul(drogue_q16_div(model->inner_radius_m_q16, sight->radius_q16), facing_q16);
+    int32_t s_q30[2];
+    int32_t c_q30[2];
+    int k;
+    pose->yaw_rad_q16 = sight->yaw_rad_q16 + yaw_rad_q16;
+    pose->pitch_rad_q16 = sight->pitch_rad_q16 + pitch_rad_q16;
+    drogue_sincos_q30(&s_q30[0], &c_q30[0], pose->yaw_rad_q16 * (1 << 13));
+    drogue_sincos_q30(&s_q30[1], &c_q30[1], pose->pitch_rad_q16 * (1 << 13));
+    pose->axis_q16[0] = (drogue_q16)drogue_shr_round_s64(drogue_product(s_q30[0], c_q30[1]), 44);
+    pose->axis_q16[1] = (drogue_q16)drogue_shr_round_s64(s_q30[1], 14);
+    pose->axis_q16[2] = (drogue_q16)drogue_shr_round_s64(drogue_product(c_q30[0], c_q30[1]), 44);
+    pose->position_m_q16[0] = drogue_q16_mul(sight->x_q16, z);
+    pose->position_m_q16[1] = drogue_q16_mul(sight->y_q16, z);
+    pose->position_m_q16[2] = z;
+    for (k = 0; k < 3; k++) { /* from the disc's middle to the rim's */
+        pose->position_m_q16[k] =
+            drogue_q16_sub(pose->position_m_q16[k], drogue_q16_mul(pose->axis_q16[k], model->inner_depth_m_q16));
+    }
+}
+
+void drogue_inner_rims(drogue_inner_expected *rims, const drogue_inner_sight *sight, int32_t yaw, int32_t pitch,
+                       const drogue_setup *setup, int32_t x_px, int32_t y_px)
+{
+    const drogue_q16 step_rad_q16 = DROGUE_Q16(8, 100);
+    drogue_model rim = *setup->model; /* whose disc is the rim */
+    drogue_setup seen = *setup;
+    drogue_pose poses[2];
+    turn(&poses[0], sight, yaw * step_rad_q16, pitch * step_rad_q16, setup->model);
+    turn(&poses[1], sight, -yaw * step_rad_q16, -pitch * step_rad_q16, setup->model);
+    rim.inner_radius_m_q16 = rim.rim_radius_m_q16;
+    rim.inner_depth_m_q16 = 0;
+    seen.model = &rim;
+    drogue_inner_expect(rims, poses, &seen, x_px, y_px);
+}
