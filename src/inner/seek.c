@@ -9,6 +9,7 @@
 
 #define PLACES 13                     /* tried about the region's middle */
 #define EVERY 2                       /* so many-th ray will do */
+#define PHASE 4                       /* two evenly in each bin */
 #define ENOUGH (3 * RAYS / 4 / EVERY) /* rays that agree */
 #define LAST_PX DROGUE_Q16(3, 2)      /* they agree within this, or a sixteenth of the radius */
 #define SMALLEST_PX DROGUE_Q16(3, 1)  /* radius as the region suggests it, */
@@ -18,16 +19,14 @@
 static const int8_t places[PLACES][2] = {{0, 0}, {1, 0},  {-1, 0}, {0, 1},  {0, -1}, {2, 0},  {-2, 0},
                                          {0, 2}, {0, -2}, {1, 1},  {-1, 1}, {1, -1}, {-1, -1}};
 
-/* Settle on a circle about a first one; the sum of the slopes of the rays that agree, 0 when too few do. 'within' above
- * 0: on one that lies farther within the first. */
-static int32_t settle(drogue_ellipse *e, drogue_ray rays[RAYS], const drogue_image *view, drogue_q16 reach_px_q16,
-                      drogue_q16 within_px_q16, const drogue_config *config)
+/* Settle the rays' edges on a circle, which is larger by so much at first; the sum of the slopes of the rays that agree, 0 when
+ * too few do. */
+static int32_t settle(drogue_ellipse *e, const drogue_ray rays[RAYS], drogue_q16 larger_px_q16, drogue_q16 gate_px_q16)
 {
     drogue_q16 v_px_q16[3] = {0, 0, 0};
     drogue_ray_sums s;
-    drogue_rays_cast(rays, view, e, reach_px_q16, 4, EVERY, config->min_inner_contrast, 0);
-    drogue_rays_keep(rays, -DROGUE_Q16_MAX, within_px_q16 > 0 ? -within_px_q16 : DROGUE_Q16_MAX);
-    if (!drogue_ray_sums_settle(&s, v_px_q16, rays, reach_px_q16, larger(LAST_PX, e->a_px_q16 / 16), 1) ||
+    v_px_q16[2] = larger_px_q16;
+    if (!drogue_ray_sums_settle(&s, v_px_q16, rays, gate_px_q16, larger(LAST_PX, e->a_px_q16 / 16), 1) ||
         s.rays < ENOUGH || drogue_q16_add(e->a_px_q16, v_px_q16[2]) < LEAST_PX) {
         return 0;
     }
@@ -44,33 +43,41 @@ uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[RAYS], const d
     const drogue_q16 a = drogue_sat_s32((int64_t)mask->longest_px * DROGUE_Q16(5, 12)); /* 2.4 of it in the region */
     const drogue_q16 r =
         drogue_q16_div(drogue_q16_mul(a, setup->model->inner_radius_m_q16), setup->model->rim_radius_m_q16);
+    const int32_t least = setup->config->min_inner_contrast;
     int32_t steepest = 0;
     int32_t k;
     if (r < SMALLEST_PX || r > a) {
         return 0;
     }
     for (k = 0; k < PLACES; k++) {
-        drogue_ellipse e;
-        int32_t slopes_q8;
-        memset(&e, 0, sizeof e);
-        e.xc_px_q16 = drogue_q16_add(mask->centre2_x * (DROGUE_Q16_ONE / 2), places[k][0] * (a / 6));
-        e.yc_px_q16 = drogue_q16_add(mask->centre2_y * (DROGUE_Q16_ONE / 2), places[k][1] * (a / 6));
-        e.a_px_q16 = r;
-        e.b_px_q16 = r;
-        slopes_q8 = settle(&e, rays, view, r / 4 * 3, 0, setup->config);
-        if (slopes_q8 > 0) { /* once more from there, where all rays see it alike */
-            slopes_q8 = settle(&e, rays, view, r / 4, 0, setup->config);
+        drogue_ellipse place;
+        int32_t size;
+        memset(&place, 0, sizeof place);
+        place.xc_px_q16 = drogue_q16_add(mask->centre2_x * (DROGUE_Q16_ONE / 2), places[k][0] * (a / 6));
+        place.yc_px_q16 = drogue_q16_add(mask->centre2_y * (DROGUE_Q16_ONE / 2), places[k][1] * (a / 6));
+        place.a_px_q16 = r;
+        place.b_px_q16 = r;
+        drogue_rays_cast(rays, view, &place, r / 4 * 3, PHASE, EVERY, least, 0);
+        for (size = -1; size <= 1; size++) { /* a collar's edge beside the disc's: each by itself */
+            drogue_ellipse e = place;
+            const int32_t slopes_q8 = settle(&e, rays, size * (r / 3), r / 4 * 3);
+            if (slopes_q8 > steepest) {
+                steepest = slopes_q8;
+                out[0] = e;
+            }
         }
-        if (slopes_q8 > steepest) {
-            steepest = slopes_q8;
-            out[0] = e;
-        }
+    }
+    if (steepest > 0) { /* once more from there, where all rays see it alike */
+        drogue_rays_cast(rays, view, &out[0], r / 4, PHASE, EVERY, least, 0);
+        steepest = settle(&out[0], rays, 0, r / 4);
     }
     if (steepest == 0) {
         return 0;
     }
     out[1] = out[0];
-    return settle(&out[1], rays, view, out[0].a_px_q16 / 3, out[0].a_px_q16 / 16, setup->config) > 0 ? 2 : 1;
+    drogue_rays_cast(rays, view, &out[1], out[0].a_px_q16 / 2, PHASE, EVERY, least, 0);
+    drogue_rays_keep(rays, -DROGUE_Q16_MAX, -(out[0].a_px_q16 / 16));
+    return settle(&out[1], rays, -(out[0].a_px_q16 / 4), out[0].a_px_q16 / 4) > 0 ? 2 : 1;
 }
 
 /* Tangents of a pixel's direction; 0 where that is more than 45 degrees off the axis, or beyond the lens model. */

@@ -275,6 +275,36 @@ void add_encoded(Set &set)
     }
 }
 
+/* Regions too small or too large for the outline, or beside it, where the inner disc leads to it; every second one through a
+ * lens. */
+void add_led_by_disc(Set &set)
+{
+    using accuracy::Variety;
+    int k = 0;
+    for (const Variety v : {Variety::plain, Variety::tilted, Variety::probe, Variety::ribs, Variety::offset,
+                            Variety::half, Variety::torus, Variety::clutter, Variety::far, Variety::bright,
+                            Variety::tilted, Variety::plain, Variety::spot, Variety::tilted}) {
+        accuracy::Trial t = accuracy::varied_trial(47, v, k, false);
+        if (k % 2 == 1) {
+            t.scene.camera.k1 = -0.2;
+            t.scene.camera.k2 = 0.03;
+        }
+        const accuracy::Ellipse rim = t.scene.rim();
+        const cv::Point2d centre = t.scene.camera.distort({rim.xc_px, rim.yc_px});
+        const int wide = cvRound(3.6 * rim.a_px),
+                  side = cvRound((k % 3 == 0   ? 1.7
+                                  : k % 3 == 1 ? 3.5
+                                               : 2.1) *
+                                 rim.a_px),
+                  off = k % 3 == 2 ? wide / 8 : 0;
+        t.region = {cvRound(centre.x) - wide / 2, cvRound(centre.y) - wide / 2, wide, wide};
+        Look l = {{(wide - side) / 2 + off, (wide - side) / 2 - off / 2, side, side}};
+        l.width = wide;
+        add_one(set, "led-by-disc-" + std::to_string(k), Tier::stress, {}, picture_of(t), l);
+        k++;
+    }
+}
+
 } // namespace
 
 void add_look(Set &set)
@@ -326,6 +356,16 @@ void add_look(Set &set)
         l = {{x - side / 2, y - side / 2, side, side}};
         add_one(set, "side-" + std::to_string(side), Tier::ordinary, {}, p, l);
     }
+    l = {{x - 33, y - 33, 66, 66}}; /* too small for the outline, which the disc leads to: but for room */
+    for (const int width : {66, 85, 86, 100}) {
+        l.width = width;
+        add_one(set, "disc-width-" + std::to_string(width), Tier::boundary, {"table-full", "threshold-met"}, p, l);
+    }
+    l.width = 400;
+    for (const int edges : {60, 240, 300, 400}) {
+        l.edges = edges;
+        add_one(set, "disc-edges-" + std::to_string(edges), Tier::stress, {"table-full"}, p, l);
+    }
     l = {{x - 20, y - 49, 97, 97}}; /* past the image's right border */
     add_one(set, "past-the-border", Tier::boundary, {"border", "arc"}, p, l);
     p.inner_radius = 0.12;
@@ -358,6 +398,7 @@ void add_look(Set &set)
     add_one(set, "along-rays", Tier::stress, {}, p, l);
     l.transfer = DROGUE_TRANSFER_SRGB; /* which it is not: other outlines */
     add_one(set, "srgb-along-rays", Tier::stress, {}, p, l);
+    add_led_by_disc(set);
     add_encoded(set);
     p.image = constant(100, 100, 80);
     l = {{0, 0, 100, 100}};
