@@ -20,7 +20,7 @@ INTRINSICS = {
     "smin": "($signed({a}) < $signed({b}) ? ({a}) : ({b}))",
     "smax": "($signed({a}) > $signed({b}) ? ({a}) : ({b}))",
 }
-OPERATORS = {"add": "+", "sub": "-", "mul": "*", "and": "&", "or": "|", "xor": "^", "shl": "<<", "lshr": ">>"}
+OPERATORS = {"add": "+", "sub": "-", "mul": "*", "udiv": "/", "and": "&", "or": "|", "xor": "^", "shl": "<<", "lshr": ">>"}
 COMPARISONS = {"eq": "==", "ne": "!=", "gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 
 
@@ -251,6 +251,10 @@ class Function:
         first = self.value(f"i{bits}", operands[0].split()[-1])
         if found[1] == "abs":
             self.wire(v, bits, f"{first}[{bits - 1}] ? -{first} : {first}")
+        elif found[1] == "fshl":  # the upper half of two words shifted together
+            second, places = (self.value(f"i{bits}", o.split()[-1]) for o in operands[1:])
+            self.wire(v + ".both", 2 * bits, f"{{{first}, {second}}} << {places}")
+            self.wire(v, bits, f"{self.names[v + '.both']}[{2 * bits - 1}:{bits}]")
         elif found[1] in INTRINSICS:
             second = self.value(f"i{bits}", operands[1].split()[-1])
             self.wire(v, bits, INTRINSICS[found[1]].format(a=first, b=second))

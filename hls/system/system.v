@@ -18,39 +18,56 @@ module drogue_system #(
     wire [31:0] d_word;
     wire [3:0] d_bytes;
     wire [2:0] i_burst, d_burst;
-    reg i_done, d_done;
-    reg [31:0] d_read;
+    reg [31:0] i_read, d_read;
     wire [31:0] ram_read, frame_read, bank_read;
     wire interrupt;
+
+    wire unit_asked, unit_ready, unit_answered, unit_taken;
+    wire [9:0] unit_function;
+    wire [31:0] unit_first, unit_second, unit_answer;
 
     VexRiscv core (
         .externalResetVector(32'd0), .timerInterrupt(1'b0), .softwareInterrupt(1'b0),
         .externalInterruptArray({31'd0, interrupt}), .clk(clock), .reset(reset),
+        .CfuPlugin_bus_cmd_valid(unit_asked), .CfuPlugin_bus_cmd_ready(unit_ready),
+        .CfuPlugin_bus_cmd_payload_function_id(unit_function), .CfuPlugin_bus_cmd_payload_inputs_0(unit_first),
+        .CfuPlugin_bus_cmd_payload_inputs_1(unit_second), .CfuPlugin_bus_rsp_valid(unit_answered),
+        .CfuPlugin_bus_rsp_ready(unit_taken), .CfuPlugin_bus_rsp_payload_outputs_0(unit_answer),
         .iBusWishbone_CYC(i_cycle), .iBusWishbone_STB(i_strobe), .iBusWishbone_ACK(i_done), .iBusWishbone_WE(),
-        .iBusWishbone_ADR(i_at), .iBusWishbone_DAT_MISO(ram_read), .iBusWishbone_DAT_MOSI(), .iBusWishbone_SEL(),
+        .iBusWishbone_ADR(i_at), .iBusWishbone_DAT_MISO(i_read), .iBusWishbone_DAT_MOSI(), .iBusWishbone_SEL(),
         .iBusWishbone_ERR(1'b0), .iBusWishbone_CTI(i_burst), .iBusWishbone_BTE(),
         .dBusWishbone_CYC(d_cycle), .dBusWishbone_STB(d_strobe), .dBusWishbone_ACK(d_done), .dBusWishbone_WE(d_write),
         .dBusWishbone_ADR(d_at), .dBusWishbone_DAT_MISO(d_read), .dBusWishbone_DAT_MOSI(d_word),
         .dBusWishbone_SEL(d_bytes), .dBusWishbone_ERR(1'b0), .dBusWishbone_CTI(d_burst), .dBusWishbone_BTE());
+    drogue_unit unit (
+        .clock(clock), .reset(reset), .asked(unit_asked), .ready(unit_ready), .function_id(unit_function),
+        .first(unit_first), .second(unit_second), .answered(unit_answered), .taken(unit_taken), .answer(unit_answer));
 
-    // An access takes two clocks, a cache line one more than it has words: while a word is there the next is asked for. Data go
-    // before instructions where both want the RAM.
-    wire i_more = i_done && i_burst == 3'd2, d_more = d_done && d_burst == 3'd2 && !d_write;
-    wire d_asks = d_cycle && d_strobe && (!d_done || d_more);
-    wire i_asks = i_cycle && i_strobe && (!i_done || i_more);
-    wire [29:0] d_place = d_at + {29'd0, d_more}, i_place = i_at + {29'd0, i_more};
+    // A word that is read comes two clocks after it was asked for: a clock in the memory, one more in a register, since the way from
+    // so many block RAMs is long. Of a cache line the next word is asked for each clock. What is written is done at once. Data go before
+    // instructions where both want the RAM.
+    reg [1:0] d_ahead, i_ahead; // words asked for that have not come: bit 0 in the memory, bit 1 in the register
+    wire [1:0] d_under_way = {1'b0, d_ahead[0]} + {1'b0, d_ahead[1]}, i_under_way = {1'b0, i_ahead[0]} + {1'b0, i_ahead[1]};
+    wire d_line = d_burst == 3'd2 || d_burst == 3'd7, i_line = i_burst == 3'd2 || i_burst == 3'd7;
+    wire [3:0] d_of_line = {1'b0, d_at[2:0]} + {2'd0, d_under_way}, i_of_line = {1'b0, i_at[2:0]} + {2'd0, i_under_way};
+    wire d_asks = d_cycle && d_strobe && (d_line && !d_write ? !d_of_line[3] : d_ahead == 2'd0);
+    wire i_asks = i_cycle && i_strobe && (i_line ? !i_of_line[3] : i_ahead == 2'd0);
+    wire [29:0] d_place = {d_at[29:3], d_line && !d_write ? d_of_line[2:0] : d_at[2:0]}, i_place = {i_at[29:3], i_of_line[2:0]};
     wire d_ram = d_asks && d_at[29:28] == 2'd0;
     wire d_frame = d_asks && d_at[29:28] == 2'd1;
     wire d_bank = d_asks && d_at[29:26] == 4'd8;
     wire d_own = d_asks && d_at[29:26] == 4'd9;
     wire frame_free;
-    always @(posedge clock) begin
-        d_done <= !reset && d_asks && (!d_frame || frame_free);
-        i_done <= !reset && i_asks && !d_ram;
-    end
+    wire d_given = d_asks && (!d_frame || frame_free), i_given = i_asks && !d_ram;
+    wire d_done = d_ahead[1] || (d_given && d_write), i_done = i_ahead[1];
     reg [3:0] was;
-    always @(posedge clock) was <= {d_own, d_bank, d_frame, d_ram};
-    always @(*) d_read = was[3] ? {31'd0, captured} : was[2] ? bank_read : was[1] ? frame_read : ram_read;
+    always @(posedge clock) begin
+        d_ahead <= reset ? 2'd0 : {d_ahead[0], d_given && !d_write};
+        i_ahead <= reset ? 2'd0 : {i_ahead[0], i_given};
+        was <= {d_own, d_bank, d_frame, d_ram};
+        d_read <= was[3] ? {31'd0, captured} : was[2] ? bank_read : was[1] ? frame_read : ram_read;
+        i_read <= ram_read;
+    end
 
     drogue_ram #(.WORDS(RAM_WORDS), .CONTENTS(FIRMWARE)) ram (
         .clock(clock), .enable(d_ram || i_asks), .write(d_bytes & {4{d_ram && d_write}}),
