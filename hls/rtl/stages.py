@@ -3,10 +3,10 @@
 
 usage: verilog.py IR FUNCTION asked=in out=out | stages.py MODULE NANOSECONDS
 
-The module's inputs are the words of 32 bits asked_BIT; they must stay as they are until it is done, so that a value used in
-a later stage than its own needs one register, not one a stage. A stage takes as many operations one after another as fit
-the nanoseconds by an estimate. 'step' counts clocks from 0 with the inputs there; in the clock of 'done' the outputs out_BIT
-are right. A division is that of a divider which its step starts.
+The module's input is the struct 'asked', whose words must stay as they are until it is done, so that a value used in a later
+stage than its own needs one register, not one a stage. A stage takes as many operations one after another as fit the
+nanoseconds by an estimate. 'step' counts clocks from 0 with the input there; in the clock of 'done' the struct 'out' is
+right. A division is that of a divider which its step starts.
 """
 import re
 import sys
@@ -74,14 +74,16 @@ def main():
                         f".dividend({a}), .divisor({b}), .quotient({name}));")
             at, before, own = at + DIVISION, 0.0, 0.0
         else:
-            made.append(f"    assign {name} = {expression};" if name.startswith("out_") else f"    wire [{bits - 1}:0] {name} = {expression};")
+            made.append(f"    assign out[{name[4:]} +: {bits}] = {expression};" if name.startswith("out_") else f"    wire [{bits - 1}:0] {name} = {expression};")
         stage[name], time[name], last = at, before + own, max(last, at)
-    outputs = [n for n in width if n.startswith("out_")]
+    bits_of = {u: int(n) for u, n in re.findall(r"^    // (\w+): (\d+) bits$", text, re.M)}
+    size = {port: max(int(u[len(port) + 1 :]) + n for u, n in {**bits_of, **width}.items() if u.startswith(port + "_"))
+            for port in ("asked", "out")}
     print(f"// Made from C by hls/rtl/verilog.py and stages.py: {last + 1} clocks.")
     print(f"module {module} (input wire clock, input wire [7:0] step, output wire done,")
-    print("".join(f"    input wire [31:0] {u},\n" for u in inputs), end="")
-    print(",\n".join(f"    output wire [{width[n] - 1}:0] {n}" for n in outputs) + ");")
+    print(f"    input wire [{size['asked'] - 1}:0] asked, output wire [{size['out'] - 1}:0] out);")
     print(f"    assign done = step == 8'd{last};")
+    print("\n".join(f"    wire [{bits_of[u] - 1}:0] {u} = asked[{u[6:]} +: {bits_of[u]}];" for u in inputs))
     print("\n".join(f"    reg [{width[n] - 1}:0] {n}_q;" for n in kept))
     print("\n".join(made))
     print("    always @(posedge clock) begin")

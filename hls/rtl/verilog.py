@@ -320,7 +320,9 @@ class Function:
                 self.instruction(block, line)
             self.leave(block, self.blocks[block][-1])
         for k, (port, way) in enumerate(self.ports):
-            if way not in ("in", "out"):  # registers
+            if way == "in":
+                yield from (f"    // {port}_{bit}: {bits} bits" for bit, bits in self.members[k].items())
+            elif way != "out":  # registers
                 for bit, bits in self.members[k].items():
                     yield f"    reg [{bits - 1}:0] {way}_{bit} = {bits}'d0;"
         yield from self.lines

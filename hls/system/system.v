@@ -9,7 +9,7 @@
 module drogue_system #(
     parameter RAM_WORDS = 53248, parameter FRAME_WORDS = 16384, parameter FIRMWARE = "firmware.hex",
     parameter WIDTH = 256, parameter EDGES = 2688, parameter ARCS = 96) (
-    input wire clock, input wire reset,
+    input wire clock, input wire half, input wire reset, // half: half as fast, edges together, as two outputs of one PLL
     input wire camera_valid, input wire camera_first, input wire [7:0] camera_pixel, output wire camera_ready,
     output wire result_valid, output wire [31:0] result,
     output wire block_busy, output wire list_read, output wire captured);
@@ -55,23 +55,56 @@ module drogue_system #(
     wire [29:0] d_place = {d_at[29:3], d_line && !d_write ? d_of_line[2:0] : d_at[2:0]}, i_place = {i_at[29:3], i_of_line[2:0]};
     wire d_ram = d_asks && d_at[29:28] == 2'd0;
     wire d_frame = d_asks && d_at[29:28] == 2'd1;
-    wire d_bank = d_asks && d_at[29:26] == 4'd8;
+    wire d_bank = d_asks && d_at[29:26] == 4'd8 && !bank_waits;
     wire d_own = d_asks && d_at[29:26] == 4'd9;
     wire frame_free;
-    wire d_given = d_asks && (!d_frame || frame_free), i_given = i_asks && !d_ram;
-    wire d_done = d_ahead[1] || (d_given && d_write), i_done = i_ahead[1];
-    reg [3:0] was;
+    wire d_given = d_asks && d_at[29:26] != 4'd8 && (!d_frame || frame_free), i_given = i_asks && !d_ram;
+    wire d_done = d_ahead[1] || (d_given && d_write) || bank_done, i_done = i_ahead[1];
+    reg [2:0] was;
     always @(posedge clock) begin
         d_ahead <= reset ? 2'd0 : {d_ahead[0], d_given && !d_write};
         i_ahead <= reset ? 2'd0 : {i_ahead[0], i_given};
-        was <= {d_own, d_bank, d_frame, d_ram};
-        d_read <= was[3] ? {31'd0, captured} : was[2] ? bank_read : was[1] ? frame_read : ram_read;
+        was <= {d_own, d_frame, d_ram};
+        d_read <= bank_selected ? bank_read : was[2] ? {31'd0, captured} : was[1] ? frame_read : ram_read;
         i_read <= ram_read;
     end
 
-    drogue_ram #(.WORDS(RAM_WORDS), .CONTENTS(FIRMWARE)) ram (
-        .clock(clock), .enable(d_ram || i_asks), .write(d_bytes & {4{d_ram && d_write}}),
-        .at(d_ram ? d_place[$clog2(RAM_WORDS)-1:0] : i_place[$clog2(RAM_WORDS)-1:0]), .word(d_word), .read(ram_read));
+    // The front end and its registers run by the slower clock: it has the longest ways, and half a per cent of the clocks. What it
+    // is told changes in the middle between its edges, and there it is heard, so that neither clock needs to be the earlier one.
+    reg tick, seen, bank_selected, bank_done;
+    wire middle = tick != seen, bank_waits = bank_selected || bank_done;
+    reg bank_write;
+    reg [17:0] bank_at;
+    reg [31:0] bank_word, frame_half;
+    initial {tick, seen} = 2'd0;
+    always @(posedge half) begin
+        tick <= !tick;
+        frame_half <= frame_read;
+    end
+    always @(posedge clock) begin
+        seen <= tick;
+        bank_done <= middle && bank_selected;
+        if (middle) begin
+            bank_selected <= !reset && d_bank;
+            {bank_write, bank_at, bank_word} <= {d_write, d_at[15:0], 2'd0, d_word};
+        end
+    end
+
+    // The most of the RAM in block RAMs of a bit each, which need the fewest of them for a bit and so the shortest way out; the rest,
+    // which the firmware begins without, apart.
+    localparam LOW_WORDS = RAM_WORDS / 16384 * 16384;
+    wire [$clog2(RAM_WORDS)-1:0] ram_at = d_ram ? d_place[$clog2(RAM_WORDS)-1:0] : i_place[$clog2(RAM_WORDS)-1:0];
+    wire [3:0] ram_write = d_bytes & {4{d_ram && d_write}};
+    wire high = ram_at >= LOW_WORDS;
+    wire [31:0] low_read, high_read;
+    reg was_high;
+    always @(posedge clock) was_high <= high;
+    assign ram_read = was_high ? high_read : low_read;
+    drogue_ram #(.WORDS(LOW_WORDS), .CONTENTS(FIRMWARE)) low_ram (
+        .clock(clock), .enable(1'b1), .write(ram_write & {4{!high}}), .at(ram_at), .word(d_word), .read(low_read));
+    drogue_ram #(.WORDS(RAM_WORDS - LOW_WORDS), .CONTENTS("")) high_ram (
+        .clock(clock), .enable(1'b1), .write(ram_write & {4{high}}), .at(ram_at[$clog2(RAM_WORDS - LOW_WORDS)-1:0]),
+        .word(d_word), .read(high_read));
 
     // The frame memory: the front end's while it runs, else the camera's when it brings a pixel, else the processor's.
     wire running;
@@ -100,9 +133,9 @@ module drogue_system #(
     end
 
     drogue_bank #(.WIDTH(WIDTH), .EDGES(EDGES), .ARCS(ARCS)) bank (
-        .clock(clock), .reset(reset), .select(d_bank), .write(d_write), .at({d_at[15:0], 2'd0}), .word(d_word),
+        .clock(half), .reset(reset), .select(bank_selected), .write(bank_write), .at(bank_at), .word(bank_word),
         .read(bank_read), .interrupt(interrupt), .running(running), .frame_at(block_at),
-        .frame_word(frame_read));
+        .frame_word(frame_half));
     assign result_valid = d_own && d_at[0] && d_write;
     assign result = d_word;
     assign block_busy = running;

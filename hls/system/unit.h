@@ -5,7 +5,18 @@
 
 #include "real_unit.h"
 
-enum { UNIT_REAL, UNIT_PUSH, UNIT_EXPONENT, UNIT_ZEROS };
+enum {
+    UNIT_REAL,
+    UNIT_PUSH,
+    UNIT_EXPONENT,
+    UNIT_ZEROS,
+    UNIT_TELL, /* two words of points_asked */
+    UNIT_PLACE,
+    UNIT_SAID,
+    UNIT_CLEAR, /* the moments */
+    UNIT_ADD,
+    UNIT_MOMENTS /* word after word */
+};
 
 /* In the order of the text: units keep what they were told. */
 #define UNIT(result, unit, what, first, second)                     \

@@ -30,5 +30,7 @@ part() {
 {
     part real_unit.c real_unit_linear
     part real_unit.c real_unit_quotient
+    part points_unit.c points_unit_place
+    part points_unit.c points_unit_moments
 } >"$work/units.v"
 echo "unit: $work/units.v"

@@ -11,14 +11,11 @@ module drogue_unit (
     reg busy;
     reg [7:0] step;
     wire linear_done, quotient_done;
-    wire [31:0] linear_mantissa, linear_exponent, quotient_mantissa, quotient_exponent;
+    wire [63:0] linear_real, quotient_real;
     drogue_real_unit_linear linear (
-        .clock(clock), .step(step), .done(linear_done), .asked_0(a[31:0]), .asked_32(a[63:32]), .asked_64(b[31:0]),
-        .asked_96(b[63:32]), .asked_128(c[31:0]), .asked_160(c[63:32]), .asked_192(d[31:0]), .asked_224(d[63:32]),
-        .asked_256({29'd0, what}), .out_0(linear_mantissa), .out_32(linear_exponent));
+        .clock(clock), .step(step), .done(linear_done), .asked({29'd0, what, d, c, b, a}), .out(linear_real));
     drogue_real_unit_quotient quotient (
-        .clock(clock), .step(step), .done(quotient_done), .asked_128(c[31:0]), .asked_160(c[63:32]), .asked_192(d[31:0]),
-        .asked_224(d[63:32]), .out_0(quotient_mantissa), .out_32(quotient_exponent));
+        .clock(clock), .step(step), .done(quotient_done), .asked({32'd0, d, c, b, a}), .out(quotient_real));
     wire divides = what == 3'd7;
     wire done = divides ? quotient_done : linear_done;
 
@@ -30,12 +27,33 @@ module drogue_unit (
         end
     endfunction
 
-    assign ready = !busy && (!answered || taken);
+    // Edge points: words of an ellipse, two at a time, then points. A point is asked for, and what is said of it fetched later.
+    reg [703:0] told;
+    reg [63:0] point;
+    reg placing, adding, out_of;
+    reg [7:0] place_step, add_step;
+    reg [31:0] added;
+    reg [1279:0] moments;
+    wire place_done, add_done;
+    wire [31:0] place_said;
+    wire [1279:0] moments_next;
+    reg [31:0] said;
+    drogue_points_unit_place place (
+        .clock(clock), .step(place_step), .done(place_done), .asked({point, told[671:0]}), .out(place_said));
+    drogue_points_unit_moments add (
+        .clock(clock), .step(add_step), .done(add_done), .asked({31'd0, out_of, added, moments}), .out(moments_next));
+
+    wire [6:0] unit = function_id[9:3];
+    assign ready = !busy && (!answered || taken) && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
+        !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9));
     wire begins = asked && ready;
     always @(posedge clock) begin
         step <= begins ? 8'd0 : step + 8'd1;
+        place_step <= place_step + 8'd1;
+        add_step <= add_step + 8'd1;
         if (taken) answered <= 1'b0;
-        if (begins) case (function_id[9:3])
+        if (begins && unit != 7'd0) answered <= 1'b1;
+        if (begins) case (unit)
             7'd0: begin
                 d <= {second, first};
                 what <= function_id[2:0];
@@ -46,22 +64,41 @@ module drogue_unit (
                 b <= c;
                 c <= {second, first};
             end
-            default: ;
+            7'd2: answer <= exponent;
+            7'd3: answer <= {26'd0, leading_zeros(first)};
+            7'd4: told <= {second, first, told[703:64]};
+            7'd5: begin
+                point <= {second, first};
+                place_step <= 8'd0;
+                placing <= 1'b1;
+            end
+            7'd6: answer <= said;
+            7'd7: moments <= 1280'd0;
+            7'd8: begin
+                added <= first;
+                out_of <= second[0];
+                add_step <= 8'd0;
+                adding <= 1'b1;
+            end
+            default: begin
+                answer <= moments[31:0];
+                moments <= {moments[31:0], moments[1279:32]};
+            end
         endcase
-        if (begins && function_id[9:3] != 7'd0) begin
-            answer <= function_id[9:3] == 7'd2 ? exponent : {26'd0, leading_zeros(first)};
-            answered <= 1'b1;
-        end
         if (busy && done) begin
             busy <= 1'b0;
-            answer <= divides ? quotient_mantissa : linear_mantissa;
-            exponent <= divides ? quotient_exponent : linear_exponent;
+            {exponent, answer} <= divides ? quotient_real : linear_real;
             answered <= 1'b1;
         end
-        if (reset) begin
-            busy <= 1'b0;
-            answered <= 1'b0;
+        if (placing && place_done) begin
+            placing <= 1'b0;
+            said <= place_said;
         end
+        if (adding && add_done) begin
+            adding <= 1'b0;
+            moments <= moments_next;
+        end
+        if (reset) {busy, answered, placing, adding} <= 4'd0;
     end
 endmodule
 
