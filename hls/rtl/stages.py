@@ -36,6 +36,7 @@ def main():
     module, period = sys.argv[1], float(sys.argv[2])
     text = sys.stdin.read()
     lines = re.findall(r"^    wire (?:\[(\d+):0\] )?(\w+) = (.*);$", text, re.M)
+    bits_of = {u: int(n) for u, n in re.findall(r"^    // (\w+): (\d+) bits$", text, re.M)}
     width, made, stage, time, extended = {}, [], {}, {}, {}
     inputs, kept, last = [], {}, 0
     for top, name, expression in lines:
@@ -62,6 +63,8 @@ def main():
             at += 1  # it begins with registers
         before = max((time[u] for u in used if stage[u] == at), default=0.0)
         own = delay(expression, max([bits] + [width.get(u, 0) for u in used]))
+        if product and any(p in extended and bits_of.get(extended[p][1], width.get(extended[p][1], 32)) <= 16 for p in product.groups()):
+            own = 7.0  # of one block
         if before > 0 and before + own > period:
             at, before = at + 1, 0.0
         for u in used:
@@ -76,7 +79,6 @@ def main():
         else:
             made.append(f"    assign out[{name[4:]} +: {bits}] = {expression};" if name.startswith("out_") else f"    wire [{bits - 1}:0] {name} = {expression};")
         stage[name], time[name], last = at, before + own, max(last, at)
-    bits_of = {u: int(n) for u, n in re.findall(r"^    // (\w+): (\d+) bits$", text, re.M)}
     size = {port: max(int(u[len(port) + 1 :]) + n for u, n in {**bits_of, **width}.items() if u.startswith(port + "_"))
             for port in ("asked", "out")}
     print(f"// Made from C by hls/rtl/verilog.py and stages.py: {last + 1} clocks.")

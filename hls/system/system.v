@@ -24,7 +24,8 @@ module drogue_system #(
 
     wire unit_asked, unit_ready, unit_answered, unit_taken;
     wire [9:0] unit_function;
-    wire [31:0] unit_first, unit_second, unit_answer;
+    wire [31:0] unit_first, unit_second, unit_answer, ray_at;
+    wire ray_asks, running, takes;
 
     VexRiscv core (
         .externalResetVector(32'd0), .timerInterrupt(1'b0), .softwareInterrupt(1'b0),
@@ -41,7 +42,8 @@ module drogue_system #(
         .dBusWishbone_SEL(d_bytes), .dBusWishbone_ERR(1'b0), .dBusWishbone_CTI(d_burst), .dBusWishbone_BTE());
     drogue_unit unit (
         .clock(clock), .reset(reset), .asked(unit_asked), .ready(unit_ready), .function_id(unit_function),
-        .first(unit_first), .second(unit_second), .answered(unit_answered), .taken(unit_taken), .answer(unit_answer));
+        .first(unit_first), .second(unit_second), .answered(unit_answered), .taken(unit_taken), .answer(unit_answer),
+        .frame_asks(ray_asks), .frame_at(ray_at), .frame_free(!running && !takes), .frame_word(frame_read));
 
     // A word that is read comes two clocks after it was asked for: a clock in the memory, one more in a register, since the way from
     // so many block RAMs is long. Of a cache line the next word is asked for each clock. What is written is done at once. Data go before
@@ -106,16 +108,15 @@ module drogue_system #(
         .clock(clock), .enable(1'b1), .write(ram_write & {4{high}}), .at(ram_at[$clog2(RAM_WORDS - LOW_WORDS)-1:0]),
         .word(d_word), .read(high_read));
 
-    // The frame memory: the front end's while it runs, else the camera's when it brings a pixel, else the processor's.
-    wire running;
+    // The frame memory: the front end's while it runs, else the camera's when it brings a pixel, else the rays' unit's, else the processor's.
     wire [31:0] block_at;
     reg [31:0] wanted, taken;
-    wire takes = camera_valid && camera_ready;
+    assign takes = camera_valid && camera_ready;
     wire [31:0] place = camera_first ? 32'd0 : taken;
     assign captured = wanted == 32'd0;
     assign camera_ready = !captured && !running && (camera_first || taken != 32'd0);
-    assign frame_free = !running && !takes;
-    wire [31:0] frame_at = running ? block_at : takes ? place : {d_place, 2'd0};
+    assign frame_free = !running && !takes && !ray_asks;
+    wire [31:0] frame_at = running ? block_at : takes ? place : ray_asks ? ray_at : {d_place, 2'd0};
     drogue_ram #(.WORDS(FRAME_WORDS), .CONTENTS("")) frame (
         .clock(clock), .enable(1'b1), .write(running ? 4'd0 : takes ? 4'd1 << place[1:0] : 4'd0),
         .at(frame_at[2 +: $clog2(FRAME_WORDS)]), .word({4{camera_pixel}}), .read(frame_read));

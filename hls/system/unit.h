@@ -15,7 +15,12 @@ enum {
     UNIT_SAID,
     UNIT_CLEAR, /* the moments */
     UNIT_ADD,
-    UNIT_MOMENTS /* word after word */
+    UNIT_MOMENTS, /* word after word */
+    UNIT_RAY_IMAGE,
+    UNIT_RAY_SIZE,
+    UNIT_RAY_STEP,
+    UNIT_RAY_BEGIN,
+    UNIT_RAY_GREY /* sample after sample */
 };
 
 /* In the order of the text: units keep what they were told. */

@@ -32,5 +32,7 @@ part() {
     part real_unit.c real_unit_quotient
     part points_unit.c points_unit_place
     part points_unit.c points_unit_moments
+    part ray_unit.c ray_unit_place
+    part ray_unit.c ray_unit_grey
 } >"$work/units.v"
 echo "unit: $work/units.v"

@@ -3,7 +3,9 @@
 module drogue_unit (
     input wire clock, input wire reset,
     input wire asked, output wire ready, input wire [9:0] function_id, input wire [31:0] first, input wire [31:0] second,
-    output reg answered, input wire taken, output reg [31:0] answer);
+    output reg answered, input wire taken, output reg [31:0] answer,
+    // the frame memory's: the word about a byte, a clock after it was asked for
+    output wire frame_asks, output wire [31:0] frame_at, input wire frame_free, input wire [31:0] frame_word);
     // Reals, mantissa and exponent: a, b, c were told before the operation, which brings d.
     reg [63:0] a, b, c, d;
     reg [2:0] what;
@@ -43,9 +45,28 @@ module drogue_unit (
     drogue_points_unit_moments add (
         .clock(clock), .step(add_step), .done(add_done), .asked({31'd0, out_of, added, moments}), .out(moments_next));
 
+    // Grey along a ray: while the soft core takes a sample the next is fetched, a pixel a clock once its place is known.
+    reg [63:0] image, size, pace, where; // first byte, stride; width, height; and so on
+    reg [3:0] fetch; // 0: not; 1: where; 2: the first pixel is asked for; to 6: the last one comes; 7: interpolated; 8: there
+    reg [7:0] ray_step;
+    reg [191:0] sample;
+    reg [1:0] byte_of;
+    reg [31:0] pixels, grey;
+    wire where_done, grey_done;
+    wire [191:0] sample_said;
+    wire [31:0] grey_said;
+    wire [31:0] pixel_at = fetch[2] ? fetch[0] ? sample[127:96] : sample[95:64] : fetch[0] ? sample[63:32] : sample[31:0];
+    drogue_ray_unit_place ray_place (
+        .clock(clock), .step(ray_step), .done(where_done), .asked({where, image, size}), .out(sample_said));
+    drogue_ray_unit_grey ray_grey (
+        .clock(clock), .step(ray_step), .done(grey_done), .asked({sample[191:128], pixels}), .out(grey_said));
+    assign frame_asks = fetch >= 4'd2 && fetch <= 4'd5;
+    assign frame_at = pixel_at;
+    wire [31:0] shifted = frame_word >> {byte_of, 3'd0};
+
     wire [6:0] unit = function_id[9:3];
     assign ready = !busy && (!answered || taken) && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
-        !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9));
+        !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(unit == 7'd14 && fetch != 4'd8);
     wire begins = asked && ready;
     always @(posedge clock) begin
         step <= begins ? 8'd0 : step + 8'd1;
@@ -80,9 +101,17 @@ module drogue_unit (
                 add_step <= 8'd0;
                 adding <= 1'b1;
             end
-            default: begin
+            7'd9: begin
                 answer <= moments[31:0];
                 moments <= {moments[31:0], moments[1279:32]};
+            end
+            7'd10: image <= {second, first};
+            7'd11: size <= {second, first};
+            7'd12: pace <= {second, first};
+            7'd13: where <= {second, first};
+            default: begin
+                answer <= grey;
+                where <= {where[63:32] + pace[63:32], where[31:0] + pace[31:0]};
             end
         endcase
         if (busy && done) begin
@@ -98,7 +127,28 @@ module drogue_unit (
             adding <= 1'b0;
             moments <= moments_next;
         end
-        if (reset) {busy, answered, placing, adding} <= 4'd0;
+        ray_step <= ray_step + 8'd1;
+        byte_of <= pixel_at[1:0];
+        if (begins && (unit == 7'd13 || unit == 7'd14)) begin
+            fetch <= 4'd1;
+            ray_step <= 8'd0;
+        end else case (fetch)
+            4'd0, 4'd8: ;
+            4'd1: if (where_done) begin
+                fetch <= 4'd2;
+                sample <= sample_said;
+            end
+            4'd7: if (grey_done) begin
+                fetch <= 4'd8;
+                grey <= grey_said;
+            end
+            default: begin
+                fetch <= frame_free || fetch == 4'd6 ? fetch + 4'd1 : 4'd2; // from the first once more
+                pixels <= {shifted[7:0], pixels[31:8]};
+                ray_step <= 8'd0;
+            end
+        endcase
+        if (reset) {busy, answered, placing, adding, fetch} <= 8'd0;
     end
 endmodule
 
