@@ -25,7 +25,8 @@ module drogue_system #(
     wire unit_asked, unit_ready, unit_answered, unit_taken;
     wire [9:0] unit_function;
     wire [31:0] unit_first, unit_second, unit_answer, ray_at;
-    wire ray_asks, running, takes;
+    wire ray_free;
+    reg running; // the front end
 
     VexRiscv core (
         .externalResetVector(32'd0), .timerInterrupt(1'b0), .softwareInterrupt(1'b0),
@@ -43,31 +44,37 @@ module drogue_system #(
     drogue_unit unit (
         .clock(clock), .reset(reset), .asked(unit_asked), .ready(unit_ready), .function_id(unit_function),
         .first(unit_first), .second(unit_second), .answered(unit_answered), .taken(unit_taken), .answer(unit_answer),
-        .frame_asks(ray_asks), .frame_at(ray_at), .frame_free(!running && !takes), .frame_word(frame_read));
+        .frame_at(ray_at), .frame_free(ray_free), .frame_word(frame_read));
 
-    // A word that is read comes two clocks after it was asked for: a clock in the memory, one more in a register, since the way from
-    // so many block RAMs is long. Of a cache line the next word is asked for each clock. What is written is done at once. Data go before
-    // instructions where both want the RAM.
-    reg [1:0] d_ahead, i_ahead; // words asked for that have not come: bit 0 in the memory, bit 1 in the register
-    wire [1:0] d_under_way = {1'b0, d_ahead[0]} + {1'b0, d_ahead[1]}, i_under_way = {1'b0, i_ahead[0]} + {1'b0, i_ahead[1]};
-    wire d_line = d_burst == 3'd2 || d_burst == 3'd7, i_line = i_burst == 3'd2 || i_burst == 3'd7;
+    // A word that is read comes three clocks after it was asked for: the way to so many block RAMs and the way from there are long,
+    // and registers lie before and after. Of a cache line the next word is asked for each clock. What is written is done at once. Data
+    // go before instructions where both want the RAM.
+    reg [2:0] d_ahead, i_ahead; // words asked for that have not come: on the way there, in the memory, on the way back
+    wire [1:0] d_under_way = {1'b0, d_ahead[0]} + {1'b0, d_ahead[1]} + {1'b0, d_ahead[2]};
+    wire [1:0] i_under_way = {1'b0, i_ahead[0]} + {1'b0, i_ahead[1]} + {1'b0, i_ahead[2]};
+    wire d_line = d_burst != 3'd0 && !d_write;
     wire [3:0] d_of_line = {1'b0, d_at[2:0]} + {2'd0, d_under_way}, i_of_line = {1'b0, i_at[2:0]} + {2'd0, i_under_way};
-    wire d_asks = d_cycle && d_strobe && (d_line && !d_write ? !d_of_line[3] : d_ahead == 2'd0);
-    wire i_asks = i_cycle && i_strobe && (i_line ? !i_of_line[3] : i_ahead == 2'd0);
-    wire [29:0] d_place = {d_at[29:3], d_line && !d_write ? d_of_line[2:0] : d_at[2:0]}, i_place = {i_at[29:3], i_of_line[2:0]};
+    wire d_asks = d_cycle && d_strobe && (d_line ? !d_of_line[3] : d_ahead == 3'd0);
+    wire i_asks = i_cycle && i_strobe && !i_of_line[3];
     wire d_ram = d_asks && d_at[29:28] == 2'd0;
-    wire d_frame = d_asks && d_at[29:28] == 2'd1;
+    wire d_frame = d_asks && d_at[29:28] == 2'd1 && !running;
     wire d_bank = d_asks && d_at[29:26] == 4'd8 && !bank_waits;
     wire d_own = d_asks && d_at[29:26] == 4'd9;
-    wire frame_free;
-    wire d_given = d_asks && d_at[29:26] != 4'd8 && (!d_frame || frame_free), i_given = i_asks && !d_ram;
-    wire d_done = d_ahead[1] || (d_given && d_write) || bank_done, i_done = i_ahead[1];
-    reg [2:0] was;
+    wire d_given = d_ram || d_frame || d_own, i_given = i_asks && !d_ram;
+    wire d_done = d_ahead[2] || (d_given && d_write) || bank_done, i_done = i_ahead[2];
+    reg [29:0] place; // of what goes to RAM or frame memory
+    reg [31:0] ram_word;
+    reg [3:0] ram_write;
+    reg to_frame, to_own, from_frame, from_own;
     always @(posedge clock) begin
-        d_ahead <= reset ? 2'd0 : {d_ahead[0], d_given && !d_write};
-        i_ahead <= reset ? 2'd0 : {i_ahead[0], i_given};
-        was <= {d_own, d_frame, d_ram};
-        d_read <= bank_selected ? bank_read : was[2] ? {31'd0, captured} : was[1] ? frame_read : ram_read;
+        d_ahead <= reset ? 3'd0 : {d_ahead[1:0], d_given && !d_write};
+        i_ahead <= reset ? 3'd0 : {i_ahead[1:0], i_given};
+        place <= i_given ? {i_at[29:3], i_of_line[2:0]} : {d_at[29:3], d_line ? d_of_line[2:0] : d_at[2:0]};
+        ram_word <= d_word;
+        ram_write <= d_bytes & {4{d_ram && d_write}};
+        {to_frame, to_own} <= {d_frame && !d_write, d_own};
+        {from_frame, from_own} <= {to_frame, to_own};
+        d_read <= bank_selected ? bank_read : from_own ? {31'd0, captured} : from_frame ? frame_read : ram_read;
         i_read <= ram_read;
     end
 
@@ -95,31 +102,33 @@ module drogue_system #(
     // The most of the RAM in block RAMs of a bit each, which need the fewest of them for a bit and so the shortest way out; the rest,
     // which the firmware begins without, apart.
     localparam LOW_WORDS = RAM_WORDS / 16384 * 16384;
-    wire [$clog2(RAM_WORDS)-1:0] ram_at = d_ram ? d_place[$clog2(RAM_WORDS)-1:0] : i_place[$clog2(RAM_WORDS)-1:0];
-    wire [3:0] ram_write = d_bytes & {4{d_ram && d_write}};
+    wire [$clog2(RAM_WORDS)-1:0] ram_at = place[$clog2(RAM_WORDS)-1:0];
     wire high = ram_at >= LOW_WORDS;
     wire [31:0] low_read, high_read;
     reg was_high;
     always @(posedge clock) was_high <= high;
     assign ram_read = was_high ? high_read : low_read;
     drogue_ram #(.WORDS(LOW_WORDS), .CONTENTS(FIRMWARE)) low_ram (
-        .clock(clock), .enable(1'b1), .write(ram_write & {4{!high}}), .at(ram_at), .word(d_word), .read(low_read));
+        .clock(clock), .enable(1'b1), .write(ram_write & {4{!high}}), .at(ram_at), .word(ram_word), .read(low_read));
     drogue_ram #(.WORDS(RAM_WORDS - LOW_WORDS), .CONTENTS("")) high_ram (
         .clock(clock), .enable(1'b1), .write(ram_write & {4{high}}), .at(ram_at[$clog2(RAM_WORDS - LOW_WORDS)-1:0]),
-        .word(d_word), .read(high_read));
+        .word(ram_word), .read(high_read));
 
-    // The frame memory: the front end's while it runs, else the camera's when it brings a pixel, else the rays' unit's, else the processor's.
+    // The frame memory: the processor's while a word is on its way, which none is while the front end runs; else the front end's, the
+    // camera's when it brings a pixel, the rays' unit's.
+    wire block_runs;
     wire [31:0] block_at;
     reg [31:0] wanted, taken;
-    assign takes = camera_valid && camera_ready;
-    wire [31:0] place = camera_first ? 32'd0 : taken;
+    wire takes = camera_valid && camera_ready;
+    wire [31:0] pixel = camera_first ? 32'd0 : taken;
     assign captured = wanted == 32'd0;
-    assign camera_ready = !captured && !running && (camera_first || taken != 32'd0);
-    assign frame_free = !running && !takes && !ray_asks;
-    wire [31:0] frame_at = running ? block_at : takes ? place : ray_asks ? ray_at : {d_place, 2'd0};
+    assign camera_ready = !captured && !running && !to_frame && (camera_first || taken != 32'd0);
+    assign ray_free = !running && !takes && !to_frame;
+    wire [31:0] frame_at = to_frame ? {place, 2'd0} : running ? block_at : takes ? pixel : ray_at;
     drogue_ram #(.WORDS(FRAME_WORDS), .CONTENTS("")) frame (
-        .clock(clock), .enable(1'b1), .write(running ? 4'd0 : takes ? 4'd1 << place[1:0] : 4'd0),
+        .clock(clock), .enable(1'b1), .write(takes ? 4'd1 << pixel[1:0] : 4'd0),
         .at(frame_at[2 +: $clog2(FRAME_WORDS)]), .word({4{camera_pixel}}), .read(frame_read));
+    always @(posedge clock) running <= block_runs;
     always @(posedge clock) begin
         if (reset) begin
             wanted <= 32'd0;
@@ -128,14 +137,14 @@ module drogue_system #(
             wanted <= d_word;
             taken <= 32'd0;
         end else if (takes) begin
-            taken <= place + 32'd1 == wanted ? 32'd0 : place + 32'd1;
-            if (place + 32'd1 == wanted) wanted <= 32'd0;
+            taken <= pixel + 32'd1 == wanted ? 32'd0 : pixel + 32'd1;
+            if (pixel + 32'd1 == wanted) wanted <= 32'd0;
         end
     end
 
     drogue_bank #(.WIDTH(WIDTH), .EDGES(EDGES), .ARCS(ARCS)) bank (
         .clock(half), .reset(reset), .select(bank_selected), .write(bank_write), .at(bank_at), .word(bank_word),
-        .read(bank_read), .interrupt(interrupt), .running(running), .frame_at(block_at),
+        .read(bank_read), .interrupt(interrupt), .running(block_runs), .frame_at(block_at),
         .frame_word(frame_half));
     assign result_valid = d_own && d_at[0] && d_write;
     assign result = d_word;

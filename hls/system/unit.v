@@ -5,7 +5,7 @@ module drogue_unit (
     input wire asked, output wire ready, input wire [9:0] function_id, input wire [31:0] first, input wire [31:0] second,
     output reg answered, input wire taken, output reg [31:0] answer,
     // the frame memory's: the word about a byte, a clock after it was asked for
-    output wire frame_asks, output wire [31:0] frame_at, input wire frame_free, input wire [31:0] frame_word);
+    output wire [31:0] frame_at, input wire frame_free, input wire [31:0] frame_word);
     // Reals, mantissa and exponent: a, b, c were told before the operation, which brings d.
     reg [63:0] a, b, c, d;
     reg [2:0] what;
@@ -60,7 +60,6 @@ module drogue_unit (
         .clock(clock), .step(ray_step), .done(where_done), .asked({where, image, size}), .out(sample_said));
     drogue_ray_unit_grey ray_grey (
         .clock(clock), .step(ray_step), .done(grey_done), .asked({sample[191:128], pixels}), .out(grey_said));
-    assign frame_asks = fetch >= 4'd2 && fetch <= 4'd5;
     assign frame_at = pixel_at;
     wire [31:0] shifted = frame_word >> {byte_of, 3'd0};
 
