@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Edge points near an ellipse by the unit beside the soft core, in the place of the library's src/outline/near.c; the same sums. */
 #include "points_unit.h"
+
+#include <string.h>
+
 #include "unit.h"
 
 static void tell(const points_asked *a)
@@ -14,10 +17,17 @@ static void tell(const points_asked *a)
     (void)none;
 }
 
+/* Its place, then its gradient. */
+static inline void words_of(uint32_t word[2], const drogue_edge *e)
+{
+    memcpy(word, __builtin_assume_aligned(&e->x_q5, 4), 8); /* two loads */
+}
+
 static inline void ask(const drogue_edge *e)
 {
-    const uint32_t *word = (const uint32_t *)(const void *)&e->x_q5;
     uint32_t none;
+    uint32_t word[2];
+    words_of(word, e);
     UNIT(none, UNIT_PLACE, 0, word[0], word[1]);
     (void)none;
 }
@@ -25,7 +35,9 @@ static inline void ask(const drogue_edge *e)
 static inline void add(const drogue_edge *e, uint32_t out_of)
 {
     uint32_t none;
-    UNIT(none, UNIT_ADD, 0, *(const uint32_t *)(const void *)&e->x_q5, out_of);
+    uint32_t word[2];
+    words_of(word, e);
+    UNIT(none, UNIT_ADD, 0, word[0], out_of);
     (void)none;
 }
 
@@ -39,7 +51,7 @@ static void clear(void)
 /* Add the unit's moments. */
 static void add_moments(drogue_moments *m)
 {
-    int64_t *sum = &m->n;
+    int64_t *sum = (int64_t *)(void *)m;
     size_t i;
     for (i = 0; i < sizeof *m / sizeof *sum; i++) {
         uint32_t low;
@@ -62,10 +74,10 @@ uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 thresho
     for (i = 1; i < count; i++) {
         UNIT(said, UNIT_SAID, 0, 0, 0);
         ask(&edges[i]);
-        near_count += said / POINT_NEAR & 1u;
+        near_count += said >> POINT_NEAR & 1u;
     }
     UNIT(said, UNIT_SAID, 0, 0, 0);
-    return near_count + (said / POINT_NEAR & 1u);
+    return near_count + (said >> POINT_NEAR & 1u);
 }
 
 void drogue_collect_arc(drogue_moments *moments, const drogue_edge *edges, uint32_t count)
@@ -100,7 +112,7 @@ void drogue_collect_edges(drogue_moments *moments, drogue_support *support, cons
         uint32_t said;
         UNIT(said, UNIT_SAID, 0, 0, 0);
         ask(i + stride < count ? e + stride : e); /* meanwhile */
-        if (said & (uint32_t)POINT_HELD) {
+        if (said >> POINT_HELD & 1u) {
             const uint32_t k = said >> POINT_BIN & (DROGUE_SUPPORT_BINS - 1);
             const int32_t offset_q16 = (int32_t)(said << (32 - POINT_BIN)) >> (32 - POINT_BIN);
             own = add_to_support(&support->bin[k], &sums, 1, (bright_bins >> k) & 1u, offset_q16,

@@ -12,12 +12,14 @@ void points_unit_place(const points_asked *restrict asked, points_said *restrict
     const drogue_q16 y_px_q16 = y_q5_of(a.place) * 2048;
     const band_place p = place_of(&a.frame, x_px_q16, y_px_q16);
     const uint32_t near =
-        !far_off(p.nx_q46) & !far_off(p.ny_q46) &
-        near_form(&a.frame, size_q38_of(&p, q22_of_q46(p.nx_q46), q22_of_q46(p.ny_q46)), a.most_px_q16);
-    uint32_t word = near ? POINT_NEAR : 0;
+        (uint32_t)(!far_off(p.nx_q46) & !far_off(p.ny_q46) &
+                   (int)near_form(&a.frame, size_q38_of(&p, q22_of_q46(p.nx_q46), q22_of_q46(p.ny_q46)),
+                                  a.most_px_q16));
+    uint32_t word = near << POINT_NEAR;
     band_point q;
-    if (band_holds(&q, &a.frame, &a.band, &a.reach, x_px_q16, y_px_q16, (int16_t)a.gradient, (int16_t)(a.gradient >> 16))) {
-        word |= (uint32_t)POINT_HELD | (uint32_t)q.polarity << POINT_POLARITY | bin_of(q.u_q14, q.v_q14) << POINT_BIN |
+    if (band_holds(&q, &a.frame, &a.band, &a.reach, x_px_q16, y_px_q16, (int16_t)a.gradient,
+                   (int16_t)(a.gradient >> 16))) {
+        word |= 1u << POINT_HELD | (uint32_t)q.polarity << POINT_POLARITY | bin_of(q.u_q14, q.v_q14) << POINT_BIN |
                 ((uint32_t)q.offset_q16 & ((1u << POINT_BIN) - 1));
     }
     out->word = word;

@@ -18,12 +18,12 @@ typedef struct points_asked {
 
 enum { POINTS_WORDS = sizeof(points_asked) / 4 - 2 };
 
-/* Of a word of answer. */
+/* Bits of what is said of a point. */
 enum {
-    POINT_HELD = 1 << 31, /* band_holds(): then its bin, polarity and offset */
-    POINT_NEAR = 1 << 30,
+    POINT_HELD = 31, /* band_holds(): then its polarity, bin and offset */
+    POINT_NEAR = 30,
     POINT_POLARITY = 29,
-    POINT_BIN = 24 /* five bits; below lies the offset */
+    POINT_BIN = 24 /* five; below lies the offset */
 };
 
 typedef struct points_said {

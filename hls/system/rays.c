@@ -23,7 +23,8 @@ void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_ima
     }
     UNIT(none, UNIT_RAY_IMAGE, 0, first, image->stride);
     UNIT(none, UNIT_RAY_SIZE, 0, image->width_px, image->height_px);
-    UNIT(none, UNIT_RAY_STEP, 0, drogue_ray_part(r->nx_q14, r->step_px_q16), drogue_ray_part(r->ny_q14, r->step_px_q16));
+    UNIT(none, UNIT_RAY_STEP, 0, drogue_ray_part(r->nx_q14, r->step_px_q16),
+         drogue_ray_part(r->ny_q14, r->step_px_q16));
     UNIT(none, UNIT_RAY_BEGIN, 0, r->x_px_q16 + drogue_ray_part(r->nx_q14, from_px_q16),
          r->y_px_q16 + drogue_ray_part(r->ny_q14, from_px_q16));
     (void)none;

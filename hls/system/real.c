@@ -4,10 +4,10 @@
 
 int __clzsi2(unsigned v);
 
-#define RESULT_OF(out, what, v)                                             \
-    do {                                                                    \
+#define RESULT_OF(out, what, v)                                               \
+    do {                                                                      \
         UNIT((out)->mantissa, UNIT_REAL, what, (v)->mantissa, (v)->exponent); \
-        UNIT((out)->exponent, UNIT_EXPONENT, 0, 0, 0);                      \
+        UNIT((out)->exponent, UNIT_EXPONENT, 0, 0, 0);                        \
     } while (0)
 
 void drogue_real_set(drogue_real *out, int64_t v, int32_t exponent)

@@ -24,10 +24,8 @@ enum {
 };
 
 /* In the order of the text: units keep what they were told. */
-#define UNIT(result, unit, what, first, second)                     \
-    __asm__ volatile(".insn r 0x0B, %1, %2, %0, %3, %4"             \
-                     : "=r"(result)                                 \
-                     : "i"(what), "i"(unit), "r"(first), "r"(second))
+#define UNIT(result, unit, what, first, second) \
+    __asm__ volatile(".insn r 0x0B, %1, %2, %0, %3, %4" : "=r"(result) : "i"(what), "i"(unit), "r"(first), "r"(second))
 
 static inline void unit_push(const drogue_real *v)
 {

@@ -82,7 +82,8 @@ void push(const drogue_real &r) { instruction(UNIT_PUSH, 0, (uint32_t)r.mantissa
 
 void check_real(const char *name, unsigned what, const drogue_real &d, const drogue_real &expected)
 {
-    compare(name, instruction(UNIT_REAL, what, (uint32_t)d.mantissa, (uint32_t)d.exponent), (uint32_t)expected.mantissa);
+    compare(name, instruction(UNIT_REAL, what, (uint32_t)d.mantissa, (uint32_t)d.exponent),
+            (uint32_t)expected.mantissa);
     compare(name, instruction(UNIT_EXPONENT, 0, 0, 0), (uint32_t)expected.exponent);
 }
 
@@ -101,7 +102,8 @@ void reals(uint32_t n)
     r = c, push(c), push(a), drogue_real_subtract_product(&r, &a, &b);
     check_real("subtract product", REAL_SUBTRACT_PRODUCT, b, r);
     push(a), push(b), push(c), drogue_real_products(&r, &a, &b, &c, &d), check_real("products", REAL_PRODUCTS, d, r);
-    push(a), push(b), push(c), drogue_real_determinant(&r, &a, &b, &c, &d), check_real("determinant", REAL_DETERMINANT, d, r);
+    push(a), push(b), push(c), drogue_real_determinant(&r, &a, &b, &c, &d),
+        check_real("determinant", REAL_DETERMINANT, d, r);
     const int shift = (int)(draw() % 64);
     const int64_t whole = edges ? (int64_t)a.mantissa * (1 << 30) : (int64_t)((uint64_t)draw() << 32 | draw()) >> shift;
     const drogue_real words = {(int32_t)((uint64_t)whole >> 32), (int32_t)(uint32_t)whole}, by = {0, d.exponent};
