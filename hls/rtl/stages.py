@@ -63,8 +63,10 @@ def main():
             at += 1  # it begins with registers
         before = max((time[u] for u in used if stage[u] == at), default=0.0)
         own = delay(expression, max([bits] + [width.get(u, 0) for u in used]))
-        if product and any(p in extended and bits_of.get(extended[p][1], width.get(extended[p][1], 32)) <= 16 for p in product.groups()):
-            own = 7.0  # of one block
+        if product:
+            of = [extended.get(p, (0, p))[1] for p in product.groups()]
+            if min(width.get(v, bits_of.get(v, 32)) for v in of) <= 16:
+                own = 7.0  # a block or two
         if before > 0 and before + own > period:
             at, before = at + 1, 0.0
         for u in used:
@@ -77,7 +79,8 @@ def main():
                         f".dividend({a}), .divisor({b}), .quotient({name}));")
             at, before, own = at + DIVISION, 0.0, 0.0
         else:
-            made.append(f"    assign out[{name[4:]} +: {bits}] = {expression};" if name.startswith("out_") else f"    wire [{bits - 1}:0] {name} = {expression};")
+            what = f"assign out[{name[4:]} +: {bits}]" if name.startswith("out_") else f"wire [{bits - 1}:0] {name}"
+            made.append(f"    {what} = {expression};")
         stage[name], time[name], last = at, before + own, max(last, at)
     size = {port: max(int(u[len(port) + 1 :]) + n for u, n in {**bits_of, **width}.items() if u.startswith(port + "_"))
             for port in ("asked", "out")}

@@ -35,7 +35,8 @@ firmware() {
     rm -f "$1/libdrogue.a"
     riscv64-unknown-elf-ar rcs "$1/libdrogue.a" "$1"/objects/*.o
     riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -nostartfiles -Wl,--gc-sections,--no-warn-rwx-segments \
-        -T hls/system/system.ld -O2 hls/system/start.S "$2" -fno-tree-loop-distribute-patterns hls/system/{real,near,rays,memory}.c hls/driver/{block,bank,block_frontend}.c "$1/libdrogue.a" -o "$1/firmware.elf"
+        -T hls/system/system.ld -O2 -fno-tree-loop-distribute-patterns hls/system/start.S "$2" hls/system/{real,near,rays,memory}.c \
+        hls/driver/{block,bank,block_frontend}.c "$1/libdrogue.a" -o "$1/firmware.elf"
     riscv64-unknown-elf-objcopy -O verilog --verilog-data-width=4 "$1/firmware.elf" "$1/firmware.hex"
     riscv64-unknown-elf-size "$1/firmware.elf" |
         awk 'NR == 2 { print "system: firmware " $1 " bytes of code and constants, " $2 + $3 " of data" }'

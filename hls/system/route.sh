@@ -46,6 +46,5 @@ clock = min(v["achieved"] * (1 + ("half" in k)) for k, v in report["fmax"].items
 log = open(sys.argv[3]).read()
 across = [float(t) for t in re.findall(r"Max delay posedge \S+ *-> posedge \S+ *: ([\d.]+) ns", log[log.rindex("Critical path report") :])]
 clock = min([clock] + [1000 / t for t in across])
-print("route: clocks", {k: round(v["achieved"], 1) for k, v in report["fmax"].items()}, "ns across", across)
 print(f"route: {sys.argv[2]}:", ", ".join(f"{k} {v}" for k, v in used.items()), f"; {clock:.1f} MHz")
 END
