@@ -29,7 +29,7 @@ void points_unit_moments(const moments_asked *restrict asked, drogue_moments *re
 {
     const moments_asked a = *asked;
     drogue_moments m = a.moments;
-    drogue_moments_count_point(&m, x_q5_of(a.place) - DROGUE_MIDDLE_Q5, y_q5_of(a.place) - DROGUE_MIDDLE_Q5,
-                               a.out_of ? -1 : 1);
+    drogue_moments_count_point(&m, (int16_t)(x_q5_of(a.place) - DROGUE_MIDDLE_Q5), /* they have 16 bits */
+                               (int16_t)(y_q5_of(a.place) - DROGUE_MIDDLE_Q5), a.out_of ? -1 : 1);
     *out = m;
 }
