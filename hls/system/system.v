@@ -48,7 +48,7 @@ module drogue_system #(
 
     // A word that is read comes three clocks after it was asked for: the way to so many block RAMs and the way from there are long,
     // and registers lie before and after. Of a cache line the next word is asked for each clock. What is written is done at once. Data
-    // go before instructions where both want the RAM.
+    // go before instructions where both want a word of RAM or frame memory: there is one address.
     reg [2:0] d_ahead, i_ahead; // words asked for that have not come: on the way there, in the memory, on the way back
     wire [1:0] d_under_way = {1'b0, d_ahead[0]} + {1'b0, d_ahead[1]} + {1'b0, d_ahead[2]};
     wire [1:0] i_under_way = {1'b0, i_ahead[0]} + {1'b0, i_ahead[1]} + {1'b0, i_ahead[2]};
@@ -60,7 +60,7 @@ module drogue_system #(
     wire d_frame = d_asks && d_at[29:28] == 2'd1 && !running;
     wire d_bank = d_asks && d_at[29:26] == 4'd8 && !bank_waits;
     wire d_own = d_asks && d_at[29:26] == 4'd9;
-    wire d_given = d_ram || d_frame || d_own, i_given = i_asks && !d_ram;
+    wire d_given = d_ram || d_frame || d_own, i_given = i_asks && !d_ram && !d_frame;
     wire d_done = d_ahead[2] || (d_given && d_write) || bank_done, i_done = i_ahead[2];
     reg [29:0] place; // of what goes to RAM or frame memory
     reg [31:0] ram_word;
