@@ -6,8 +6,8 @@ usage: verilog.py IR FUNCTION asked=in out=out | stages.py MODULE NANOSECONDS
 The module's input is the struct 'asked', whose words must stay as they are until it is done, so that a value used in a later
 stage than its own needs one register, not one a stage. A stage takes as many operations one after another as fit the
 nanoseconds by an estimate. 'step' counts clocks from 0 with the input there; in the clock of 'done' the struct 'out' is
-right. A division is that of a divider which its step starts. A product takes a stage on one of a few multipliers, which others
-have in other stages, and stays in a register.
+right. A division is that of a divider which its step starts. A product takes two stages, to one of a few multipliers, which
+others have in other stages, and through it, and stays in a register.
 """
 import re
 import sys
@@ -95,11 +95,11 @@ def main():
                         f".dividend({a}), .divisor({b}), .quotient({name}));")
             at, before, own = at + DIVISION, 0.0, 0.0
         elif product:
-            made.append(f"    reg [{bits - 1}:0] {name};\n    always @(posedge clock) if (step == 8'd{at}) "
+            made.append(f"    reg [{bits - 1}:0] {name};\n    always @(posedge clock) if (step == 8'd{at + 1}) "
                         f"{name} <= product_{kind}_{len(pools[kind][at])};")
             pools[kind][at].append(expression.split(" * "))
             held.add(name)
-            at, before, own = at + 1, 0.0, 0.0
+            at, before, own = at + 2, 0.0, 0.0
         else:
             what = f"assign out[{name[4:]} +: {bits}]" if name.startswith("out_") else f"wire [{bits - 1}:0] {name}"
             made.append(f"    {what} = {expression};")
@@ -120,7 +120,8 @@ def main():
         for k in range(max(len(products) for products in stages.values())):
             for side, n in enumerate(sizes_of(kind)):
                 choice = " : ".join(f"step == 8'd{at} ? {products[k][side]}" for at, products in stages.items() if len(products) > k)
-                print(f"    wire signed [{n - 1}:0] factor_{kind}_{k}_{side} = {choice} : {n}'sd0;")
+                print(f"    reg signed [{n - 1}:0] factor_{kind}_{k}_{side};")
+                print(f"    always @(posedge clock) factor_{kind}_{k}_{side} <= {choice} : {n}'sd0;")
             print(f"    assign product_{kind}_{k} = factor_{kind}_{k}_0 * factor_{kind}_{k}_1;")
     print("    always @(posedge clock) begin")
     print("\n".join(f"        {n}_q <= {n};" for n in kept))
