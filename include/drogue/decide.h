@@ -31,8 +31,8 @@ typedef struct drogue_decision {
     int64_t axis_std_rad_q32;      /* root mean square angle between measured and true axis, Q32 */
 } drogue_decision;
 
-/* Solve for outline and inner part together; for the outline alone where there is no inner part to be believed, or where
- * the two contradict each other (chi2 above max_chi2) and neither pose is clearly the better one. That one is resolved
+/* Solve for outline and inner part together; for the outline alone where no inner part is to be believed, or where the
+ * two contradict each other (chi2 above max_chi2) and neither pose is clearly the better one. That one is resolved
  * where the other pose's chi2 is larger by min_chi2_gap, where they contradict each other by that times chi2: both are
  * wrong by more than they say, and which pose it is stays clear. Where there is an inner part, the covariance is chi2
  * times as large where that, 0.5 on average of frames that are as supposed, is above 1, and max_chi2 times that of the

@@ -65,8 +65,8 @@ static inline uint64_t drogue_inner_away2_q32(const drogue_inner_edge *edge, con
  * Where the edge that rises fastest is of another size than expected, and one of the size is beside it, that one is the
  * disc's.
  *
- *  out      of the expected discs the one whose rays agree with the steepest edges; the other one where that is not to be
- *           believed (drogue_inner_std()), but the other is and is no larger than it should be; zero on failure
+ *  out      of the expected discs the one whose rays agree with the steepest edges; the other one where that is not to
+ *           be believed (drogue_inner_std()), but the other is and is no larger than it should be; zero on failure
  *  rays     work area; the workspace has one
  *  image    the region's pixels
  *  outline  region coordinates; the centre may lie from the expected one as far as the configured gate
@@ -78,8 +78,8 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[DRO
 
 /* Standard deviation of the disc's centre: a floor, a share of the disc's size, and what the rays' residuals show; and,
  * where its size puts more than an eighth in doubt (drogue_inner_weigh()), so much of it: what is so small or so large
- * may be something else. Its place is the expected one within the configured gate; within twice that where it is evident:
- * seen by seven of eight rays, with half of the scatter that is allowed, of its size to 0.3 px and a 64th.
+ * may be something else. Its place is the expected one within the configured gate; within twice that where it is
+ * evident: seen by seven of eight rays, with half of the scatter that is allowed, of its size to 0.3 px and a 64th.
  *
  *  expected, outline  region coordinates
  *  return             px Q16; 0 when it is not to be believed: of another size, in another place, cut by the rim, or

@@ -46,8 +46,8 @@ void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const 
  * there are too few rays. */
 int drogue_ray_sums_solve(drogue_q16 v_px_q16[3], drogue_real normal[6], const drogue_ray_sums *s, int size);
 
-/* Solve for place and size, and say how far off the place may be, by the residuals of the bins. 0 when there are too few
- * rays or bins. */
+/* Solve for place and size, and say how far off the place may be, by the residuals of the bins. 0 when there are too
+ * few rays or bins. */
 int drogue_ray_sums_place(drogue_q16 v_px_q16[3], drogue_q16 *std_px_q16, const drogue_ray_sums *s,
                           const drogue_ray_bins *bins);
 

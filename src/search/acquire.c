@@ -20,6 +20,7 @@
 #define MOST_SPREAD_PX DROGUE_Q16(3, 10)
 #define WITNESS_PX DROGUE_Q16(2, 10)    /* and a 64th, of the inner part's radius: by no chance; */
 #define MOST_OFF_PX DROGUE_Q16(6, 10)   /* and a tenth, of the inner part's radius: near; */
+#define MOST_DOUBT DROGUE_Q16(1, 8)     /* in the distance: an inner part of more may be something else */
 #define EXACT_PX DROGUE_Q16(3, 10)      /* and a twenty-fifth: its size */
 #define SETTLED_COVER DROGUE_Q16(8, 10) /* of a result after which only larger outlines about it are looked at */
 #define SURE (2 * DROGUE_Q16_ONE)       /* the worth of what is sure is more */
@@ -59,7 +60,7 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
     if (model->inner_radius_m_q16 == 0) {
         return r->cover_q16 >= SURE_COVER && r->quality.reliability_q16 >= SURE_RELIABILITY;
     }
-    if (!sizes(&expected, &off, r, model) || 4 * r->inner.contrast < r->inner.threshold) {
+    if (!sizes(&expected, &off, r, model) || 4 * r->inner.contrast < r->inner.threshold || r->doubt_q16 > MOST_DOUBT) {
         return 0;
     }
     sharp = r->inner.spread_px_q16 <= MOST_SPREAD_PX;

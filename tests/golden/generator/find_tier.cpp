@@ -180,7 +180,7 @@ public:
             expected_ = std::sqrt(r.seen.a * r.seen.b) * m.inner_radius / m.rim_radius * z / end;
             off_ = std::fabs(std::sqrt(std::floor(r.area + 0.5L) / std::acos(Real(-1))) - expected_);
             sharp_ = r.part.rms <= 0.3L;
-            dark_ = 4 * r.part.contrast >= r.part.level;
+            dark_ = 4 * r.part.contrast >= r.part.level && r.doubt <= 1 / 8.0L;
         }
     }
     bool sure() const

@@ -59,6 +59,11 @@ START_TEST(limits_of_sure)
     ck_assert(drogue_result_sure(&r, &model));
     r.orientation_resolved = 1;
     ck_assert(drogue_result_sure(&r, &model));
+    r.doubt_q16 = DROGUE_Q16(1, 8);
+    ck_assert(drogue_result_sure(&r, &model));
+    r.doubt_q16++; /* it may be something else */
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.doubt_q16 = 0;
     r.has_inner = 0;
     ck_assert(!drogue_result_sure(&r, &model));
 }
