@@ -21,7 +21,7 @@ print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
 firmware() {
     local hot=(src/inner/fit.c src/outline/rays.c) # what the soft core's clocks go into, then what it comes by often; all else is
     # small, so that it fits the RAM at 256 px
-    local warm=(src/arithmetic/*.c src/inner/{edge,shade}.c src/outline/{constraints,moments,support}.c src/pose/joint*.c)
+    local warm=(src/inner/{edge,shade}.c src/outline/{constraints,moments,support}.c src/pose/joint*.c)
     local flags=(-march=rv32im -mabi=ilp32 -std=c99 -Os -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
     rm -rf "$1/objects"
     mkdir -p "$1/objects"

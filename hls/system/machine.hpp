@@ -53,7 +53,6 @@ public:
     void rise(bool taken = false)
     {
         v.clock = 1;
-        v.half = !v.half; // rises with every second one
         v.eval();
         v.clock = 0; // takes effect with the inputs of the next clock
         clock++;

@@ -9,7 +9,7 @@
 module drogue_system #(
     parameter RAM_WORDS = 53248, parameter FRAME_WORDS = 16384, parameter FIRMWARE = "firmware.hex",
     parameter WIDTH = 256, parameter EDGES = 2688, parameter ARCS = 96) (
-    input wire clock, input wire half, input wire reset, // half: half as fast, edges together, as two outputs of one PLL
+    input wire clock, input wire reset,
     input wire camera_valid, input wire camera_first, input wire [7:0] camera_pixel, output wire camera_ready,
     output wire result_valid, output wire [31:0] result,
     output wire block_busy, output wire list_read, output wire captured);
@@ -26,7 +26,7 @@ module drogue_system #(
     wire [9:0] unit_function;
     wire [31:0] unit_first, unit_second, unit_answer, ray_at;
     wire ray_free;
-    reg running; // the front end
+    wire running; // the front end
 
     VexRiscv core (
         .externalResetVector(32'd0), .timerInterrupt(1'b0), .softwareInterrupt(1'b0),
@@ -48,7 +48,7 @@ module drogue_system #(
 
     // A word that is read comes three clocks after it was asked for: the way to so many block RAMs and the way from there are long,
     // and registers lie before and after. Of a cache line the next word is asked for each clock. What is written is done at once. Data
-    // go before instructions where both want a word of RAM or frame memory: there is one address.
+    // go before instructions: there is one address.
     reg [2:0] d_ahead, i_ahead; // words asked for that have not come: on the way there, in the memory, on the way back
     wire [1:0] d_under_way = {1'b0, d_ahead[0]} + {1'b0, d_ahead[1]} + {1'b0, d_ahead[2]};
     wire [1:0] i_under_way = {1'b0, i_ahead[0]} + {1'b0, i_ahead[1]} + {1'b0, i_ahead[2]};
@@ -58,45 +58,25 @@ module drogue_system #(
     wire i_asks = i_cycle && i_strobe && !i_of_line[3];
     wire d_ram = d_asks && d_at[29:28] == 2'd0;
     wire d_frame = d_asks && d_at[29:28] == 2'd1 && !running;
-    wire d_bank = d_asks && d_at[29:26] == 4'd8 && !bank_waits;
+    wire d_bank = d_asks && d_at[29:26] == 4'd8;
     wire d_own = d_asks && d_at[29:26] == 4'd9;
-    wire d_given = d_ram || d_frame || d_own, i_given = i_asks && !d_ram && !d_frame;
-    wire d_done = d_ahead[2] || (d_given && d_write) || bank_done, i_done = i_ahead[2];
-    reg [29:0] place; // of what goes to RAM or frame memory
-    reg [31:0] ram_word;
+    wire d_given = d_ram || d_frame || d_bank || d_own, i_given = i_asks && !d_ram && !d_frame && !d_bank;
+    wire d_done = d_ahead[2] || (d_given && d_write), i_done = i_ahead[2];
+    reg [29:0] place; // of what goes to RAM, frame memory or the front end's registers
+    reg [31:0] word;
     reg [3:0] ram_write;
-    reg to_frame, to_own, from_frame, from_own;
+    reg bank_write, to_frame, to_bank, to_own, from_frame, from_bank, from_own;
     always @(posedge clock) begin
         d_ahead <= reset ? 3'd0 : {d_ahead[1:0], d_given && !d_write};
         i_ahead <= reset ? 3'd0 : {i_ahead[1:0], i_given};
         place <= i_given ? {i_at[29:3], i_of_line[2:0]} : {d_at[29:3], d_line ? d_of_line[2:0] : d_at[2:0]};
-        ram_word <= d_word;
+        word <= d_word;
         ram_write <= d_bytes & {4{d_ram && d_write}};
-        {to_frame, to_own} <= {d_frame && !d_write, d_own};
-        {from_frame, from_own} <= {to_frame, to_own};
-        d_read <= bank_selected ? bank_read : from_own ? {31'd0, captured} : from_frame ? frame_read : ram_read;
+        bank_write <= d_write;
+        {to_frame, to_bank, to_own} <= {d_frame && !d_write, !reset && d_bank, d_own};
+        {from_frame, from_bank, from_own} <= {to_frame, to_bank, to_own};
+        d_read <= from_bank ? bank_read : from_own ? {31'd0, captured} : from_frame ? frame_read : ram_read;
         i_read <= ram_read;
-    end
-
-    // The front end and its registers run by the slower clock: it has the longest ways, and half a per cent of the clocks. What it
-    // is told changes in the middle between its edges, and there it is heard, so that neither clock needs to be the earlier one.
-    reg tick, seen, bank_selected, bank_done;
-    wire middle = tick != seen, bank_waits = bank_selected || bank_done;
-    reg bank_write;
-    reg [17:0] bank_at;
-    reg [31:0] bank_word, frame_half;
-    initial {tick, seen} = 2'd0;
-    always @(posedge half) begin
-        tick <= !tick;
-        frame_half <= frame_read;
-    end
-    always @(posedge clock) begin
-        seen <= tick;
-        bank_done <= middle && bank_selected;
-        if (middle) begin
-            bank_selected <= !reset && d_bank;
-            {bank_write, bank_at, bank_word} <= {d_write, d_at[15:0], 2'd0, d_word};
-        end
     end
 
     // The most of the RAM in block RAMs of a bit each, which need the fewest of them for a bit and so the shortest way out; the rest,
@@ -109,14 +89,13 @@ module drogue_system #(
     always @(posedge clock) was_high <= high;
     assign ram_read = was_high ? high_read : low_read;
     drogue_ram #(.WORDS(LOW_WORDS), .CONTENTS(FIRMWARE)) low_ram (
-        .clock(clock), .enable(1'b1), .write(ram_write & {4{!high}}), .at(ram_at), .word(ram_word), .read(low_read));
+        .clock(clock), .enable(1'b1), .write(ram_write & {4{!high}}), .at(ram_at), .word(word), .read(low_read));
     drogue_ram #(.WORDS(RAM_WORDS - LOW_WORDS), .CONTENTS("")) high_ram (
         .clock(clock), .enable(1'b1), .write(ram_write & {4{high}}), .at(ram_at[$clog2(RAM_WORDS - LOW_WORDS)-1:0]),
-        .word(ram_word), .read(high_read));
+        .word(word), .read(high_read));
 
     // The frame memory: the processor's while a word is on its way, which none is while the front end runs; else the front end's, the
     // camera's when it brings a pixel, the rays' unit's.
-    wire block_runs;
     wire [31:0] block_at;
     reg [31:0] wanted, taken;
     wire takes = camera_valid && camera_ready;
@@ -128,7 +107,6 @@ module drogue_system #(
     drogue_ram #(.WORDS(FRAME_WORDS), .CONTENTS("")) frame (
         .clock(clock), .enable(1'b1), .write(takes ? 4'd1 << pixel[1:0] : 4'd0),
         .at(frame_at[2 +: $clog2(FRAME_WORDS)]), .word({4{camera_pixel}}), .read(frame_read));
-    always @(posedge clock) running <= block_runs;
     always @(posedge clock) begin
         if (reset) begin
             wanted <= 32'd0;
@@ -143,9 +121,8 @@ module drogue_system #(
     end
 
     drogue_bank #(.WIDTH(WIDTH), .EDGES(EDGES), .ARCS(ARCS)) bank (
-        .clock(half), .reset(reset), .select(bank_selected), .write(bank_write), .at(bank_at), .word(bank_word),
-        .read(bank_read), .interrupt(interrupt), .running(block_runs), .frame_at(block_at),
-        .frame_word(frame_half));
+        .clock(clock), .reset(reset), .select(to_bank), .write(bank_write), .at({place[15:0], 2'd0}), .word(word),
+        .read(bank_read), .interrupt(interrupt), .running(running), .frame_at(block_at), .frame_word(frame_read));
     assign result_valid = d_own && d_at[0] && d_write;
     assign result = d_word;
     assign block_busy = running;
