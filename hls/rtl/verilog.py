@@ -23,7 +23,7 @@ INTRINSICS = {
     "smin": "($signed({a}) < $signed({b}) ? ({a}) : ({b}))",
     "smax": "($signed({a}) > $signed({b}) ? ({a}) : ({b}))",
 }
-OPERATORS = {"add": "+", "sub": "-", "mul": "*", "and": "&", "or": "|", "xor": "^", "shl": "<<", "lshr": ">>"}
+OPERATORS = {"add": "+", "sub": "-", "mul": "*", "udiv": "/", "and": "&", "or": "|", "xor": "^", "shl": "<<", "lshr": ">>"}
 COMPARISONS = {"eq": "==", "ne": "!=", "gt": ">", "ge": ">=", "lt": "<", "le": "<="}
 
 
@@ -277,9 +277,13 @@ class Function:
         first = self.value(f"i{bits}", operands[0].split()[-1])
         if found[1] == "abs":
             self.wire(v, bits, f"{first}[{bits - 1}] ? -{first} : {first}")
-        elif found[1] == "fshl":  # a word out of two
-            second, places = self.value(f"i{bits}", operands[1].split()[-1]), int(operands[2].split()[-1])
-            self.wire(v, bits, f"({first} << {places}) | ({second} >> {bits - places})")
+        elif found[1] == "fshl":  # the upper half of two words shifted together
+            second, places = self.value(f"i{bits}", operands[1].split()[-1]), operands[2].split()[-1]
+            if places.isdigit():
+                self.wire(v, bits, f"({first} << {places}) | ({second} >> {bits - int(places)})")
+            else:
+                self.wire(v + ".both", 2 * bits, f"{{{first}, {second}}} << {self.value(f'i{bits}', places)}")
+                self.wire(v, bits, f"{self.names[v + '.both']}[{2 * bits - 1}:{bits}]")
         elif found[1] in INTRINSICS:
             second = self.value(f"i{bits}", operands[1].split()[-1])
             self.wire(v, bits, INTRINSICS[found[1]].format(a=first, b=second))
@@ -374,7 +378,9 @@ class Function:
                 self.instruction(block, line)
             self.leave(block, self.blocks[block][-1])
         for k, (port, way) in enumerate(self.ports):
-            if way not in ("in", "out"):  # registers
+            if way == "in":
+                yield from (f"    // {port}_{bit}: {bits} bits" for bit, bits in self.members[k].items())
+            elif way != "out":  # registers
                 for bit, bits in self.members[k].items():
                     yield from self.register(way, bit, bits)
         yield from self.lines

@@ -13,7 +13,7 @@ need() {
         command -v "$tool" >/dev/null || { echo "$who: SKIPPED: no $tool" && exit 77; }
     done
     core=${DROGUE_VEXRISCV:-$(python3 -c 'import pythondata_cpu_vexriscv as v
-print(v.data_location + "/VexRiscv.v")' 2>/dev/null || true)}
+print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
     [ -e "$core" ] || { echo "$who: SKIPPED: no pythondata-cpu-vexriscv" && exit 77; }
 }
 
@@ -21,17 +21,22 @@ print(v.data_location + "/VexRiscv.v")' 2>/dev/null || true)}
 firmware() {
     local hot=(src/inner/fit.c src/outline/rays.c) # what the soft core's clocks go into, then what it comes by often; all else is
     # small, so that it fits the RAM at 256 px
-    local warm=(src/arithmetic/*.c src/inner/{edge,shade}.c src/outline/{moments,near,support}.c src/pose/joint*.c)
+    local warm=(src/inner/{edge,shade}.c src/outline/{constraints,moments,support}.c src/pose/joint*.c)
     local flags=(-march=rv32im -mabi=ilp32 -std=c99 -Os -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
     rm -rf "$1/objects"
     mkdir -p "$1/objects"
     (cd "$1/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -c &&
         riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 "${warm[@]/#/$root/}" -c &&
         riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O3 "${hot[@]/#/$root/}" -c)
+    local own # what hls/system has by the units goes before the library's
+    for own in real near rays; do
+        riscv64-unknown-elf-objcopy --weaken "$1/objects/$own.o"
+    done
     rm -f "$1/libdrogue.a"
     riscv64-unknown-elf-ar rcs "$1/libdrogue.a" "$1"/objects/*.o
     riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -nostartfiles -Wl,--gc-sections,--no-warn-rwx-segments \
-        -T hls/system/system.ld hls/system/start.S "$2" hls/driver/{block,bank,block_frontend}.c "$1/libdrogue.a" -o "$1/firmware.elf"
+        -T hls/system/system.ld -O2 -fno-tree-loop-distribute-patterns hls/system/start.S "$2" hls/system/{real,near,rays,memory}.c \
+        hls/driver/{block,bank,block_frontend}.c "$1/libdrogue.a" -o "$1/firmware.elf"
     riscv64-unknown-elf-objcopy -O verilog --verilog-data-width=4 "$1/firmware.elf" "$1/firmware.hex"
     riscv64-unknown-elf-size "$1/firmware.elf" |
         awk 'NR == 2 { print "system: firmware " $1 " bytes of code and constants, " $2 + $3 " of data" }'
@@ -40,10 +45,11 @@ firmware() {
 # model: the system's Verilog as C++, and the library for this machine
 model() {
     hls/rtl/rtl.sh 256
+    hls/system/unit.sh
     mkdir -p "$made/objects"
     verilator --cc --build -O3 --x-assign fast --x-initial fast -Wno-fatal -Wno-lint -Mdir "$made/verilated" \
-        --top-module drogue_system "-GFIRMWARE=\"firmware.hex\"" hls/system/system.v hls/system/bank.v \
-        build/hls/rtl/256/drogue_frontend.v "$core" -CFLAGS -O2 >"$made/verilator.log" 2>&1 ||
+        --top-module drogue_system "-GFIRMWARE=\"firmware.hex\"" hls/system/{system,bank,unit}.v \
+        build/hls/system/unit/units.v build/hls/rtl/256/drogue_frontend.v "$core" -CFLAGS -O2 >"$made/verilator.log" 2>&1 ||
         { tail -n 20 "$made/verilator.log" && exit 1; }
     (cd "$made/objects" && core_files "$root" '*.c' | xargs gcc -std=c99 -O2 "-I$root/include" -c)
     rm -f "$made/libdrogue.a"

@@ -18,8 +18,9 @@ mkdir -p "$work"
 case $what in
 system)
     need route riscv64-unknown-elf-gcc
+    hls/system/unit.sh
     firmware "$work" hls/system/firmware.c -DSIDE=128
-    files=("$core" hls/system/{system,bank}.v)
+    files=("$core" hls/system/{system,bank,unit}.v build/hls/system/unit/units.v)
     top=drogue_system
     ;;
 frontend)

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Edge points near an ellipse by the unit beside the soft core, in the place of the library's src/outline/near.c; the same sums. */
+#include "points_unit.h"
+
+#include <string.h>
+
+#include "unit.h"
+
+static void tell(const points_asked *a)
+{
+    const uint32_t *word = (const uint32_t *)a;
+    uint32_t none;
+    int i;
+    for (i = 0; i < (POINTS_WORDS + 1) / 2; i++) {
+        UNIT(none, UNIT_TELL, 0, word[2 * i], word[2 * i + 1]);
+    }
+    (void)none;
+}
+
+/* Its place, then its gradient. */
+static inline void words_of(uint32_t word[2], const drogue_edge *e)
+{
+    memcpy(word, __builtin_assume_aligned(&e->x_q5, 4), 8); /* two loads */
+}
+
+static inline void ask(const drogue_edge *e)
+{
+    uint32_t none;
+    uint32_t word[2];
+    words_of(word, e);
+    UNIT(none, UNIT_PLACE, 0, word[0], word[1]);
+    (void)none;
+}
+
+static inline void add(const drogue_edge *e, uint32_t out_of)
+{
+    uint32_t none;
+    uint32_t word[2];
+    words_of(word, e);
+    UNIT(none, UNIT_ADD, 0, word[0], out_of);
+    (void)none;
+}
+
+static void clear(void)
+{
+    uint32_t none;
+    UNIT(none, UNIT_CLEAR, 0, 0, 0);
+    (void)none;
+}
+
+/* Add the unit's moments. */
+static void add_moments(drogue_moments *m)
+{
+    int64_t *sum = (int64_t *)(void *)m;
+    size_t i;
+    for (i = 0; i < sizeof *m / sizeof *sum; i++) {
+        uint32_t low;
+        uint32_t high;
+        UNIT(low, UNIT_MOMENTS, 0, 0, 0);
+        UNIT(high, UNIT_MOMENTS, 0, 0, 0);
+        sum[i] = (int64_t)((uint64_t)sum[i] + ((uint64_t)high << 32 | low));
+    }
+}
+
+uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
+                           uint32_t count)
+{
+    points_asked a = {.frame = *frame, .most_px_q16 = drogue_q16_mul(threshold, frame->b_px_q16)};
+    uint32_t near_count = 0;
+    uint32_t i;
+    uint32_t said;
+    tell(&a);
+    ask(&edges[0]);
+    for (i = 1; i < count; i++) {
+        UNIT(said, UNIT_SAID, 0, 0, 0);
+        ask(&edges[i]);
+        near_count += said >> POINT_NEAR & 1u;
+    }
+    UNIT(said, UNIT_SAID, 0, 0, 0);
+    return near_count + (said >> POINT_NEAR & 1u);
+}
+
+void drogue_collect_arc(drogue_moments *moments, const drogue_edge *edges, uint32_t count)
+{
+    uint32_t i;
+    clear();
+    for (i = 0; i < count; i++) {
+        add(&edges[i], 0);
+    }
+    add_moments(moments);
+}
+
+void drogue_collect_edges(drogue_moments *moments, drogue_support *support, const drogue_ellipse_frame *frame,
+                          const drogue_band *band, const drogue_edge *edges, uint32_t count, uint32_t stride,
+                          uint32_t counted)
+{
+    const points_asked a = {.frame = *frame, .band = *band, .reach = reach_of(frame, band)};
+    const uint32_t bright_bins = support->bright_bins;
+    support_sums sums = sums_of(support);
+    uint32_t points = (uint32_t)moments->n;
+    uint32_t changed = 0;
+    uint32_t i;
+    if (count == 0) {
+        return;
+    }
+    tell(&a);
+    ask(&edges[0]);
+    clear();
+    for (i = 0; i < count; i += stride) {
+        const drogue_edge *e = &edges[i];
+        uint32_t own = 0;
+        uint32_t said;
+        UNIT(said, UNIT_SAID, 0, 0, 0);
+        ask(i + stride < count ? e + stride : e); /* meanwhile */
+        if (said >> POINT_HELD & 1u) {
+            const uint32_t k = said >> POINT_BIN & (DROGUE_SUPPORT_BINS - 1);
+            const int32_t offset_q16 = (int32_t)(said << (32 - POINT_BIN)) >> (32 - POINT_BIN);
+            own = add_to_support(&support->bin[k], &sums, 1, (bright_bins >> k) & 1u, offset_q16,
+                                 (drogue_polarity)(said >> POINT_POLARITY & 1u), e->gx, e->gy);
+        }
+        if (own != counted && (!own || points < DROGUE_MAX_FIT_POINTS)) { /* as recount_edge() */
+            points += own ? 1u : UINT32_MAX;
+            changed = 1;
+            add(e, !own);
+        }
+    }
+    put_sums(support, &sums);
+    if (changed) {
+        add_moments(moments);
+    }
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The soft core's instructions for the units beside it, unit.v. */
+#ifndef DROGUE_SYSTEM_UNIT_H
+#define DROGUE_SYSTEM_UNIT_H
+
+#include "real_unit.h"
+
+enum {
+    UNIT_REAL,
+    UNIT_PUSH,
+    UNIT_EXPONENT,
+    UNIT_ZEROS,
+    UNIT_TELL, /* two words of points_asked */
+    UNIT_PLACE,
+    UNIT_SAID,
+    UNIT_CLEAR, /* the moments */
+    UNIT_ADD,
+    UNIT_MOMENTS, /* word after word */
+    UNIT_RAY_IMAGE,
+    UNIT_RAY_SIZE,
+    UNIT_RAY_STEP,
+    UNIT_RAY_BEGIN,
+    UNIT_RAY_GREY /* sample after sample */
+};
+
+/* In the order of the text: units keep what they were told. */
+#define UNIT(result, unit, what, first, second) \
+    __asm__ volatile(".insn r 0x0B, %1, %2, %0, %3, %4" : "=r"(result) : "i"(what), "i"(unit), "r"(first), "r"(second))
+
+static inline void unit_push(const drogue_real *v)
+{
+    uint32_t none;
+    UNIT(none, UNIT_PUSH, 0, v->mantissa, v->exponent);
+    (void)none;
+}
+
+#endif

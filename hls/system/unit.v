@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The units beside the soft core, reached by its instructions of opcode custom-0: function is {funct7, funct3}, unit.h.
+module drogue_unit (
+    input wire clock, input wire reset,
+    input wire asked, output wire ready, input wire [9:0] function_id, input wire [31:0] first, input wire [31:0] second,
+    output reg answered, input wire taken, output reg [31:0] answer,
+    // the frame memory's: the word about a byte, a clock after it was asked for
+    output wire [31:0] frame_at, input wire frame_free, input wire [31:0] frame_word);
+    // Reals, mantissa and exponent: a, b, c were told before the operation, which brings d.
+    reg [63:0] a, b, c, d;
+    reg [2:0] what;
+    reg [31:0] exponent;
+    reg busy;
+    reg [7:0] step;
+    wire linear_done, quotient_done;
+    wire [63:0] linear_real, quotient_real;
+    drogue_real_unit_linear linear (
+        .clock(clock), .step(step), .done(linear_done), .asked({29'd0, what, d, c, b, a}), .out(linear_real));
+    drogue_real_unit_quotient quotient (
+        .clock(clock), .step(step), .done(quotient_done), .asked({32'd0, d, c, b, a}), .out(quotient_real));
+    wire divides = what == 3'd7;
+    wire done = divides ? quotient_done : linear_done;
+
+    function [5:0] leading_zeros(input [31:0] v);
+        integer k;
+        begin
+            leading_zeros = 6'd32;
+            for (k = 0; k < 32; k = k + 1) if (v[k]) leading_zeros = 6'd31 - k[5:0];
+        end
+    endfunction
+
+    // Edge points: words of an ellipse, two at a time, then points. A point is asked for, and what is said of it fetched later.
+    reg [703:0] told;
+    reg [63:0] point;
+    reg placing, adding, out_of;
+    reg [7:0] place_step, add_step;
+    reg [31:0] added;
+    reg [1279:0] moments;
+    wire place_done, add_done;
+    wire [31:0] place_said;
+    wire [1279:0] moments_next;
+    reg [31:0] said;
+    drogue_points_unit_place place (
+        .clock(clock), .step(place_step), .done(place_done), .asked({point, told[671:0]}), .out(place_said));
+    drogue_points_unit_moments add (
+        .clock(clock), .step(add_step), .done(add_done), .asked({31'd0, out_of, added, moments}), .out(moments_next));
+
+    // Grey along a ray: while the soft core takes a sample the next is fetched, a pixel a clock once its place is known.
+    reg [63:0] image, size, pace, where; // first byte, stride; width, height; and so on
+    reg [3:0] fetch; // 0: not; 1: where; 2: the first pixel is asked for; to 6: the last one comes; 7: interpolated; 8: there
+    reg [7:0] ray_step;
+    reg [191:0] sample;
+    reg [1:0] byte_of;
+    reg [31:0] pixels, grey;
+    wire where_done, grey_done;
+    wire [191:0] sample_said;
+    wire [31:0] grey_said;
+    wire [31:0] pixel_at = fetch[2] ? fetch[0] ? sample[127:96] : sample[95:64] : fetch[0] ? sample[63:32] : sample[31:0];
+    drogue_ray_unit_place ray_place (
+        .clock(clock), .step(ray_step), .done(where_done), .asked({where, image, size}), .out(sample_said));
+    drogue_ray_unit_grey ray_grey (
+        .clock(clock), .step(ray_step), .done(grey_done), .asked({sample[191:128], pixels}), .out(grey_said));
+    assign frame_at = pixel_at;
+    wire [31:0] shifted = frame_word >> {byte_of, 3'd0};
+
+    wire [6:0] unit = function_id[9:3];
+    assign ready = !busy && (!answered || taken) && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
+        !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(unit == 7'd14 && fetch != 4'd8);
+    wire begins = asked && ready;
+    always @(posedge clock) begin
+        step <= begins ? 8'd0 : step + 8'd1;
+        place_step <= place_step + 8'd1;
+        add_step <= add_step + 8'd1;
+        if (taken) answered <= 1'b0;
+        if (begins && unit != 7'd0) answered <= 1'b1;
+        if (begins) case (unit)
+            7'd0: begin
+                d <= {second, first};
+                what <= function_id[2:0];
+                busy <= 1'b1;
+            end
+            7'd1: begin
+                a <= b;
+                b <= c;
+                c <= {second, first};
+            end
+            7'd2: answer <= exponent;
+            7'd3: answer <= {26'd0, leading_zeros(first)};
+            7'd4: told <= {second, first, told[703:64]};
+            7'd5: begin
+                point <= {second, first};
+                place_step <= 8'd0;
+                placing <= 1'b1;
+            end
+            7'd6: answer <= said;
+            7'd7: moments <= 1280'd0;
+            7'd8: begin
+                added <= first;
+                out_of <= second[0];
+                add_step <= 8'd0;
+                adding <= 1'b1;
+            end
+            7'd9: begin
+                answer <= moments[31:0];
+                moments <= {moments[31:0], moments[1279:32]};
+            end
+            7'd10: image <= {second, first};
+            7'd11: size <= {second, first};
+            7'd12: pace <= {second, first};
+            7'd13: where <= {second, first};
+            default: begin
+                answer <= grey;
+                where <= {where[63:32] + pace[63:32], where[31:0] + pace[31:0]};
+            end
+        endcase
+        if (busy && done) begin
+            busy <= 1'b0;
+            {exponent, answer} <= divides ? quotient_real : linear_real;
+            answered <= 1'b1;
+        end
+        if (placing && place_done) begin
+            placing <= 1'b0;
+            said <= place_said;
+        end
+        if (adding && add_done) begin
+            adding <= 1'b0;
+            moments <= moments_next;
+        end
+        ray_step <= ray_step + 8'd1;
+        byte_of <= pixel_at[1:0];
+        if (begins && (unit == 7'd13 || unit == 7'd14)) begin
+            fetch <= 4'd1;
+            ray_step <= 8'd0;
+        end else case (fetch)
+            4'd0, 4'd8: ;
+            4'd1: if (where_done) begin
+                fetch <= 4'd2;
+                sample <= sample_said;
+            end
+            4'd7: if (grey_done) begin
+                fetch <= 4'd8;
+                grey <= grey_said;
+            end
+            default: begin
+                fetch <= frame_free || fetch == 4'd6 ? fetch + 4'd1 : 4'd2; // from the first once more
+                pixels <= {shifted[7:0], pixels[31:8]};
+                ray_step <= 8'd0;
+            end
+        endcase
+        if (reset) {busy, answered, placing, adding, fetch} <= 8'd0;
+    end
+endmodule
+
+// dividend / divisor, rounded down, 17 clocks from the one of 'start' on; two bits a clock.
+module drogue_divider (
+    input wire clock, input wire start, input wire [31:0] dividend, input wire [31:0] divisor, output reg [31:0] quotient);
+    reg [31:0] rest, by;
+    wire [33:0] next = {rest, quotient[31:30]}, twice = {1'b0, by, 1'b0};
+    wire upper = next >= twice;
+    wire [33:0] left = upper ? next - twice : next;
+    wire lower = left >= {2'd0, by};
+    wire [33:0] least = lower ? left - {2'd0, by} : left;
+    always @(posedge clock) begin
+        if (start) begin
+            quotient <= dividend;
+            rest <= 32'd0;
+            by <= divisor;
+            count <= 5'd16;
+        end else if (count != 5'd0) begin
+            quotient <= {quotient[29:0], upper, lower};
+            rest <= least[31:0];
+            count <= count - 5'd1;
+        end
+    end
+    reg [4:0] count = 5'd0;
+endmodule

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The units beside the soft core under Verilator: every word that they answer must be the library's, over operands at the edges
+// of their ranges and drawn ones.
+// usage: unit_test [DRAWN]     operands drawn for each operation
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "Vdrogue_unit.h"
+#include "verilated.h"
+
+#define restrict __restrict
+extern "C" {
+#include "system/points_unit.h"
+#include "system/unit.h"
+}
+
+namespace {
+
+Vdrogue_unit v;
+unsigned long failed, compared;
+uint64_t state = 1;
+
+uint32_t draw()
+{
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(state >> 32);
+}
+
+void tick()
+{
+    v.clock = 1;
+    v.eval();
+    v.clock = 0;
+    v.eval();
+}
+
+// An instruction: what the unit answers.
+uint32_t instruction(unsigned unit, unsigned what, uint32_t first, uint32_t second)
+{
+    v.asked = 1;
+    v.function_id = (uint16_t)(unit << 3 | what);
+    v.first = first;
+    v.second = second;
+    v.eval();
+    for (int k = 0; k < 100 && !v.ready; k++) {
+        tick();
+    }
+    tick();
+    v.asked = 0;
+    for (int k = 0; k < 100 && !v.answered; k++) {
+        tick();
+    }
+    v.taken = 1;
+    const uint32_t answer = v.answer;
+    tick();
+    v.taken = 0;
+    return answer;
+}
+
+void compare(const char *what, uint32_t found, uint32_t expected)
+{
+    compared++;
+    if (found != expected && failed++ < 10) {
+        printf("unit: %s: %08x, expected %08x\n", what, found, expected);
+    }
+}
+
+drogue_real real(uint32_t choice)
+{
+    static const int32_t mantissas[] = {0, 1 << 30, -(1 << 30), INT32_MAX, -INT32_MAX, (1 << 30) + 1, 0x55555555};
+    static const int32_t spans[] = {0, 1, 3, 31, 32, 62, 63, 64, 200};
+    drogue_real r;
+    const uint32_t m = draw();
+    r.mantissa = choice < 7 ? mantissas[choice] : (int32_t)((m | 1u << 30) & INT32_MAX) * (draw() >> 31 ? -1 : 1);
+    const int32_t span = spans[draw() % 9];
+    r.exponent = r.mantissa == 0 ? 0 : (int32_t)(draw() % (2 * (uint32_t)span + 1)) - span - 31;
+    return r;
+}
+
+void push(const drogue_real &r) { instruction(UNIT_PUSH, 0, (uint32_t)r.mantissa, (uint32_t)r.exponent); }
+
+void check_real(const char *name, unsigned what, const drogue_real &d, const drogue_real &expected)
+{
+    compare(name, instruction(UNIT_REAL, what, (uint32_t)d.mantissa, (uint32_t)d.exponent),
+            (uint32_t)expected.mantissa);
+    compare(name, instruction(UNIT_EXPONENT, 0, 0, 0), (uint32_t)expected.exponent);
+}
+
+void reals(uint32_t n)
+{
+    const bool edges = n < 7 * 7 * 7;
+    const drogue_real a = real(edges ? n % 7 : 7), b = real(edges ? n / 7 % 7 : 7), c = real(edges ? n / 49 : 7);
+    drogue_real d = real(7), r = c;
+    if (draw() % 4 == 0) { // what cancels
+        d = b;
+    }
+    push(a), drogue_real_sum(&r, &a, &b), check_real("sum", REAL_SUM, b, r);
+    push(a), drogue_real_difference(&r, &a, &b), check_real("difference", REAL_DIFFERENCE, b, r);
+    push(a), drogue_real_product(&r, &a, &b), check_real("product", REAL_PRODUCT, b, r);
+    push(a), drogue_real_quotient(&r, &a, &b), check_real("quotient", REAL_QUOTIENT, b, r);
+    r = c, push(c), push(a), drogue_real_subtract_product(&r, &a, &b);
+    check_real("subtract product", REAL_SUBTRACT_PRODUCT, b, r);
+    push(a), push(b), push(c), drogue_real_products(&r, &a, &b, &c, &d), check_real("products", REAL_PRODUCTS, d, r);
+    push(a), push(b), push(c), drogue_real_determinant(&r, &a, &b, &c, &d),
+        check_real("determinant", REAL_DETERMINANT, d, r);
+    const int shift = (int)(draw() % 64);
+    const int64_t whole = edges ? (int64_t)a.mantissa * (1 << 30) : (int64_t)((uint64_t)draw() << 32 | draw()) >> shift;
+    const drogue_real words = {(int32_t)((uint64_t)whole >> 32), (int32_t)(uint32_t)whole}, by = {0, d.exponent};
+    push(words), drogue_real_set(&r, whole, d.exponent), check_real("set", REAL_SET, by, r);
+    const uint32_t z = edges ? (uint32_t)a.mantissa : draw() >> draw() % 32;
+    compare("leading zeros", instruction(UNIT_ZEROS, 0, z, 0), z == 0 ? 32 : (uint32_t)__builtin_clz(z));
+}
+
+// An ellipse and points about it.
+void points()
+{
+    points_asked a;
+    points_said said;
+    drogue_ellipse e = {};
+    memset(&a, 0, sizeof a);
+    e.a_px_q16 = (drogue_q16)(65536 * 5 + draw() % (65536 * 100));
+    e.b_px_q16 = (drogue_q16)(e.a_px_q16 - (int32_t)(draw() % (uint32_t)(e.a_px_q16 / 2)));
+    e.xc_px_q16 = (drogue_q16)(draw() % (65536 * 256));
+    e.yc_px_q16 = (drogue_q16)(draw() % (65536 * 256));
+    e.angle_rad_q16 = (drogue_q16)(draw() % 200000) - 100000;
+    if (drogue_ellipse_frame_of(&a.frame, &e) != DROGUE_OK) {
+        return;
+    }
+    a.band = drogue_band_of((drogue_q16)(draw() % (8 * 65536)) + 1, (drogue_q16)(draw() % 65537));
+    a.reach = reach_of(&a.frame, &a.band);
+    a.most_px_q16 = (drogue_q16)(draw() % 300000);
+    uint32_t words[POINTS_WORDS + 1] = {};
+    memcpy(words, &a, sizeof words - 4);
+    for (int i = 0; i < POINTS_WORDS; i += 2) {
+        instruction(UNIT_TELL, 0, words[i], words[i + 1]);
+    }
+    drogue_moments m, sum;
+    drogue_moments_clear(&m);
+    instruction(UNIT_CLEAR, 0, 0, 0);
+    for (int k = 0; k < 40; k++) {
+        const uint32_t x = k % 4 ? (uint32_t)(e.xc_px_q16 >> 11) + draw() % 4096 - 2048 : draw();
+        const uint32_t y = k % 4 ? (uint32_t)(e.yc_px_q16 >> 11) + draw() % 4096 - 2048 : draw();
+        a.place = (x & 0xFFFF) | y << 16;
+        a.gradient = ((draw() % 2041 - 1020) & 0xFFFF) | (draw() % 2041 - 1020) << 16;
+        instruction(UNIT_PLACE, 0, a.place, a.gradient);
+        points_unit_place(&a, &said);
+        compare("place", instruction(UNIT_SAID, 0, 0, 0), said.word);
+        moments_asked more = {m, a.place, draw() & 1};
+        points_unit_moments(&more, &m);
+        instruction(UNIT_ADD, 0, more.place, more.out_of);
+    }
+    for (unsigned k = 0; k < sizeof sum / 4; k++) {
+        uint32_t expected;
+        memcpy(&expected, (const char *)&m + 4 * k, 4);
+        compare("moments", instruction(UNIT_MOMENTS, 0, 0, 0), expected);
+    }
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    const uint32_t drawn = argc > 1 ? (uint32_t)strtoul(argv[1], nullptr, 10) : 100000;
+    v.reset = 1;
+    tick();
+    v.reset = 0;
+    for (uint32_t n = 0; n < 7 * 7 * 7 + drawn; n++) {
+        reals(n);
+    }
+    for (uint32_t n = 0; n < drawn / 40; n++) {
+        points();
+    }
+    printf("unit: words=%lu failed=%lu\n", compared, failed);
+    return failed != 0;
+}
