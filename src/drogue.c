@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "drogue/decide.h"
 #include "drogue/inner.h"
 #include "look.h"
 
@@ -125,7 +126,6 @@ static drogue_status try_own(drogue_second_look *room, drogue_frame *f, const dr
 #define LEAST_Q16 DROGUE_Q16(2, 100)   /* by less the disc is too large for no other outline along rays */
 #define BEYOND_Q16 DROGUE_Q16(15, 100) /* by more than this it is too large for anything beyond the outline */
 #define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
-#define OF_SIZE_Q16 DROGUE_Q16(1, 64)  /* and then it must be of its size */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 
 /* Take back what was measured. */
@@ -232,8 +232,9 @@ static drogue_status try_disc(best_try *best, drogue_frame *f, const drogue_regi
     status = drogue_frame_about_disc(f, region);
     if (status == DROGUE_OK) {
         status = judge(f, DISC);
-        if (status == DROGUE_OK && f->doubt_q16 <= OF_SIZE_Q16 && f->doubt_q16 < best->least_q16 - CLEARLY_Q16 &&
-            f->out->cover_q16 >= best->result->cover_q16 / 4 * 3) { /* what shows far less of an outline is no better */
+        /* it must be of its size and agree, and what shows far less of an outline is no better */
+        if (status == DROGUE_OK && f->doubt_q16 < DROGUE_CONTRADICTED_Q16 &&
+            f->out->cover_q16 >= best->result->cover_q16 / 4 * 3) {
             keep_try(best, f, DISC, status);
         }
     }
