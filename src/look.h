@@ -36,8 +36,8 @@ drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region)
 drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
                                   drogue_q16 larger_q16);
 
-/* Look for the inner disc in a region, then for its edges in one that suits what outlines the disc allows, and choose of
- * those the one that edge points cover best: 'ring', in coordinates of that region, which becomes the result's.
+/* Look for the inner disc in a region, then for its edges in one that suits what outlines the disc allows, and choose
+ * of those the one that edge points cover best: 'ring', in coordinates of that region, which becomes the result's.
  * DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked for. */
 drogue_status drogue_frame_ring(drogue_ellipse *ring, drogue_frame *f, const drogue_region *region);
 

@@ -59,7 +59,7 @@ typedef struct drogue_result {
                                        thresholds of Canny that follow the region's noise, or higher ones where the
                                        configured fill a table; 4 one along rays, for which the inner disc is of
                                        its size: its points are the list's edges, its quality that of the outline
-                                       that it was found from */
+                                       that it was found from; 5 one that the inner disc led to, without arcs */
     drogue_ellipse ellipse;   /* outline of the end plane, as seen (distorted) */
     drogue_ellipse ideal;     /* the same without distortion: what the pose is computed from */
     drogue_quality quality;   /* of the fit of the arcs */

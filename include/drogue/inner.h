@@ -125,12 +125,12 @@ uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[DROGUE_RAYS], 
 
 /* A disc as seen from the camera. */
 typedef struct drogue_inner_sight {
-    drogue_q16 x_q16; /* tangents of its middle's direction */
-    drogue_q16 y_q16;
-    drogue_q16 length_q16; /* of (x, y, 1) */
-    drogue_q16 yaw_rad_q16;
-    drogue_q16 pitch_rad_q16;
-    drogue_q16 radius_q16; /* tangent of its radius on the optical axis, about */
+    drogue_q16 x_q16;         /* its middle's direction: tangent, */
+    drogue_q16 y_q16;         /* downward, */
+    drogue_q16 length_q16;    /* length of (x, y, 1), */
+    drogue_q16 yaw_rad_q16;   /* atan(x), */
+    drogue_q16 pitch_rad_q16; /* atan2(y, length of (x, 1)) */
+    drogue_q16 radius_q16;    /* tangent of its radius, were it on the optical axis, about */
 } drogue_inner_sight;
 
 /* Where a disc is; 0 when it reaches farther than 45 degrees off the axis, or beyond the lens model.

@@ -19,8 +19,8 @@
 static const int8_t places[PLACES][2] = {{0, 0}, {1, 0},  {-1, 0}, {0, 1},  {0, -1}, {2, 0},  {-2, 0},
                                          {0, 2}, {0, -2}, {1, 1},  {-1, 1}, {1, -1}, {-1, -1}};
 
-/* Settle the rays' edges on a circle, which is larger by so much at first; the sum of the slopes of the rays that agree, 0 when
- * too few do. */
+/* Settle the rays' edges on a circle, which is larger by so much at first; the sum of the slopes of the rays that
+ * agree, 0 when too few do. */
 static int32_t settle(drogue_ellipse *e, const drogue_ray rays[RAYS], drogue_q16 larger_px_q16, drogue_q16 gate_px_q16)
 {
     drogue_q16 v_px_q16[3] = {0, 0, 0};
@@ -122,8 +122,8 @@ int drogue_inner_sight_of(drogue_inner_sight *sight, const drogue_ellipse *disc,
 static void turn(drogue_pose *pose, const drogue_inner_sight *sight, drogue_q16 yaw_rad_q16, drogue_q16 pitch_rad_q16,
                  const drogue_model *model)
 {
-    /* Seen head-on its mean semi-axis is as much as on the optical axis times (1 + length) / 2, turned times (1 + cos) / 2,
-     * which is near 1 - turn^2 / 4. */
+    /* Seen head-on its mean semi-axis is as much as on the optical axis times (1 + length) / 2, turned times
+     * (1 + cos) / 2, which is near 1 - turn^2 / 4. */
     const drogue_q16 turn2_q16 = drogue_sat_s32((int64_t)(drogue_square_sum(yaw_rad_q16, pitch_rad_q16) >> 16));
     const drogue_q16 facing_q16 = drogue_q16_mul(drogue_q16_add(DROGUE_Q16_ONE, sight->length_q16) / 2,
                                                  drogue_q16_sub(DROGUE_Q16_ONE, turn2_q16 / 4));

@@ -625,8 +625,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
                    : out.second_look >= DROGUE_SECOND_TOO_WIDE ? out.second_look
                                                                : DROGUE_SECOND_NONE;
         }
-        if (out.status == DROGUE_OK && doubt < 1 / 64.0L &&
-            out.outline.cover >= best.outline.cover * 3 / 4) {
+        if (out.status == DROGUE_OK && doubt < 1 / 64.0L && out.outline.cover >= best.outline.cover * 3 / 4) {
             least = doubt;
             best = out;
             decided = f.decided;

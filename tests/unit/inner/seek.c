@@ -101,8 +101,10 @@ START_TEST(what_is_no_disc)
     view = draw(74.5, 74.5, 20, 1, 0, 0); /* of a model without one, under 3 px, larger than its rim */
     ck_assert_int_eq(seek(out, &view, 0.12), 1);
     ck_assert_int_eq(seek(out, &view, 0), 0);
-    ck_assert_int_eq(seek(out, &view, 0.0165), 0);
     ck_assert_int_eq(seek(out, &view, 0.36), 0);
+    view = draw(74.5, 74.5, 3, 1, 0, 0);
+    ck_assert_int_eq(seek(out, &view, 0.0165), 0);
+    ck_assert_int_eq(seek(out, &view, 0.0175), 1);
 }
 END_TEST
 
