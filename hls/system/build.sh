@@ -19,15 +19,13 @@ print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
 
 # firmware FOLDER SOURCE [FLAG...]: a program of the soft core, linked with the library and the driver
 firmware() {
-    local hot=(src/inner/fit.c src/outline/rays.c) # what the soft core's clocks go into, then what it comes by often; all else is
-    # small, so that it fits the RAM at 256 px
-    local warm=(src/inner/{edge,shade}.c src/outline/{constraints,moments,support}.c src/pose/joint*.c)
+    # what the soft core's clocks go into; all else is small, so that it fits the RAM at 256 px
+    local hot=(src/inner/{edge,fit,shade}.c src/outline/{constraints,moments,rays,support}.c src/pose/joint*.c)
     local flags=(-march=rv32im -mabi=ilp32 -std=c99 -Os -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
     rm -rf "$1/objects"
     mkdir -p "$1/objects"
     (cd "$1/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -c &&
-        riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 "${warm[@]/#/$root/}" -c &&
-        riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O3 "${hot[@]/#/$root/}" -c)
+        riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 "${hot[@]/#/$root/}" -c)
     local own # what hls/system has by the units goes before the library's
     for own in real near rays; do
         riscv64-unknown-elf-objcopy --weaken "$1/objects/$own.o"
