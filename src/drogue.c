@@ -195,6 +195,13 @@ static int asks_beyond(const best_try *best)
            best->larger_q16 <= BEYOND_Q16;
 }
 
+/* Is the disc to be looked for without an outline? Not where nothing has an edge: a blank frame costs no more. */
+static int asks_disc(const best_try *best, const drogue_frame *f)
+{
+    return best->least_q16 > DISC_Q16 && best->result->status != DROGUE_E_NO_EDGES &&
+           f->setup->model->inner_radius_m_q16 > 0;
+}
+
 /* Is the inner disc seen, but too large for the best outline? Then that is an edge within the drogue: the canopy's or
  * its wall's. */
 static int too_large(const best_try *best)
@@ -281,7 +288,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
             room = short_of_room(f, status);
         }
     }
-    if (best.least_q16 > DISC_Q16 && f->setup->model->inner_radius_m_q16 > 0) {
+    if (asks_disc(&best, f)) {
         const drogue_edge_list list = f->out->list;
         status = try_disc(&best, f, region);
         if (status == DROGUE_E_NO_INNER_PART) {

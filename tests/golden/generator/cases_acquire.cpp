@@ -356,8 +356,8 @@ void add_look(Set &set)
         l = {{x - side / 2, y - side / 2, side, side}};
         add_one(set, "side-" + std::to_string(side), Tier::ordinary, {}, p, l);
     }
-    l = {{x - 33, y - 33, 66, 66}}; /* too small for the outline, which the disc leads to: but for room */
-    for (const int width : {66, 85, 86, 100}) {
+    l = {{x - 38, y - 38, 76, 76}}; /* too small for the outline, which the disc leads to: but for room */
+    for (const int width : {76, 85, 86, 100}) {
         l.width = width;
         add_one(set, "disc-width-" + std::to_string(width), Tier::boundary, {"table-full", "threshold-met"}, p, l);
     }

@@ -615,7 +615,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    if (least > 0.04L && task.model.inner_radius > 0) {
+    if (least > 0.04L && best.status != DROGUE_E_NO_EDGES && task.model.inner_radius > 0) {
         Result out;
         Features from = {};
         out.outline.arcs.fill(DROGUE_NO_ARC);
