@@ -173,22 +173,29 @@ drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region)
     return first;
 }
 
+static drogue_ellipse moved(const drogue_ellipse *e, int32_t x_px, int32_t y_px)
+{
+    drogue_ellipse m = *e;
+    m.xc_px_q16 = drogue_q16_add(m.xc_px_q16, drogue_q16_from_int(x_px));
+    m.yc_px_q16 = drogue_q16_add(m.yc_px_q16, drogue_q16_from_int(y_px));
+    return m;
+}
+
 drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
                                   drogue_q16 larger_q16)
 {
     drogue_outline *outline = &f->outline;
     drogue_result *out = f->out;
     const drogue_q16 by_px_q16 = drogue_q16_mul(was->a_px_q16, larger_q16);
-    drogue_ellipse about = *was;
     const drogue_status status = place_view(f, region);
+    drogue_ellipse about;
     if (status != DROGUE_OK) {
         return status;
     }
     f->asked = *region;
     f->others = 0;
     drogue_outline_clear(outline);
-    about.xc_px_q16 = drogue_q16_sub(was->xc_px_q16, drogue_q16_from_int(out->region.x_px));
-    about.yc_px_q16 = drogue_q16_sub(was->yc_px_q16, drogue_q16_from_int(out->region.y_px));
+    about = moved(was, -out->region.x_px, -out->region.y_px);
     outline->fitted = about;
     about.a_px_q16 = drogue_q16_add(about.a_px_q16, by_px_q16);
     about.b_px_q16 = drogue_q16_add(about.b_px_q16, by_px_q16);
@@ -197,14 +204,6 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
                    drogue_outline_enlarge(outline, f->workspace, &out->list, &f->mask, f->setup->config)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;
-}
-
-static drogue_ellipse moved(const drogue_ellipse *e, int32_t x_px, int32_t y_px)
-{
-    drogue_ellipse m = *e;
-    m.xc_px_q16 = drogue_q16_add(m.xc_px_q16, drogue_q16_from_int(x_px));
-    m.yc_px_q16 = drogue_q16_add(m.yc_px_q16, drogue_q16_from_int(y_px));
-    return m;
 }
 
 /* Of the outlines that a disc allows the one that edge points cover best, if better than what there is. */

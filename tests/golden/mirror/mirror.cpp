@@ -563,6 +563,15 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
     std::array<int64_t, 4> asked_for = {};
     drogue_status status = DROGUE_OK;
     drogue_second_look room = DROGUE_SECOND_NONE; /* of any try that had too little of it */
+    const auto keep = [&](const Result &out, const Features &from, Real doubt) {
+        least = doubt;
+        best = out;
+        decided = f.decided;
+        asked_for = f.asked;
+        if (features != nullptr) {
+            *features = from;
+        }
+    };
     for (int what = 0; what < 4 && least > SURE; what++) {
         const bool larger = what % 2 == 1;
         Result out;
@@ -606,13 +615,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
         if (doubt < least - 1 / 256.0L && (status == DROGUE_OK || best.status != DROGUE_OK)) {
-            least = doubt;
-            best = out;
-            decided = f.decided;
-            asked_for = f.asked;
-            if (features != nullptr) {
-                *features = from;
-            }
+            keep(out, from, doubt);
         }
     }
     if (least > 0.04L && best.status != DROGUE_E_NO_EDGES && task.model.inner_radius > 0) {
@@ -626,13 +629,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
                                                                : DROGUE_SECOND_NONE;
         }
         if (out.status == DROGUE_OK && doubt < 1 / 64.0L && out.outline.cover >= best.outline.cover * 3 / 4) {
-            least = doubt;
-            best = out;
-            decided = f.decided;
-            asked_for = f.asked;
-            if (features != nullptr) {
-                *features = from;
-            }
+            keep(out, from, doubt);
         }
     }
     const bool asks_beyond = best.status == DROGUE_OK && least > SURE &&

@@ -476,6 +476,13 @@ void look_beyond(FrontEnd &front, const cv::Mat &view, const drogue_ellipse &abo
     number(front);
 }
 
+/* As fitted and with what blur took put back. */
+static void finish(Outline &out, const drogue_config &config)
+{
+    out.fitted = out.ellipse;
+    undo_blur(out.ellipse, config);
+}
+
 drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
                            const Follow &follow)
 {
@@ -486,8 +493,7 @@ drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mas
         out.cover = 0;
         out.ellipse = {0, 0, 0, 0, 0, false};
     } else {
-        out.fitted = out.ellipse;
-        undo_blur(out.ellipse, config);
+        finish(out, config);
     }
     return status;
 }
@@ -498,8 +504,7 @@ bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const
     if (!Finder(front, mask, config, follow).enlarge(out)) {
         return false;
     }
-    out.fitted = out.ellipse;
-    undo_blur(out.ellipse, config);
+    finish(out, config);
     return true;
 }
 
@@ -511,8 +516,7 @@ bool settle(Outline &out, const drogue_ellipse &ring, const FrontEnd &front, con
     if (!Finder(front, mask, config, follow).settle(out, start)) {
         return false;
     }
-    out.fitted = out.ellipse;
-    undo_blur(out.ellipse, config);
+    finish(out, config);
     return true;
 }
 
