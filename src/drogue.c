@@ -26,10 +26,10 @@ static void clear(drogue_result *out)
     }
 }
 
-/* What may be tried, in this order: the configured thresholds of Canny or those of the region's own noise, and of
- * either the outline found or a larger one about it; then, where the inner disc is too large for the best of them, one
- * along rays; before that, where the disc is far off its size or there is none, one about a disc that is seen without
- * an outline. */
+/* What may be tried: the configured thresholds of Canny or those of the region's own noise, and of either the outline
+ * found or a larger one about it; then, where the disc is far off its size or there is none, DISC, one about a disc
+ * that is seen without an outline; at last, where the disc is too large for the best of them, BEYOND, one along rays.
+ */
 enum { FIRST, FIRST_LARGER, OWN, OWN_LARGER, BEYOND, DISC };
 
 #define RAISES 2     /* at most, of thresholds of the noise that fill a table */
@@ -171,7 +171,7 @@ static void return_to(const best_try *best, drogue_frame *f, const drogue_region
             set_thresholds(f, f->setup->config->canny_high);
         }
         (void)drogue_frame_edges(f, &best->region);
-    } else if (!found && f->others) {
+    } else if (!found && (f->others || last == DISC)) {
         (void)drogue_frame_edges(f, region);
     }
     list = f->out->list;
@@ -195,11 +195,10 @@ static int asks_beyond(const best_try *best)
            best->larger_q16 <= BEYOND_Q16;
 }
 
-/* Is the disc to be looked for without an outline? Not where nothing has an edge: a blank frame costs no more. */
+/* Is the disc to be looked for without an outline? Where the ring has no edge, too: it may not suit the drogue. */
 static int asks_disc(const best_try *best, const drogue_frame *f)
 {
-    return best->least_q16 > DISC_Q16 && best->result->status != DROGUE_E_NO_EDGES &&
-           f->setup->model->inner_radius_m_q16 > 0;
+    return best->least_q16 > DISC_Q16 && f->setup->model->inner_radius_m_q16 > 0;
 }
 
 /* Is the inner disc seen, but too large for the best outline? Then that is an edge within the drogue: the canopy's or
@@ -207,6 +206,14 @@ static int asks_disc(const best_try *best, const drogue_frame *f)
 static int too_large(const best_try *best)
 {
     return best->result->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE && best->larger_q16 > 0;
+}
+
+/* Does the disc that was sought allow an outline of quite another size than the best one, which has none? */
+static int another_ring(const best_try *best, const drogue_frame *f)
+{
+    const int64_t a_px_q16 = best->result->ellipse.a_px_q16;
+    return best->result->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE && f->ring_px_q16 > 0 &&
+           (8 * a_px_q16 < 7 * (int64_t)f->ring_px_q16 || 8 * a_px_q16 > 9 * (int64_t)f->ring_px_q16);
 }
 
 /* Look for the outline that the inner disc is of the size for. */
@@ -239,9 +246,9 @@ static drogue_status try_disc(best_try *best, drogue_frame *f, const drogue_regi
     status = drogue_frame_about_disc(f, region);
     if (status == DROGUE_OK) {
         status = judge(f, DISC);
-        /* it must be of its size and agree, and what shows far less of an outline is no better */
+        /* it must be of its size and agree; and what shows far less of an outline than one with a disc is no better */
         if (status == DROGUE_OK && f->doubt_q16 < DROGUE_CONTRADICTED_Q16 &&
-            f->out->cover_q16 >= best->result->cover_q16 / 4 * 3) {
+            (best->least_q16 >= DROGUE_Q16_ONE || f->out->cover_q16 >= best->result->cover_q16 / 4 * 3)) {
             keep_try(best, f, DISC, status);
         }
     }
@@ -305,7 +312,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
         room = DROGUE_SECOND_FULL;
     }
     return_to(&best, f, region, last);
-    if (too_large(&best)) {
+    if (too_large(&best) || another_ring(&best, f)) {
         refuse(f->out);
         best.result->status = DROGUE_E_NO_ELLIPSE;
     }

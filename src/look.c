@@ -285,6 +285,7 @@ drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *regi
     if (status != DROGUE_OK) {
         return status;
     }
+    f->ring_px_q16 = ring.a_px_q16;
     return drogue_outline_settle(&f->outline, &ring, f->workspace, &f->out->list, &f->mask, f->setup->config) &&
                    about_the_same(&f->outline.ellipse, &ring, 0, 0, 16)
                ? DROGUE_OK

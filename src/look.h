@@ -15,13 +15,15 @@ typedef struct drogue_frame {
     drogue_mask mask;
     drogue_outline outline;
     drogue_second_look second_look;
+    uint8_t others; /* 1: the workspace holds edges of another region than the view */
     int32_t canny_low;
     int32_t canny_high;
-    drogue_region asked;   /* where edges were looked for last */
-    int32_t others;        /* the workspace holds edges of another region than the view */
-    drogue_q16 larger_q16; /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
-    drogue_q16 doubt_q16;  /* in the inner disc's size, as in drogue_inner_evidence; 1: not seen, or too large for
-                              the outline; more: no outline */
+    drogue_region asked;    /* where edges were looked for last */
+    drogue_q16 larger_q16;  /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
+    drogue_q16 ring_px_q16; /* semi-axis of the outline that a disc allows which was sought; 0: there is none */
+    drogue_q16 doubt_q16;   /* in the inner disc's size, as in drogue_inner_evidence, at least 1/64 where disc and
+                              outline contradict each other; 1: not seen, or too large for the outline; more: no
+                              outline */
 } drogue_frame;
 
 /* Find the edges of a region with the frame's thresholds; the view becomes the region's pixels. */
@@ -41,7 +43,7 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
  * DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked for. */
 drogue_status drogue_frame_ring(drogue_ellipse *ring, drogue_frame *f, const drogue_region *region);
 
-/* The outline about that ring. */
+/* The outline about that ring, whose semi-axis the frame has then. */
 drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *region);
 
 /* From the outline to the pose. Apart from the rest for its stack: that of the looks is not below it. */

@@ -27,13 +27,13 @@ firmware() {
     (cd "$1/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -c &&
         riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 "${hot[@]/#/$root/}" -c)
     local own # what hls/system has by the units goes before the library's
-    for own in real near rays; do
+    for own in fixed real near rays; do
         riscv64-unknown-elf-objcopy --weaken "$1/objects/$own.o"
     done
     rm -f "$1/libdrogue.a"
     riscv64-unknown-elf-ar rcs "$1/libdrogue.a" "$1"/objects/*.o
     riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -nostartfiles -Wl,--gc-sections,--no-warn-rwx-segments \
-        -T hls/system/system.ld -O2 -fno-tree-loop-distribute-patterns hls/system/start.S "$2" hls/system/{real,near,rays,memory}.c \
+        -T hls/system/system.ld -O2 -fno-tree-loop-distribute-patterns hls/system/start.S "$2" hls/system/{fixed,real,near,rays,memory}.c \
         hls/driver/{block,bank,block_frontend}.c "$1/libdrogue.a" -o "$1/firmware.elf"
     riscv64-unknown-elf-objcopy -O verilog --verilog-data-width=4 "$1/firmware.elf" "$1/firmware.hex"
     riscv64-unknown-elf-size "$1/firmware.elf" |

@@ -69,6 +69,9 @@ uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 thresho
     uint32_t near_count = 0;
     uint32_t i;
     uint32_t said;
+    if (count == 0) {
+        return 0;
+    }
     tell(&a);
     ask(&edges[0]);
     for (i = 1; i < count; i++) {

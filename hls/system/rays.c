@@ -28,6 +28,12 @@ void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_ima
     UNIT(none, UNIT_RAY_BEGIN, 0, r->x_px_q16 + drogue_ray_part(r->nx_q14, from_px_q16),
          r->y_px_q16 + drogue_ray_part(r->ny_q14, from_px_q16));
     (void)none;
+    for (; end - grey_q8_out >= 4; grey_q8_out += 4) {
+        UNIT(grey_q8_out[0], UNIT_RAY_GREY, 0, 0, 0);
+        UNIT(grey_q8_out[1], UNIT_RAY_GREY, 0, 0, 0);
+        UNIT(grey_q8_out[2], UNIT_RAY_GREY, 0, 0, 0);
+        UNIT(grey_q8_out[3], UNIT_RAY_GREY, 0, 0, 0);
+    }
     for (; grey_q8_out < end; grey_q8_out++) {
         UNIT(*grey_q8_out, UNIT_RAY_GREY, 0, 0, 0);
     }

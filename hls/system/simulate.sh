@@ -20,7 +20,7 @@ while [ $# -ge 2 ]; do
     "$render" "$1" "$2" >"$work/frames.raw"
     if [ -n "${DROGUE_PROFILE:-}" ]; then
         (cd "$work" && ./bench frames.raw clocks)
-        { riscv64-unknown-elf-nm "$work/firmware.elf" | awk '$2 ~ /[tT]/ { print $1, "!", $3 }' && cat "$work/clocks"; } | LC_ALL=C sort |
+        { riscv64-unknown-elf-nm "$work/firmware.elf" | awk '$2 ~ /[tTwW]/ { print $1, "!", $3 }' && cat "$work/clocks"; } | LC_ALL=C sort |
             awk '$2 == "!" { name = $3; next } { clocks[name] += $2; all += $2 }
                 END { for (name in clocks) printf "%5.1f %% %s\n", 100 * clocks[name] / all, name }' | sort -rn | head -n 25
     else

@@ -20,7 +20,8 @@ enum {
     UNIT_RAY_SIZE,
     UNIT_RAY_STEP,
     UNIT_RAY_BEGIN,
-    UNIT_RAY_GREY /* sample after sample */
+    UNIT_RAY_GREY, /* sample after sample */
+    UNIT_ROOT      /* of the lower and the upper word */
 };
 
 /* In the order of the text: units keep what they were told. */

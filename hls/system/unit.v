@@ -45,34 +45,48 @@ module drogue_unit (
     drogue_points_unit_moments add (
         .clock(clock), .step(add_step), .done(add_done), .asked({31'd0, out_of, added, moments}), .out(moments_next));
 
-    // Grey along a ray: while the soft core takes a sample the next is fetched, a pixel a clock once its place is known.
+    // Grey along a ray, sample after sample before the soft core asks: the next one's place is worked out while the pixels of one
+    // come, a pixel a clock, and the one before is interpolated.
     reg [63:0] image, size, pace, where; // first byte, stride; width, height; and so on
-    reg [3:0] fetch; // 0: not; 1: where; 2: the first pixel is asked for; to 6: the last one comes; 7: interpolated; 8: there
-    reg [7:0] ray_step;
-    reg [191:0] sample;
+    reg placing_sample, placed_sample, mixing, mixed, there;
+    reg [7:0] sample_step, mix_step;
+    reg [2:0] fetch; // 0: not; 1: the first pixel is asked for; to 5: the last one comes; 6: all are there
+    reg [191:0] placed, sample;
+    reg [63:0] mixed_at;
+    reg [31:0] pixels, mixed_pixels, mixed_grey, grey;
     reg [1:0] byte_of;
-    reg [31:0] pixels, grey;
-    wire where_done, grey_done;
+    wire sample_done, mix_done;
     wire [191:0] sample_said;
     wire [31:0] grey_said;
-    wire [31:0] pixel_at = fetch[2] ? fetch[0] ? sample[127:96] : sample[95:64] : fetch[0] ? sample[63:32] : sample[31:0];
+    wire [2:0] pixel = fetch - 3'd1;
+    assign frame_at = pixel[1] ? pixel[0] ? sample[127:96] : sample[95:64] : pixel[0] ? sample[63:32] : sample[31:0];
     drogue_ray_unit_place ray_place (
-        .clock(clock), .step(ray_step), .done(where_done), .asked({where, image, size}), .out(sample_said));
+        .clock(clock), .step(sample_step), .done(sample_done), .asked({where, image, size}), .out(sample_said));
     drogue_ray_unit_grey ray_grey (
-        .clock(clock), .step(ray_step), .done(grey_done), .asked({sample[191:128], pixels}), .out(grey_said));
-    assign frame_at = pixel_at;
+        .clock(clock), .step(mix_step), .done(mix_done), .asked({mixed_at, mixed_pixels}), .out(grey_said));
     wire [31:0] shifted = frame_word >> {byte_of, 3'd0};
+
+    // A square root, two bits of it a clock.
+    reg [63:0] radicand;
+    reg [31:0] root, left;
+    reg [4:0] root_step; // 0: not
+    wire [33:0] first_left = {left, radicand[63:62]}, first_by = {root, 2'd1};
+    wire first_bit = first_left >= first_by;
+    wire [33:0] between = first_bit ? first_left - first_by : first_left;
+    wire [34:0] second_left = {between[32:0], radicand[61:60]}, second_by = {root, first_bit, 2'd1};
+    wire second_bit = second_left >= second_by;
+    wire [34:0] after = second_bit ? second_left - second_by : second_left;
 
     wire [6:0] unit = function_id[9:3];
     assign ready = !busy && (!answered || taken) && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
-        !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(unit == 7'd14 && fetch != 4'd8);
+        !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(unit == 7'd14 && !there);
     wire begins = asked && ready;
     always @(posedge clock) begin
         step <= begins ? 8'd0 : step + 8'd1;
         place_step <= place_step + 8'd1;
         add_step <= add_step + 8'd1;
         if (taken) answered <= 1'b0;
-        if (begins && unit != 7'd0) answered <= 1'b1;
+        if (begins && unit != 7'd0 && unit != 7'd15) answered <= 1'b1;
         if (begins) case (unit)
             7'd0: begin
                 d <= {second, first};
@@ -107,13 +121,16 @@ module drogue_unit (
             7'd10: image <= {second, first};
             7'd11: size <= {second, first};
             7'd12: pace <= {second, first};
-            7'd13: where <= {second, first};
+            7'd13: ; // below
+            7'd14: answer <= grey;
             default: begin
-                answer <= grey;
-                where <= {where[63:32] + pace[63:32], where[31:0] + pace[31:0]};
+                radicand <= {second, first};
+                {root, left} <= 64'd0;
+                root_step <= 5'd17;
+                busy <= 1'b1;
             end
         endcase
-        if (busy && done) begin
+        if (busy && root_step == 5'd0 && done) begin
             busy <= 1'b0;
             {exponent, answer} <= divides ? quotient_real : linear_real;
             answered <= 1'b1;
@@ -126,28 +143,64 @@ module drogue_unit (
             adding <= 1'b0;
             moments <= moments_next;
         end
-        ray_step <= ray_step + 8'd1;
-        byte_of <= pixel_at[1:0];
-        if (begins && (unit == 7'd13 || unit == 7'd14)) begin
-            fetch <= 4'd1;
-            ray_step <= 8'd0;
-        end else case (fetch)
-            4'd0, 4'd8: ;
-            4'd1: if (where_done) begin
-                fetch <= 4'd2;
-                sample <= sample_said;
+        sample_step <= sample_step + 8'd1;
+        mix_step <= mix_step + 8'd1;
+        byte_of <= frame_at[1:0];
+        if (placing_sample && sample_done) begin
+            placing_sample <= 1'b0;
+            placed_sample <= 1'b1;
+            placed <= sample_said;
+            where <= {where[63:32] + pace[63:32], where[31:0] + pace[31:0]};
+        end
+        case (fetch)
+            3'd0: if (placed_sample) begin
+                sample <= placed;
+                fetch <= 3'd1;
+                placed_sample <= 1'b0;
+                placing_sample <= 1'b1;
+                sample_step <= 8'd0;
             end
-            4'd7: if (grey_done) begin
-                fetch <= 4'd8;
-                grey <= grey_said;
+            3'd6: if (!mixing && !mixed) begin
+                mixed_pixels <= pixels;
+                mixed_at <= sample[191:128];
+                mixing <= 1'b1;
+                mix_step <= 8'd0;
+                fetch <= 3'd0;
             end
             default: begin
-                fetch <= frame_free || fetch == 4'd6 ? fetch + 4'd1 : 4'd2; // from the first once more
+                fetch <= frame_free || fetch == 3'd5 ? fetch + 3'd1 : 3'd1; // from the first once more
                 pixels <= {shifted[7:0], pixels[31:8]};
-                ray_step <= 8'd0;
             end
         endcase
-        if (reset) {busy, answered, placing, adding, fetch} <= 8'd0;
+        if (mixing && mix_done) begin
+            mixing <= 1'b0;
+            mixed <= 1'b1;
+            mixed_grey <= grey_said;
+        end
+        if (begins && unit == 7'd14) there <= 1'b0;
+        if (mixed && !there) begin
+            mixed <= 1'b0;
+            there <= 1'b1;
+            grey <= mixed_grey;
+        end
+        if (begins && unit == 7'd13) begin
+            where <= {second, first};
+            {placed_sample, mixing, mixed, there, fetch} <= 7'd0;
+            placing_sample <= 1'b1;
+            sample_step <= 8'd0;
+        end
+        if (root_step != 5'd0) begin
+            radicand <= {radicand[59:0], 4'd0};
+            root <= {root[29:0], first_bit, second_bit};
+            left <= after[31:0];
+            root_step <= root_step - 5'd1;
+            if (root_step == 5'd1) begin
+                busy <= 1'b0;
+                answer <= root;
+                answered <= 1'b1;
+            end
+        end
+        if (reset) {busy, answered, placing, adding, placing_sample, placed_sample, mixing, mixed, there, fetch, root_step} <= 17'd0;
     end
 endmodule
 

@@ -11,6 +11,7 @@
 
 #define restrict __restrict
 extern "C" {
+#include "drogue/rays.h"
 #include "system/points_unit.h"
 #include "system/unit.h"
 }
@@ -27,10 +28,15 @@ uint32_t draw()
     return (uint32_t)(state >> 32);
 }
 
+uint32_t frame[4096]; // the frame memory's words
+
 void tick()
 {
+    const uint32_t word = v.frame_free ? frame[v.frame_at / 4 % 4096] : draw();
     v.clock = 1;
     v.eval();
+    v.frame_word = word;
+    v.frame_free = draw() % 8 != 0;
     v.clock = 0;
     v.eval();
 }
@@ -109,6 +115,9 @@ void reals(uint32_t n)
     const drogue_real words = {(int32_t)((uint64_t)whole >> 32), (int32_t)(uint32_t)whole}, by = {0, d.exponent};
     push(words), drogue_real_set(&r, whole, d.exponent), check_real("set", REAL_SET, by, r);
     const uint32_t z = edges ? (uint32_t)a.mantissa : draw() >> draw() % 32;
+    const uint64_t square = (uint64_t)z * z - (draw() & 1),
+                   v64 = edges ? square : ((uint64_t)draw() << 32 | draw()) >> shift;
+    compare("root", instruction(UNIT_ROOT, 0, (uint32_t)v64, (uint32_t)(v64 >> 32)), drogue_isqrt_u64(v64));
     compare("leading zeros", instruction(UNIT_ZEROS, 0, z, 0), z == 0 ? 32 : (uint32_t)__builtin_clz(z));
 }
 
@@ -157,6 +166,36 @@ void points()
     }
 }
 
+// A ray across an image in the frame memory, or out of it; not all of its samples are taken.
+void rays()
+{
+    int32_t grey[73];
+    drogue_ray r = {};
+    const int32_t width = 1 + (int32_t)(draw() % 100), height = 1 + (int32_t)(draw() % 100);
+    const uint32_t first = draw() % 1000;
+    const drogue_image image = {(const uint8_t *)frame + first, width, height, width + (int32_t)(draw() % 20)};
+    r.x_px_q16 = (drogue_q16)(draw() % 0x800000) - 0x100000;
+    r.y_px_q16 = (drogue_q16)(draw() % 0x800000) - 0x100000;
+    r.nx_q14 = (int32_t)(draw() % 32769) - 16384;
+    r.ny_q14 = (int32_t)(draw() % 32769) - 16384;
+    r.step_px_q16 = (drogue_q16)(draw() % 131072);
+    const drogue_q16 from = (drogue_q16)(draw() % 0x400000) - 0x200000;
+    const int32_t count = 1 + (int32_t)(draw() % 73);
+    drogue_ray_read(grey, &r, &image, from, count);
+    instruction(UNIT_RAY_IMAGE, 0, first, (uint32_t)image.stride);
+    instruction(UNIT_RAY_SIZE, 0, (uint32_t)width, (uint32_t)height);
+    instruction(UNIT_RAY_STEP, 0, (uint32_t)drogue_ray_part(r.nx_q14, r.step_px_q16),
+                (uint32_t)drogue_ray_part(r.ny_q14, r.step_px_q16));
+    instruction(UNIT_RAY_BEGIN, 0, (uint32_t)(r.x_px_q16 + drogue_ray_part(r.nx_q14, from)),
+                (uint32_t)(r.y_px_q16 + drogue_ray_part(r.ny_q14, from)));
+    for (int32_t k = 0; k < count; k++) {
+        for (uint32_t wait = draw() % 30; wait > 20; wait--) {
+            tick();
+        }
+        compare("grey", instruction(UNIT_RAY_GREY, 0, 0, 0), (uint32_t)grey[k]);
+    }
+}
+
 } // namespace
 
 int main(int argc, char **argv)
@@ -170,6 +209,12 @@ int main(int argc, char **argv)
     }
     for (uint32_t n = 0; n < drawn / 40; n++) {
         points();
+    }
+    for (uint32_t &word : frame) {
+        word = draw();
+    }
+    for (uint32_t n = 0; n < drawn / 10; n++) {
+        rays();
     }
     printf("unit: words=%lu failed=%lu\n", compared, failed);
     return failed != 0;

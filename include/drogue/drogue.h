@@ -51,7 +51,8 @@ const char *drogue_version(void);
 typedef struct drogue_result {
     drogue_status status;           /* what drogue_measure() returned */
     drogue_second_look second_look; /* from TOO_WIDE on, of any try, a larger workspace may give another result */
-    drogue_region region;           /* the region used: the one asked for, clipped to the image */
+    drogue_region region;           /* the region used: the one asked for, that of a better second look, or with tried 5
+                                       one that suits the disc; clipped to the image */
     drogue_edge_list list;    /* edges and arcs in the workspace, in coordinates of the region; where no try gave an
                                        outline those of the last one */
     uint32_t arcs[4];         /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
@@ -87,7 +88,9 @@ typedef char drogue_assume_result_fits[sizeof(drogue_result) + 4 <= DROGUE_KEPT_
  *  workspace  holds the edge points and arcs after the call. An outline that the ring mask cuts is looked for once more
  *             in a square region of its own, at most 5/2 of its semi-major axis a side: of an outline that fits into
  *             the region asked for, 5/4 of its longest side, of one as large as the default max_size takes, 15/8. A
- *             workspace for that width holds every second look; a smaller one keeps the first, and second_look says so
+ *             workspace for that width holds every second look; a smaller one keeps the first, and second_look says
+ *             so. A region about a disc (tried 5) is as large as the outline that the disc allows asks for; with the
+ *             lens and model of a real camera no larger
  *  setup      camera, model, thresholds; the model's inner_radius 0: inner part unknown, both poses are given and the
  *             orientation stays unresolved
  *  image      the caller's; not written

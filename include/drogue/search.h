@@ -67,8 +67,8 @@ int32_t drogue_search_end(drogue_search *search);
  * contrast of at least a quarter of the grey at its edge), sharp (a spread of at most 0.3 px) and near to the model's
  * size (its radius to 0.6 px and a tenth), within an outline covered to 0.75; where it decides the orientation and has
  * its size (to 0.3 px and a twenty-fifth) a cover of 0.6 will do, or, where it is not sharp, one of 0.9; one of 5 px
- * and more need not be sharp within an outline of a cover of 31/32 and a reliability of 0.99. For a model without one a
- * cover of 0.75 and a reliability of 0.9.
+ * and more which decides need not be sharp within an outline of a cover of 31/32 and a reliability of 0.99. For a model
+ * without one a cover of 0.75 and a reliability of 0.9.
  *
  *  r  of status DROGUE_OK
  */

@@ -14,6 +14,7 @@
 #define LAST_PX DROGUE_Q16(3, 2)      /* they agree within this, or a sixteenth of the radius */
 #define SMALLEST_PX DROGUE_Q16(3, 1)  /* radius as the region suggests it, */
 #define LEAST_PX DROGUE_Q16(2, 1)     /* and as it is found */
+#define FAR_PX DROGUE_Q16(512, 1)     /* an outline, of which rays from the middle reach all */
 
 /* The places, in sixths of the outline's semi-axis as the region suggests it. */
 static const int8_t places[PLACES][2] = {{0, 0}, {1, 0},  {-1, 0}, {0, 1},  {0, -1}, {2, 0},  {-2, 0},
@@ -37,6 +38,22 @@ static int32_t settle(drogue_ellipse *e, const drogue_ray rays[RAYS], drogue_q16
     return s.slopes_q8;
 }
 
+/* Does any ray from there see an edge, out to so far? None sees one where the frame is blank. */
+static int sees_edge(drogue_ray rays[RAYS], const drogue_image *view, const drogue_ellipse *middle,
+                     drogue_q16 far_px_q16, int32_t least)
+{
+    drogue_ellipse half = *middle;
+    uint32_t seen = 0;
+    int32_t k;
+    half.a_px_q16 = far_px_q16 / 2;
+    half.b_px_q16 = half.a_px_q16;
+    drogue_rays_cast(rays, view, &half, half.a_px_q16, PHASE, EVERY, least, 0);
+    for (k = 0; k < RAYS; k++) {
+        seen += rays[k].count;
+    }
+    return seen > 0;
+}
+
 uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[RAYS], const drogue_image *view,
                            const drogue_mask *mask, const drogue_setup *setup)
 {
@@ -44,17 +61,23 @@ uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[RAYS], const d
     const drogue_q16 r =
         drogue_q16_div(drogue_q16_mul(a, setup->model->inner_radius_m_q16), setup->model->rim_radius_m_q16);
     const int32_t least = setup->config->min_inner_contrast;
+    drogue_ellipse middle;
     int32_t steepest = 0;
     int32_t k;
     if (r < SMALLEST_PX || r > a) {
         return 0;
     }
+    memset(&middle, 0, sizeof middle);
+    middle.xc_px_q16 = mask->centre2_x * (DROGUE_Q16_ONE / 2);
+    middle.yc_px_q16 = mask->centre2_y * (DROGUE_Q16_ONE / 2);
+    if (a <= FAR_PX && !sees_edge(rays, view, &middle, a / 5 * 6, least)) {
+        return 0;
+    }
     for (k = 0; k < PLACES; k++) {
-        drogue_ellipse place;
+        drogue_ellipse place = middle;
         int32_t size;
-        memset(&place, 0, sizeof place);
-        place.xc_px_q16 = drogue_q16_add(mask->centre2_x * (DROGUE_Q16_ONE / 2), places[k][0] * (a / 6));
-        place.yc_px_q16 = drogue_q16_add(mask->centre2_y * (DROGUE_Q16_ONE / 2), places[k][1] * (a / 6));
+        place.xc_px_q16 = drogue_q16_add(middle.xc_px_q16, places[k][0] * (a / 6));
+        place.yc_px_q16 = drogue_q16_add(middle.yc_px_q16, places[k][1] * (a / 6));
         place.a_px_q16 = r;
         place.b_px_q16 = r;
         drogue_rays_cast(rays, view, &place, r / 4 * 3, PHASE, EVERY, least, 0);

@@ -74,7 +74,7 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
         return 0;
     }
     return sharp ? r->cover_q16 >= SURE_COVER
-                 : expected >= EVIDENT_PX && r->cover_q16 >= EVIDENT_COVER &&
+                 : r->orientation_resolved && expected >= EVIDENT_PX && r->cover_q16 >= EVIDENT_COVER &&
                        r->quality.reliability_q16 >= EVIDENT_RELIABILITY;
 }
 

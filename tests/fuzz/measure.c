@@ -12,9 +12,14 @@ static drogue_result measured(const fuzz_scene *s, const drogue_image *image, co
 {
     fuzz_workspace w = fuzz_workspace_make(capacity, fill);
     drogue_result r;
+    uint32_t i;
     (void)s;
     memset(&r, fill, sizeof r);
     FUZZ_MUST(drogue_measure(&r, &w.workspace, setup, image, region) == r.status);
+    for (i = 0; i < r.list.edge_count; i++) { /* of the region that the result names, pose or not */
+        FUZZ_MUST(w.workspace.edges[i].x_q5 < r.region.width_px * 32);
+        FUZZ_MUST(w.workspace.edges[i].y_q5 < r.region.height_px * 32);
+    }
     fuzz_check_result(&r, region, image);
     free(w.memory);
     return r;
@@ -32,6 +37,7 @@ static void shifted(const fuzz_scene *s, fuzz_bytes *b, const drogue_capacity *c
 {
     const drogue_image *image = &s->image;
     const int32_t x = fuzz_range(b, 0, 9), y = fuzz_range(b, 0, 9);
+    drogue_model model = *s->setup.model;
     const drogue_region all = {0, 0, image->width_px, image->height_px},
                         moved = {x, y, image->width_px, image->height_px};
     drogue_config config = s->config;
@@ -44,6 +50,11 @@ static void shifted(const fuzz_scene *s, fuzz_bytes *b, const drogue_capacity *c
     config.recentre_cover_q16 = 0; /* a second look may reach past the region */
     setup.config = &config;
     here = measured(s, image, &setup, &all, capacity, 1);
+    if (here.status != DROGUE_OK || !here.has_inner || here.doubt_q16 > DROGUE_Q16(1, 64) || here.tried > 3) {
+        model.inner_radius_m_q16 = 0; /* so may the region about a disc, which is looked for where none is believed */
+        setup.model = &model;
+        here = measured(s, image, &setup, &all, capacity, 1);
+    }
     larger.width_px = larger.stride = image->width_px + 2 * x + 1;
     larger.height_px = image->height_px + 2 * y + 1;
     pixels = fuzz_alloc((size_t)larger.stride * (size_t)larger.height_px);

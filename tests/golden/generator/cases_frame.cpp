@@ -311,6 +311,71 @@ void add_choices(Set &set)
     }
 }
 
+/* A disc of the model's size in a rim that is drawn for part of each so many-th of a turn, and a collar between. */
+Frame dashed_drogue(double rim_px, double collar_px, double drawn, int dashes, int side)
+{
+    constexpr int WIDTH = 160;
+    Frame f;
+    f.camera = {800, 800, WIDTH / 2, WIDTH / 2};
+    const double z = f.camera.fx_px * f.radius / rim_px, disc_px = f.camera.fx_px * f.inner_radius / (z + f.depth);
+    f.image = image_from(WIDTH, WIDTH, [&](int x, int y) {
+        double sum = 0;
+        for (int k = 0; k < 16; k++) {
+            const double u = x + k % 4 / 4.0 - 0.075 - WIDTH / 2, v = y + k / 4 / 4.0 - 0.625 - WIDTH / 2;
+            const double r = std::hypot(u, v), turn = std::atan2(v, u) / (2 * CV_PI) + 1;
+            const bool dash = turn * dashes - std::floor(turn * dashes) < drawn;
+            sum += r < disc_px ? 30 : r < collar_px ? 100 : r < rim_px && dash ? 140 : 200;
+        }
+        return static_cast<int>(sum / 16 + 0.5);
+    });
+    f.region = {(WIDTH - side) / 2, (WIDTH - side) / 2, side, side};
+    return f;
+}
+
+/* A rim so much darker than what is behind it, in noise of up to so many grey levels. */
+Frame noisy_drogue(int step, int noise, uint32_t seed)
+{
+    Frame f = dashed_drogue(40, 0, 1, 1, 96);
+    f.image.forEach<uint8_t>(
+        [&](uint8_t &grey, const int *) { grey = grey > 100 && grey < 200 ? grey + 60 - step : grey; });
+    for (int y = 0; y < f.image.rows; y++) {
+        for (int x = 0; x < f.image.cols; x++) {
+            seed = seed * 1664525u + 1013904223u;
+            f.image.at<uint8_t>(y, x) = cv::saturate_cast<uint8_t>(
+                f.image.at<uint8_t>(y, x) + static_cast<int>((seed >> 16) % (2 * static_cast<uint32_t>(noise) + 1)) -
+                noise);
+        }
+    }
+    return f;
+}
+
+/* What the disc leads to: a drogue on a plain sky in a region far larger than it, so that the ring is blank; a rim
+ * whose pieces are no arcs, about a collar that is whole. And a disc without a rim. */
+void add_led_by_disc(Set &set)
+{
+    int k = 0;
+    for (const double share : {3.3, 3.6}) {
+        add_frame(set, "blank-ring-" + std::to_string(k++), Tier::stress, {},
+                  dashed_drogue(40, 0, 1, 1, cvRound(40 * share)));
+    }
+    k = 0;
+    static const struct {
+        double collar, drawn;
+        int dashes;
+    } dashed[] = {{40, 0.3, 12}, {40, 0.4, 16}, {40, 0.5, 12},  {40, 0.35, 16}, /* collars that are an outline, */
+                  {20, 0.4, 12}, {22, 0.4, 16}, {18, 0.35, 24}, {47, 0.4, 8},
+                  {40, 0.2, 12}}; /* or taken for the disc */
+    for (const auto &d : dashed) {
+        add_frame(set, "dashed-rim-" + std::to_string(k++), Tier::stress, {},
+                  dashed_drogue(50, d.collar, d.drawn, d.dashes, 120));
+    }
+    k = 0;
+    for (const uint32_t seed : {1u, 2u, 3u, 4u}) {
+        add_frame(set, "noisy-rim-" + std::to_string(k++), Tier::stress, {"noise"}, noisy_drogue(12, 20, seed));
+    }
+    add_frame(set, "rim-missing", Tier::must_reject, {}, dashed_drogue(40, 0, 0, 1, 76));
+}
+
 /* What only many pixels together show: a rim hardly brighter than the ground behind it about a dark wall, whose edge is
  * found first; a rim narrower than the motion that blurs it. */
 void add_faint_rims(Set &set)
@@ -482,6 +547,7 @@ void add_frame(Set &set, const std::string &scenes_folder)
     add_regions(set);
     add_conditions(set);
     add_choices(set);
+    add_led_by_disc(set);
     add_faint_rims(set);
     add_drawings(set);
 }

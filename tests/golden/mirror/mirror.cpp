@@ -54,6 +54,7 @@ struct Frame {
     Outline outline;
     bool filled = false; /* thresholds of the noise filled a table */
     drogue_second_look second_look = DROGUE_SECOND_NONE;
+    Real ring = 0; /* semi-axis of the outline that a disc allows which was sought */
 };
 
 drogue_status outline_in(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region, bool follow)
@@ -496,9 +497,9 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
     front->list = held.list;
     number(*front);
     f.front = std::move(front);
-    f.follow.library = nullptr;
-    if (follow) {
-        f.follow.library = &f.decided;
+    f.follow.library = follow ? &f.decided : nullptr;
+    f.ring = real(ring.a_px_q16);
+    if (f.follow.library != nullptr) {
         (void)drogue_outline_settle(&f.decided, &ring, &f.front->workspace, &f.front->list, &f.mask, &task.config);
     }
     const Ellipse was = {real(ring.xc_px_q16), real(ring.yc_px_q16), real(ring.a_px_q16), 0, 0, true};
@@ -618,7 +619,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             keep(out, from, doubt);
         }
     }
-    if (least > 0.04L && best.status != DROGUE_E_NO_EDGES && task.model.inner_radius > 0) {
+    if (least > 0.04L && task.model.inner_radius > 0) {
         Result out;
         Features from = {};
         out.outline.arcs.fill(DROGUE_NO_ARC);
@@ -628,7 +629,8 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
                    : out.second_look >= DROGUE_SECOND_TOO_WIDE ? out.second_look
                                                                : DROGUE_SECOND_NONE;
         }
-        if (out.status == DROGUE_OK && doubt < 1 / 64.0L && out.outline.cover >= best.outline.cover * 3 / 4) {
+        if (out.status == DROGUE_OK && doubt < 1 / 64.0L &&
+            (least >= 1 || out.outline.cover >= best.outline.cover * 3 / 4)) {
             keep(out, from, doubt);
         }
     }
@@ -647,11 +649,14 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    const bool whole = best.status == DROGUE_OK && !best.too_large && best.second_look <= DROGUE_SECOND_BETTER;
+    const bool another =
+        best.tried != 4 && least == 1 && f.ring > 0 && (8 * best.seen.a < 7 * f.ring || 8 * best.seen.a > 9 * f.ring);
+    const bool whole =
+        best.status == DROGUE_OK && !best.too_large && !another && best.second_look <= DROGUE_SECOND_BETTER;
     if (room != DROGUE_SECOND_NONE) {
         best.second_look = whole ? DROGUE_SECOND_ROOM : room;
     }
-    if (best.status == DROGUE_OK && best.too_large) {
+    if (best.status == DROGUE_OK && (best.too_large || another)) {
         Result refused;
         refused.second_look = best.second_look;
         refused.status = DROGUE_E_NO_ELLIPSE;

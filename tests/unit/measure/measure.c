@@ -486,6 +486,35 @@ START_TEST(nothing_to_measure)
 }
 END_TEST
 
+START_TEST(edges_are_the_regions)
+{
+    static const drogue_region region = {50, 30, 220, 220};
+    static const drogue_model small = {22938, 7864, 16384}; /* inner radius 0.12 m */
+    test_workspace t = usual_workspace();
+    drogue_config config;
+    drogue_result r;
+    int32_t x, y;
+    uint32_t k;
+    drogue_config_default(&config);
+    for (y = 0; y < HEIGHT; y++) { /* a disc alone leads to another region, in which there is no outline either */
+        for (x = 0; x < WIDTH; x++) {
+            pixels[y * WIDTH + x] = (uint8_t)(10 + 190 * fmin(1, fmax(0, hypot(x - 160.3, y - 140.2) - 37)));
+        }
+    }
+    for (y = 0; y < 8; y++) {
+        pixels[(140 + y) * WIDTH + 252] = 100;
+    }
+    ck_assert_int_eq(measure(&r, &t, &config, &small, &region), DROGUE_E_NO_ARCS);
+    ck_assert_mem_eq(&r.region, &region, sizeof region);
+    ck_assert_uint_gt(r.list.edge_count, 0);
+    for (k = 0; k < r.list.edge_count; k++) {
+        ck_assert_int_lt(t.workspace.edges[k].x_q5, 220 * 32);
+        ck_assert_int_gt(t.workspace.edges[k].x_q5, 190 * 32);
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
 START_TEST(geometry_out_of_range)
 {
     test_workspace t = usual_workspace();
@@ -815,6 +844,7 @@ END_TEST
 /* A lens that folds the image inside the outline: what cannot be undone is not measured. */
 START_TEST(outline_across_a_fold)
 {
+    static const drogue_model blind = {22938, 0, 0}; /* by this lens the disc would be another's */
     test_workspace t = usual_workspace();
     drogue_camera camera = the_camera();
     drogue_config c;
@@ -823,7 +853,7 @@ START_TEST(outline_across_a_fold)
     draw(&usual);
     camera.fx_px_q16 = camera.fy_px_q16 = q16_of(150);
     camera.k1_q16 = q16_of(-0.1);
-    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &c}, &image, &whole), DROGUE_OK);
+    ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &blind, &c}, &image, &whole), DROGUE_OK);
     camera.k1_q16 = q16_of(-0.9);
     ck_assert_int_eq(drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &model, &c}, &image, &whole),
                      DROGUE_E_NO_ELLIPSE);
@@ -853,6 +883,7 @@ SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline,
            a_canopy_so_narrow_that_its_inner_edge_is_found, without_inner_part, regions_of_one_image,
            ring_of_a_clipped_region, arguments, regions_that_miss, images_beyond_the_coordinates, full_tables,
            what_fills_a_table_is_thresholded, what_own_thresholds_fill_is_told, nothing_to_measure,
-           geometry_out_of_range, inner_part_that_cannot_decide, inner_part_that_contradicts, covariance_of_the_result,
-           off_centre_region, second_look_that_fails, second_look_is_told, background_across_the_canopys_grey,
-           outline_across_a_fold, version_is_the_macros, capacity_by_macro_is_capacity_by_function)
+           edges_are_the_regions, geometry_out_of_range, inner_part_that_cannot_decide, inner_part_that_contradicts,
+           covariance_of_the_result, off_centre_region, second_look_that_fails, second_look_is_told,
+           background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
+           capacity_by_macro_is_capacity_by_function)

@@ -113,7 +113,10 @@ START_TEST(dark_and_sharp)
     ck_assert(!drogue_result_sure(&r, &model));
     r.quality.reliability_q16 = DROGUE_Q16(989, 1000);
     ck_assert(!drogue_result_sure(&r, &model));
-    r.quality.reliability_q16 = DROGUE_Q16(991, 1000); /* the outline is whole */
+    r.quality.reliability_q16 = DROGUE_Q16(991, 1000); /* the outline is whole, */
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.orientation_resolved = 1; /* and the disc decides, though outline and disc contradict each other */
+    r.doubt_q16 = DROGUE_Q16(1, 64);
     ck_assert(drogue_result_sure(&r, &model));
     r.cover_q16 = DROGUE_Q16(31, 32) - 1;
     ck_assert(!drogue_result_sure(&r, &model));
