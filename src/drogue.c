@@ -201,19 +201,18 @@ static int asks_disc(const best_try *best, const drogue_frame *f)
     return best->least_q16 > DISC_Q16 && f->setup->model->inner_radius_m_q16 > 0;
 }
 
-/* Is the inner disc seen, but too large for the best outline? Then that is an edge within the drogue: the canopy's or
- * its wall's. */
-static int too_large(const best_try *best)
-{
-    return best->result->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE && best->larger_q16 > 0;
-}
-
-/* Does the disc that was sought allow an outline of quite another size than the best one, which has none? */
-static int another_ring(const best_try *best, const drogue_frame *f)
+/* Is the best outline without a disc, and does one say that it is another edge? One that is seen, but too large for it:
+ * then it is an edge within the drogue, the canopy's or its wall's. Or one that was sought, whose rim is of quite
+ * another size. */
+static int is_another_edge(const best_try *best, const drogue_frame *f)
 {
     const int64_t a_px_q16 = best->result->ellipse.a_px_q16;
-    return best->result->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE && f->ring_px_q16 > 0 &&
-           (8 * a_px_q16 < 7 * (int64_t)f->ring_px_q16 || 8 * a_px_q16 > 9 * (int64_t)f->ring_px_q16);
+    const int64_t ring_px_q16 = f->ring_px_q16;
+    if (best->result->status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE) {
+        return 0;
+    }
+    return best->larger_q16 > 0 ||
+           (ring_px_q16 > 0 && (8 * a_px_q16 < 7 * ring_px_q16 || 8 * a_px_q16 > 9 * ring_px_q16));
 }
 
 /* Look for the outline that the inner disc is of the size for. */
@@ -312,7 +311,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
         room = DROGUE_SECOND_FULL;
     }
     return_to(&best, f, region, last);
-    if (too_large(&best) || another_ring(&best, f)) {
+    if (is_another_edge(&best, f)) {
         refuse(f->out);
         best.result->status = DROGUE_E_NO_ELLIPSE;
     }
