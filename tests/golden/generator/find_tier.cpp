@@ -312,6 +312,9 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
     if (f.result.status == DROGUE_OK && !weigh(f).sure()) {
         words[0] = DROGUE_E_UNSURE;
     }
+    if (std::any_of(tried.begin(), tried.end(), [](const FrameWords &t) { return t.result.contradicted; })) {
+        words[0] = -1; /* as a frame's status */
+    }
     put_region(words, 1, f.result.region);
     words[5] = f.words[frame_words::HAS_INNER];
     words[6] = f.words[frame_words::RESOLVED];

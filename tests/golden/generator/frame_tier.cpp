@@ -36,7 +36,7 @@ void put_pose(int64_t *at, const reference::Pose &p)
 Words words_of(const mirror::Result &r)
 {
     Words w(ALL, 0);
-    w[STATUS] = r.status;
+    w[STATUS] = r.contradicted ? -1 : static_cast<int64_t>(r.status); /* -1: which no library says */
     w[AMBIGUITY] = q16(r.ambiguity);
     if (!r.found) {
         return w;

@@ -11,18 +11,7 @@ namespace mirror {
 
 namespace {
 
-using Offset = std::array<Real, 3>; /* x, y, larger by */
-using Rays = std::array<drogue_ray, DROGUE_RAYS>;
-
 Real real(int64_t q16) { return static_cast<Real>(q16) / 65536; }
-
-struct Sums {
-    cv::Matx33d normal = cv::Matx33d::zeros();
-    cv::Vec3d right = {0, 0, 0};
-    Real squares = 0, slopes = 0, levels = 0;
-    std::array<Real, DROGUE_RAYS / 4> bin{}, bin_weight{};
-    int rays = 0;
-};
 
 Real along(const drogue_ray &r, const Offset &v)
 {
@@ -89,7 +78,13 @@ bool solve(Offset &v, const Sums &s, bool size)
     return true;
 }
 
-/* From all edges within a gate to those about one place. */
+} // namespace
+
+reference::Ellipse real_of(const drogue_ellipse &e)
+{
+    return {real(e.xc_px_q16), real(e.yc_px_q16), real(e.a_px_q16), real(e.b_px_q16), real(e.angle_rad_q16), true};
+}
+
 bool settle(Sums &s, Offset &v, const Rays &rays, Real within, Real last, bool size)
 {
     for (int round = 0; round < 10; round++) {
@@ -102,6 +97,8 @@ bool settle(Sums &s, Offset &v, const Rays &rays, Real within, Real last, bool s
     }
     return true;
 }
+
+namespace {
 
 /* An edge of the size expected for one that is not: among the edges that lie beyond the first on that side. */
 void prefer_size(Offset &first, Rays rays, int least)
@@ -308,11 +305,6 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     }
     out.rays = (every * s.rays + phases / 2) / phases;
     return out;
-}
-
-reference::Ellipse real_of(const drogue_ellipse &e)
-{
-    return {real(e.xc_px_q16), real(e.yc_px_q16), real(e.a_px_q16), real(e.b_px_q16), real(e.angle_rad_q16), true};
 }
 
 /* A first place of one of the expected discs, not rounded yet, and how steep the edges are that say so; 0: none. */

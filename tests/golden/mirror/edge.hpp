@@ -3,7 +3,7 @@
  * from pixels, as the front end's edge points are. */
 #pragma once
 
-#include <vector>
+#include <array>
 
 #include "reference.hpp"
 
@@ -12,6 +12,23 @@
 namespace mirror {
 
 using reference::Real;
+
+reference::Ellipse real_of(const drogue_ellipse &e);
+
+using Offset = std::array<Real, 3>; /* x, y, larger by */
+using Rays = std::array<drogue_ray, DROGUE_RAYS>;
+
+/* Of least squares over the rays that agree. */
+struct Sums {
+    cv::Matx33d normal = cv::Matx33d::zeros();
+    cv::Vec3d right = {0, 0, 0};
+    Real squares = 0, slopes = 0, levels = 0;
+    std::array<Real, DROGUE_RAYS / 4> bin{}, bin_weight{};
+    int rays = 0;
+};
+
+/* From all edges within a gate to those about one place, in the end within 'last' of it; false: too few. */
+bool settle(Sums &s, Offset &v, const Rays &rays, Real within, Real last, bool size);
 
 /* As drogue_inner_edge, unrounded. */
 struct Disc {

@@ -8,9 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-extern "C" {
-#include "../../../src/look.h"
-}
+#include "seek.hpp"
 
 namespace mirror {
 
@@ -40,6 +38,11 @@ bool place(cv::Rect &clipped, drogue_mask &mask, const cv::Mat &image, const std
            clipped.br().x <= INT16_MAX && clipped.br().y <= INT16_MAX;
 }
 
+int64_t clipped_width(const std::array<int64_t, 4> &region, const cv::Mat &image)
+{
+    return std::min<int64_t>(region[0] + region[2], image.cols) - std::max<int64_t>(region[0], 0);
+}
+
 int rounded(Real v) { return static_cast<int>(std::floor(v + 0.5L)); }
 
 /* A frame's outline in the making. */
@@ -57,7 +60,8 @@ struct Frame {
     Real ring = 0; /* semi-axis of the outline that a disc allows which was sought */
 };
 
-drogue_status outline_in(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region, bool follow)
+/* Run the front end on a region. */
+drogue_status see_edges(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region)
 {
     if (!place(out.region, f.mask, task.image, region)) {
         return DROGUE_E_REGION;
@@ -70,13 +74,21 @@ drogue_status outline_in(Result &out, Frame &f, const Task &task, const std::arr
     capacity.width_px = static_cast<uint32_t>(out.region.width);
     f.view = task.image(out.region).clone();
     f.front = run_front_end(f.view, f.mask, task.config, capacity);
+    return f.front->status;
+}
+
+drogue_status outline_in(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region, bool follow)
+{
+    const drogue_status placed = see_edges(out, f, task, region);
     f.follow.library = nullptr;
+    if (placed == DROGUE_E_REGION || placed == DROGUE_E_WORKSPACE) {
+        return placed;
+    }
     if (follow && f.front->status == DROGUE_OK) {
         (void)drogue_outline_find(&f.decided, &f.front->workspace, &f.front->list, &f.mask, &task.config);
         f.follow.library = &f.decided;
     }
-    const drogue_status status = find_outline(out.outline, *f.front, f.mask, task.config, f.follow);
-    return status;
+    return find_outline(out.outline, *f.front, f.mask, task.config, f.follow);
 }
 
 bool ring_holds(const Ellipse &e, const drogue_mask &mask)
@@ -108,9 +120,7 @@ drogue_status outline_twice(Result &out, Frame &f, const Task &task, const drogu
         return status;
     }
     const std::array<int64_t, 4> better = region_about(out.outline.ellipse, out.region.tl(), library);
-    const int64_t from = std::max<int64_t>(better[0], 0),
-                  to = std::min<int64_t>(better[0] + better[2], task.image.cols);
-    if (to - from > static_cast<int64_t>(task.capacity.width_px)) {
+    if (clipped_width(better, task.image) > static_cast<int64_t>(task.capacity.width_px)) {
         out.second_look = DROGUE_SECOND_TOO_WIDE;
         return status;
     }
@@ -458,51 +468,42 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     return f.front->list.edge_count > 0 && enlarge(out.outline, *f.front, f.mask, task.config, f.follow);
 }
 
-/* An outline about the inner disc where no outline says where that is: which ellipse the edge points are collected about is
- * the library's choice, as edge points are. */
+/* An outline about the inner disc where no outline says where that is. */
 bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
 {
-    const drogue_setup setup = {&task.library_camera, &task.library_model, &task.config};
-    const drogue_image image = {task.image.data, task.image.cols, task.image.rows,
-                                static_cast<int32_t>(task.image.step)};
-    const drogue_region region = {static_cast<int32_t>(task.region[0]), static_cast<int32_t>(task.region[1]),
-                                  static_cast<int32_t>(task.region[2]), static_cast<int32_t>(task.region[3])};
-    auto front = std::make_unique<FrontEnd>();
-    drogue_result held = {};
-    drogue_frame frame = {};
-    drogue_ellipse ring;
-    front->memory.resize(drogue_workspace_bytes(&task.capacity) / 4 + 1);
+    Seeker seeker(task, follow);
+    std::array<int64_t, 4> region = task.region;
     out.tried = 5;
-    out.status =
-        drogue_workspace_init(&front->workspace, front->memory.data(), front->memory.size() * 4, &task.capacity);
+    out.status = DROGUE_E_NO_INNER_PART;
+    if (!place(out.region, f.mask, task.image, region)) {
+        return false;
+    }
+    const bool seen = seeker.look(task.image(out.region).clone(), f.mask, out.region.tl());
+    const Ellipse first = seen ? seeker.head_on(out.region.tl()) : Ellipse{0, 0, 0, 0, 0, false};
+    out.contradicted = seeker.contradicted();
+    if (!seen) {
+        return false;
+    }
+    if (first.ok && !of_size(first, f.mask)) {
+        region = region_about(first, out.region.tl(), nullptr);
+    }
+    out.status = DROGUE_E_NO_ELLIPSE;
+    if (clipped_width(region, task.image) > static_cast<int64_t>(task.capacity.width_px)) {
+        out.second_look = DROGUE_SECOND_TOO_WIDE;
+        return false;
+    }
+    out.status = see_edges(out, f, task, region);
     if (out.status != DROGUE_OK) {
         return false;
     }
-    frame.out = &held;
-    frame.workspace = &front->workspace;
-    frame.setup = &setup;
-    frame.image = &image;
-    frame.canny_low = task.config.canny_low;
-    frame.canny_high = task.config.canny_high;
-    out.status = drogue_frame_ring(&ring, &frame, &region);
-    out.second_look = frame.second_look;
-    if (out.status != DROGUE_OK) {
-        return false;
-    }
-    out.region = {held.region.x_px, held.region.y_px, held.region.width_px, held.region.height_px};
-    f.asked = {frame.asked.x_px, frame.asked.y_px, frame.asked.width_px, frame.asked.height_px};
-    f.mask = frame.mask;
-    f.view = task.image(out.region).clone();
-    front->status = DROGUE_OK;
-    front->list = held.list;
-    number(*front);
-    f.front = std::move(front);
+    const drogue_ellipse ring = rounded_ellipse(seeker.best(*f.front, f.mask, out.region.tl()));
+    out.contradicted = seeker.contradicted();
     f.follow.library = follow ? &f.decided : nullptr;
     f.ring = real(ring.a_px_q16);
     if (f.follow.library != nullptr) {
         (void)drogue_outline_settle(&f.decided, &ring, &f.front->workspace, &f.front->list, &f.mask, &task.config);
     }
-    const Ellipse was = {real(ring.xc_px_q16), real(ring.yc_px_q16), real(ring.a_px_q16), 0, 0, true};
+    const Ellipse was = real_of(ring);
     const bool found = settle(out.outline, ring, *f.front, f.mask, task.config, f.follow);
     const Ellipse &e = out.outline.ellipse;
     return found && std::fabs(e.a - was.a) <= was.a / 16 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 16;
@@ -619,6 +620,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             keep(out, from, doubt);
         }
     }
+    bool contradicted = false;
     if (least > 0.04L && task.model.inner_radius > 0) {
         Result out;
         Features from = {};
@@ -629,6 +631,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
                    : out.second_look >= DROGUE_SECOND_TOO_WIDE ? out.second_look
                                                                : DROGUE_SECOND_NONE;
         }
+        contradicted = out.contradicted;
         if (out.status == DROGUE_OK && doubt < 1 / 64.0L &&
             (least >= 1 || out.outline.cover >= best.outline.cover * 3 / 4)) {
             keep(out, from, doubt);
@@ -656,8 +659,10 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
     if (room != DROGUE_SECOND_NONE) {
         best.second_look = whole ? DROGUE_SECOND_ROOM : room;
     }
+    best.contradicted = contradicted;
     if (best.status == DROGUE_OK && (best.too_large || another)) {
         Result refused;
+        refused.contradicted = contradicted;
         refused.second_look = best.second_look;
         refused.status = DROGUE_E_NO_ELLIPSE;
         refused.region = best.region;

@@ -42,7 +42,8 @@ struct Result {
     reference::Covariance covariance = {};
     std::array<Real, 3> position_std = {};
     Real axis_std = 0;
-    Real doubt = 0; /* in the covariance */
+    Real doubt = 0;            /* in the covariance */
+    bool contradicted = false; /* the library sees the inner disc, or an outline about it, elsewhere than the mirror */
 };
 
 /* What the last part of a measurement starts from, for those who ask how far its result moves with it. */

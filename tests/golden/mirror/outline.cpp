@@ -80,6 +80,7 @@ public:
     drogue_status find(Outline &out);
     bool enlarge(Outline &out) const;
     bool settle(Outline &out, const Ellipse &ring) const;
+    Real covered(const Ellipse &e, bool follow) const;
 
 private:
     using Arcs = std::array<uint32_t, 4>;
@@ -403,6 +404,26 @@ bool Finder::settle(Outline &out, const Ellipse &ring) const
     return true;
 }
 
+Real Finder::covered(const Ellipse &e, bool follow) const
+{
+    if (!plausible(e)) {
+        return 0;
+    }
+    const size_t stride = front_.edges.size() / 512 + 1;
+    const reference::Band band = band_about(e);
+    const decisions_round library = {{q16(e.xc), q16(e.yc), q16(e.a), q16(e.b), q16(e.angle)},
+                                     drogue_band_of(q16(band.width), config_.refit_cos_q16)};
+    const std::vector<BandPoint> points = collect(e, band, front_, follow ? &library : nullptr);
+    Support s;
+    for (size_t i = 0; i < points.size(); i += stride) {
+        if (points[i].held) {
+            reference::support_add(s, points[i], front_.edges[i]);
+        }
+    }
+    reference::support_judge(s, e, config_.polarity, static_cast<int>(stride));
+    return static_cast<Real>(s.covered) / reference::SUPPORT_BINS;
+}
+
 /* The most reliable candidate, refined; while it covers little, the next that differ, and the one that covers most. */
 drogue_status Finder::find(Outline &out)
 {
@@ -506,6 +527,11 @@ bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const
     }
     finish(out, config);
     return true;
+}
+
+Real covered(const Ellipse &e, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config, bool follow)
+{
+    return Finder(front, mask, config, {nullptr}).covered(e, follow);
 }
 
 bool settle(Outline &out, const drogue_ellipse &ring, const FrontEnd &front, const drogue_mask &mask,

@@ -65,6 +65,11 @@ drogue_status find_outline(Outline &out, const FrontEnd &front, const drogue_mas
 /* The list's edge points as numbers. */
 void number(FrontEnd &front);
 
+/* Share of an ellipse that edge points cover, as drogue_outline_covered(); 'follow': of a point nearer to a limit than the
+ * library resolves that says whether it counts. */
+Real covered(const reference::Ellipse &e, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
+             bool follow);
+
 /* The outline about an ellipse, as drogue_outline_settle(); false: none. */
 bool settle(Outline &out, const drogue_ellipse &ring, const FrontEnd &front, const drogue_mask &mask,
             const drogue_config &config, const Follow &follow);
