@@ -201,18 +201,31 @@ static int asks_disc(const best_try *best, const drogue_frame *f)
     return best->least_q16 > DISC_Q16 && f->setup->model->inner_radius_m_q16 > 0;
 }
 
+/* Does a semi-axis differ by no more than an eighth? */
+static int about_one_size(drogue_q16 a_px_q16, drogue_q16 of_px_q16)
+{
+    const drogue_q16 off = a_px_q16 > of_px_q16 ? a_px_q16 - of_px_q16 : of_px_q16 - a_px_q16;
+    return off <= of_px_q16 / 8;
+}
+
 /* Is the best outline without a disc, and does one say that it is another edge? One that is seen, but too large for it:
  * then it is an edge within the drogue, the canopy's or its wall's. Or one that was sought, whose rim is of quite
  * another size. */
 static int is_another_edge(const best_try *best, const drogue_frame *f)
 {
-    const int64_t a_px_q16 = best->result->ellipse.a_px_q16;
-    const int64_t ring_px_q16 = f->ring_px_q16;
     if (best->result->status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE) {
         return 0;
     }
     return best->larger_q16 > 0 ||
-           (ring_px_q16 > 0 && (8 * a_px_q16 < 7 * ring_px_q16 || 8 * a_px_q16 > 9 * ring_px_q16));
+           (f->ring_px_q16 > 0 && !about_one_size(best->result->ellipse.a_px_q16, f->ring_px_q16));
+}
+
+/* Does less show of an outline about the disc than of one of about its size? Both are edges of one rim then, and the
+ * disc may be a little off its place or size. */
+static int shows_less(const drogue_result *about_disc, const drogue_result *best)
+{
+    return best->status == DROGUE_OK && about_one_size(about_disc->ellipse.a_px_q16, best->ellipse.a_px_q16) &&
+           about_disc->cover_q16 < best->cover_q16 / 8 * 7;
 }
 
 /* Look for the outline that the inner disc is of the size for. */
@@ -245,9 +258,8 @@ static drogue_status try_disc(best_try *best, drogue_frame *f, const drogue_regi
     status = drogue_frame_about_disc(f, region);
     if (status == DROGUE_OK) {
         status = judge(f, DISC);
-        /* it must be of its size and agree; and what shows far less of an outline than one with a disc is no better */
-        if (status == DROGUE_OK && f->doubt_q16 < DROGUE_CONTRADICTED_Q16 &&
-            (best->least_q16 >= DROGUE_Q16_ONE || f->out->cover_q16 >= best->result->cover_q16 / 4 * 3)) {
+        if (status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < DROGUE_CONTRADICTED_Q16 &&
+            !shows_less(f->out, best->result)) {
             keep_try(best, f, DISC, status);
         }
     }

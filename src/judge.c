@@ -8,6 +8,10 @@
 #include "drogue/inner.h"
 #include "drogue/undistort.h"
 
+/* Counts for less than a disc off its size, which another edge of the drogue has: of the rim of a drogue that fills the
+ * region, too, outline and disc contradict each other by what is not flat, thin or evenly lit. */
+#define CONTRADICTION_Q16 DROGUE_Q16(1, 200)
+
 static drogue_q16 shifted(drogue_q16 v_px_q16, int32_t by_px)
 {
     return drogue_q16_add(v_px_q16, drogue_q16_from_int(by_px));
@@ -99,7 +103,7 @@ drogue_status drogue_frame_judge(drogue_frame *f)
     }
     status = decide(out, &evidence, f->setup);
     if (status == DROGUE_OK && out->has_inner && out->doubt_q16 > f->doubt_q16) {
-        f->doubt_q16 = out->doubt_q16; /* where they contradict each other, too, another outline may be right */
+        f->doubt_q16 += CONTRADICTION_Q16; /* another outline may be right */
     }
     return status;
 }

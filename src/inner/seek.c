@@ -14,6 +14,8 @@
 #define LAST_PX DROGUE_Q16(3, 2)      /* they agree within this, or a sixteenth of the radius */
 #define SMALLEST_PX DROGUE_Q16(3, 1)  /* radius as the region suggests it, */
 #define LEAST_PX DROGUE_Q16(2, 1)     /* and as it is found */
+#define SOME 3                        /* rays from the region's middle see a disc a third of a semi-axis off it, */
+#define STEEPER 2                     /* by a step so many times the least */
 #define FAR_PX DROGUE_Q16(512, 1)     /* an outline, of which rays from the middle reach all */
 
 /* The places, in sixths of the outline's semi-axis as the region suggests it. */
@@ -38,7 +40,7 @@ static int32_t settle(drogue_ellipse *e, const drogue_ray rays[RAYS], drogue_q16
     return s.slopes_q8;
 }
 
-/* Does any ray from there see an edge, out to so far? None sees one where the frame is blank. */
+/* Do some rays from there see an edge, out to so far? Where the frame is blank none does, as noise is not so steep. */
 static int sees_edge(drogue_ray rays[RAYS], const drogue_image *view, const drogue_ellipse *middle,
                      drogue_q16 far_px_q16, int32_t least)
 {
@@ -47,11 +49,11 @@ static int sees_edge(drogue_ray rays[RAYS], const drogue_image *view, const drog
     int32_t k;
     half.a_px_q16 = far_px_q16 / 2;
     half.b_px_q16 = half.a_px_q16;
-    drogue_rays_cast(rays, view, &half, half.a_px_q16, PHASE, EVERY, least, 0);
+    drogue_rays_cast(rays, view, &half, half.a_px_q16, PHASE, EVERY, STEEPER * least, 0);
     for (k = 0; k < RAYS; k++) {
-        seen += rays[k].count;
+        seen += rays[k].count > 0;
     }
-    return seen > 0;
+    return seen >= SOME;
 }
 
 uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[RAYS], const drogue_image *view,

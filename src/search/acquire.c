@@ -156,114 +156,108 @@ static int surrounds(const drogue_sighting *s, const drogue_sighting *what)
            dx >= -within && dy <= within && dy >= -within;
 }
 
-/* Sightings in a part of the image, in coordinates of the image. */
-static drogue_status search_part(drogue_search *search, const drogue_image *image, const drogue_region *part)
+static void put_asked(drogue_region *out, const drogue_region *region, const drogue_image *image)
 {
+    if (region != NULL) {
+        *out = *region;
+        return;
+    }
+    out->x_px = 0;
+    out->y_px = 0;
+    out->width_px = image->width_px;
+    out->height_px = image->height_px;
+}
+
+/* Sightings in the region asked for, in coordinates of the image. */
+static drogue_status search_part(drogue_search *search, const drogue_image *image, const drogue_region *region)
+{
+    drogue_region part;
+    drogue_status status;
     int32_t y;
     int32_t i;
-    drogue_status status = drogue_search_begin(search, part->width_px);
+    put_asked(&part, region, image);
+    drogue_clip(&part.x_px, &part.width_px, image->width_px);
+    drogue_clip(&part.y_px, &part.height_px, image->height_px);
+    if (part.width_px < 1 || part.height_px < 1) {
+        return DROGUE_E_REGION;
+    }
+    status = drogue_search_begin(search, part.width_px);
     if (status != DROGUE_OK) {
         return status;
     }
-    for (y = 0; y < part->height_px; y++) {
-        drogue_search_row(search, drogue_image_row(image, part->y_px + y) + part->x_px);
+    for (y = 0; y < part.height_px; y++) {
+        drogue_search_row(search, drogue_image_row(image, part.y_px + y) + part.x_px);
     }
     for (i = drogue_search_end(search) - 1; i >= 0; i--) {
         drogue_sighting *c = &search->best[i];
-        c->x_px += part->x_px;
-        c->y_px += part->y_px;
-        c->region.x_px += part->x_px;
-        c->region.y_px += part->y_px;
+        c->x_px += part.x_px;
+        c->y_px += part.y_px;
+        c->region.x_px += part.x_px;
+        c->region.y_px += part.y_px;
     }
     return DROGUE_OK;
 }
 
-/* A region about the same middle, a quarter larger. */
-static drogue_region wider(const drogue_region *r)
+/* About the same middle, a quarter larger. */
+static void widen(drogue_region *r)
 {
-    drogue_region w;
-    w.x_px = r->x_px - r->width_px / 8;
-    w.y_px = r->y_px - r->height_px / 8;
-    w.width_px = r->width_px + r->width_px / 4;
-    w.height_px = r->height_px + r->height_px / 4;
-    return w;
+    r->x_px -= r->width_px / 8;
+    r->y_px -= r->height_px / 8;
+    r->width_px += r->width_px / 4;
+    r->height_px += r->height_px / 4;
 }
 
-static int same_region(const drogue_region *p, const drogue_region *q)
+/* Is the part that was searched measured itself when nothing sighted decides? */
+static int measures_whole(const drogue_search *search, const drogue_model *model)
 {
-    return p->x_px == q->x_px && p->y_px == q->y_px && p->width_px == q->width_px && p->height_px == q->height_px;
-}
-
-/* Is the part itself measured when nothing sighted decides? */
-static int measures_whole(const drogue_region *part, const drogue_model *model)
-{
-    return model->inner_radius_m_q16 == 0 || (part->width_px <= MOST_WHOLE_PX && part->height_px <= MOST_WHOLE_PX);
-}
-
-/* The region asked for. */
-static drogue_region asked(const drogue_region *region, const drogue_image *image)
-{
-    drogue_region whole;
-    whole.x_px = 0;
-    whole.y_px = 0;
-    whole.width_px = image->width_px;
-    whole.height_px = image->height_px;
-    return region != NULL ? *region : whole;
+    return model->inner_radius_m_q16 == 0 || (search->width_px <= MOST_WHOLE_PX && search->rows_in <= MOST_WHOLE_PX);
 }
 
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region)
 {
-    drogue_region part;
     drogue_status status;
-    drogue_region last;
     best_seen best;
-    int32_t kept = 0; /* index of the best sighting */
-    int settled = 0;
+    const drogue_sighting *settled = NULL; /* after which only larger ones about it are looked at */
+    int current = 0;                       /* is the best what was measured last? */
     int32_t i;
     memset(out, 0, sizeof *out);
     memset(&best, 0, sizeof best);
-    memset(&last, 0, sizeof last);
     if (image->data == NULL || image->stride < image->width_px) {
         out->status = DROGUE_E_ARGUMENT;
         return out->status;
     }
-    part = asked(region, image);
-    drogue_clip(&part.x_px, &part.width_px, image->width_px);
-    drogue_clip(&part.y_px, &part.height_px, image->height_px);
-    status = part.width_px >= 1 && part.height_px >= 1 ? search_part(search, image, &part) : DROGUE_E_REGION;
+    status = search_part(search, image, region);
     if (status != DROGUE_OK) {
         out->status = status;
         return status;
     }
     out->status = DROGUE_E_NO_INNER_PART;
     for (i = 0; i < search->count; i++) {
-        if (settled && (setup->model->inner_radius_m_q16 == 0 || !surrounds(&search->best[i], &search->best[kept]))) {
+        if (settled != NULL && (setup->model->inner_radius_m_q16 == 0 || !surrounds(&search->best[i], settled))) {
             continue;
         }
-        last = search->best[i].region;
-        (void)drogue_measure(out, workspace, setup, image, &last);
-        if (keep_better(&best, out, &last, setup->model)) {
-            kept = i;
-            settled |= settles(out, setup->model);
+        (void)drogue_measure(out, workspace, setup, image, &search->best[i].region);
+        current = keep_better(&best, out, &search->best[i].region, setup->model);
+        if (current && (settled != NULL || settles(out, setup->model))) {
+            settled = &search->best[i];
         }
     }
     for (i = 0; i < WIDER && i < search->count && best.worth <= SURE && setup->model->inner_radius_m_q16 > 0; i++) {
-        last = wider(&search->best[i].region); /* what was sighted may be an edge within the drogue */
-        if (!drogue_workspace_spans(workspace, &last, image)) {
-            continue;
-        }
-        (void)drogue_measure(out, workspace, setup, image, &last);
-        if (out->status == DROGUE_OK && settles(out, setup->model)) {
-            (void)keep_better(&best, out, &last, setup->model);
+        drogue_region wider = search->best[i].region;
+        widen(&wider); /* what was sighted may be an edge within the drogue */
+        if (drogue_workspace_spans(workspace, &wider, image)) {
+            (void)drogue_measure(out, workspace, setup, image, &wider);
+            current = keep_better(&best, out, &wider, setup->model);
         }
     }
-    if (best.worth <= SURE && measures_whole(&part, setup->model)) {
-        last = asked(region, image);
-        (void)drogue_measure(out, workspace, setup, image, &last);
-        (void)keep_better(&best, out, &last, setup->model);
+    if (best.worth <= SURE && measures_whole(search, setup->model)) {
+        drogue_region whole;
+        put_asked(&whole, region, image);
+        (void)drogue_measure(out, workspace, setup, image, &whole);
+        current = keep_better(&best, out, &whole, setup->model);
     }
-    if (best.worth > 0 && !same_region(&best.region, &last)) { /* again, so that the workspace holds its points */
+    if (best.worth > 0 && !current) { /* again, so that the workspace holds its points */
         (void)drogue_measure(out, workspace, setup, image, &best.region);
     }
     if (out->status == DROGUE_OK && !drogue_result_sure(out, setup->model)) {

@@ -311,31 +311,44 @@ void add_choices(Set &set)
     }
 }
 
-/* A disc of the model's size in a rim that is drawn for part of each so many-th of a turn, and a collar between. */
-Frame dashed_drogue(double rim_px, double collar_px, double drawn, int dashes, int side)
+/* A disc of the model's size in a rim that is drawn for part of each so many-th of a turn, a collar between and a circle
+ * about it; the disc lies (x, y) off the middle. */
+struct Dashed {
+    double rim_px, collar_px, drawn;
+    int dashes, side;
+    double outer_px = 0;
+    int outer = 200, dash = 140, collar = 100;
+    double x_px = 0, y_px = 0;
+};
+
+Frame dashed_drogue(const Dashed &d)
 {
     constexpr int WIDTH = 160;
     Frame f;
     f.camera = {800, 800, WIDTH / 2, WIDTH / 2};
-    const double z = f.camera.fx_px * f.radius / rim_px, disc_px = f.camera.fx_px * f.inner_radius / (z + f.depth);
+    const double z = f.camera.fx_px * f.radius / d.rim_px, disc_px = f.camera.fx_px * f.inner_radius / (z + f.depth);
     f.image = image_from(WIDTH, WIDTH, [&](int x, int y) {
         double sum = 0;
         for (int k = 0; k < 16; k++) {
             const double u = x + k % 4 / 4.0 - 0.075 - WIDTH / 2, v = y + k / 4 / 4.0 - 0.625 - WIDTH / 2;
             const double r = std::hypot(u, v), turn = std::atan2(v, u) / (2 * CV_PI) + 1;
-            const bool dash = turn * dashes - std::floor(turn * dashes) < drawn;
-            sum += r < disc_px ? 30 : r < collar_px ? 100 : r < rim_px && dash ? 140 : 200;
+            const bool dash = turn * d.dashes - std::floor(turn * d.dashes) < d.drawn;
+            sum += std::hypot(u - d.x_px, v - d.y_px) < disc_px ? 30
+                   : r < d.collar_px                            ? d.collar
+                   : r < d.rim_px && dash                       ? d.dash
+                   : r < d.outer_px                             ? d.outer
+                                                                : 200;
         }
         return static_cast<int>(sum / 16 + 0.5);
     });
-    f.region = {(WIDTH - side) / 2, (WIDTH - side) / 2, side, side};
+    f.region = {(WIDTH - d.side) / 2, (WIDTH - d.side) / 2, d.side, d.side};
     return f;
 }
 
 /* A rim so much darker than what is behind it, in noise of up to so many grey levels. */
 Frame noisy_drogue(int step, int noise, uint32_t seed)
 {
-    Frame f = dashed_drogue(40, 0, 1, 1, 96);
+    Frame f = dashed_drogue({40, 0, 1, 1, 96});
     f.image.forEach<uint8_t>(
         [&](uint8_t &grey, const int *) { grey = grey > 100 && grey < 200 ? grey + 60 - step : grey; });
     for (int y = 0; y < f.image.rows; y++) {
@@ -356,7 +369,7 @@ void add_led_by_disc(Set &set)
     int k = 0;
     for (const double share : {3.3, 3.6}) {
         add_frame(set, "blank-ring-" + std::to_string(k++), Tier::stress, {},
-                  dashed_drogue(40, 0, 1, 1, cvRound(40 * share)));
+                  dashed_drogue({40, 0, 1, 1, cvRound(40 * share)}));
     }
     k = 0;
     static const struct {
@@ -367,13 +380,26 @@ void add_led_by_disc(Set &set)
                   {40, 0.2, 12}}; /* or taken for the disc */
     for (const auto &d : dashed) {
         add_frame(set, "dashed-rim-" + std::to_string(k++), Tier::stress, {},
-                  dashed_drogue(50, d.collar, d.drawn, d.dashes, 120));
+                  dashed_drogue({50, d.collar, d.drawn, d.dashes, 120}));
+    }
+    k = 0;
+    for (const Dashed &d :
+         {Dashed{48, 45, 0.77, 16, 148, 52, 110, 120, 100, -3, -3}, /* more shows of the circle, about as large */
+          Dashed{37, 3, 0.36, 6, 92, 39, 120, 140, 100, 4, -4},
+          Dashed{42, 35, 0.59, 12, 117, 55, 130, 100, 100, -1, -2}, /* or far larger */
+          Dashed{52, 33, 0.66, 4, 150, 72, 170, 180, 160, -2, 2},
+          Dashed{38, 36, 0.65, 20, 121, 47, 150, 60, 160, -4, -2}, /* the disc is off its place */
+          Dashed{44, 19, 0.5, 14, 123, 0, 0, 140, 100, -2, 1},     /* the collar is taken for the disc at first */
+          Dashed{41, 22, 0.71, 12, 135, 47, 140, 160, 80, -1, 1},
+          Dashed{26, 7, 0.46, 4, 80, 33, 120, 160, 180, -4, -1}, /* the circle is too large for the disc */
+          Dashed{49, 34, 0.38, 8, 156, 62, 110, 120, 160, 2, -4}}) {
+        add_frame(set, "rim-in-circle-" + std::to_string(k++), Tier::stress, {}, dashed_drogue(d));
     }
     k = 0;
     for (const uint32_t seed : {1u, 2u, 3u, 4u}) {
         add_frame(set, "noisy-rim-" + std::to_string(k++), Tier::stress, {"noise"}, noisy_drogue(12, 20, seed));
     }
-    add_frame(set, "rim-missing", Tier::must_reject, {}, dashed_drogue(40, 0, 0, 1, 76));
+    add_frame(set, "rim-missing", Tier::must_reject, {}, dashed_drogue({40, 0, 0, 1, 76}));
 }
 
 /* What only many pixels together show: a rim hardly brighter than the ground behind it about a dark wall, whose edge is

@@ -259,7 +259,7 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
     const auto weigh = [&](const FrameWords &f) { return Weighed(f.result, model); };
     Real most = 0;
     size_t best = 0;
-    const auto attempt = [&](const std::array<int64_t, 4> &region, bool must_settle = false) {
+    const auto attempt = [&](const std::array<int64_t, 4> &region) {
         tried.push_back(measured(region));
         const FrameWords &f = tried.back(), &kept = tried[best];
         const Weighed w = weigh(f);
@@ -270,7 +270,7 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
             own += larger > 9 / 8.0L ? 0.125L : 0;
             other += larger < 8 / 9.0L ? 0.125L : 0;
         }
-        if (own <= other || (must_settle && !w.settles())) {
+        if (own <= other) {
             return false;
         }
         most = w.worth();
@@ -299,7 +299,7 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
         const auto &r = sightings[i].region;
         const std::array<int64_t, 4> wide = {r.x + left - r.width / 8, r.y + top - r.height / 8, r.width + r.width / 4,
                                              r.height + r.height / 4};
-        (void)attempt(wide, true);
+        (void)attempt(wide);
     }
     if (most <= 2 && (model.inner_radius <= 0 || std::max(part.width, part.height) <= 512)) {
         (void)attempt(asked);

@@ -434,7 +434,7 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
         doubt = from.trusted ? from.doubt : 1;
     }
     finish(out, task, from, library);
-    return out.status == DROGUE_OK && out.has_inner ? std::max(doubt, out.doubt) : doubt;
+    return out.status == DROGUE_OK && out.has_inner && out.doubt > doubt ? doubt + 1 / 200.0L : doubt;
 }
 
 /* A larger outline along rays about the best one. */
@@ -508,6 +508,8 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
     const Ellipse &e = out.outline.ellipse;
     return found && std::fabs(e.a - was.a) <= was.a / 16 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 16;
 }
+
+bool about_one_size(Real a, Real of) { return 8 * a >= 7 * of && 8 * a <= 9 * of; }
 
 bool is_full(drogue_status status)
 {
@@ -632,8 +634,9 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
                                                                : DROGUE_SECOND_NONE;
         }
         contradicted = out.contradicted;
-        if (out.status == DROGUE_OK && doubt < 1 / 64.0L &&
-            (least >= 1 || out.outline.cover >= best.outline.cover * 3 / 4)) {
+        const bool shows_less = best.status == DROGUE_OK && about_one_size(out.seen.a, best.seen.a) &&
+                                out.outline.cover < best.outline.cover * 7 / 8;
+        if (out.status == DROGUE_OK && out.has_inner && out.doubt < 1 / 64.0L && !shows_less) {
             keep(out, from, doubt);
         }
     }
@@ -652,8 +655,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    const bool another =
-        best.tried != 4 && least == 1 && f.ring > 0 && (8 * best.seen.a < 7 * f.ring || 8 * best.seen.a > 9 * f.ring);
+    const bool another = best.tried != 4 && least == 1 && f.ring > 0 && !about_one_size(best.seen.a, f.ring);
     const bool whole =
         best.status == DROGUE_OK && !best.too_large && !another && best.second_look <= DROGUE_SECOND_BETTER;
     if (room != DROGUE_SECOND_NONE) {

@@ -117,8 +117,9 @@ std::vector<Ellipse> discs(const cv::Mat &view, const drogue_mask &mask, const T
         return {};
     }
     if (a <= 512) { /* rays from the middle reach all of an outline */
-        const Rays &rays = circles.cast(middle, middle.a);
-        if (std::all_of(rays.begin(), rays.end(), [](const drogue_ray &ray) { return ray.count == 0; })) {
+        Circles steeper(view, 2 * task.config.min_inner_contrast, margin);
+        const Rays &rays = steeper.cast(middle, middle.a);
+        if (std::count_if(rays.begin(), rays.end(), [](const drogue_ray &ray) { return ray.count > 0; }) < 3) {
             return {};
         }
     }

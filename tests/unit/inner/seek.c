@@ -13,6 +13,8 @@ enum { SIDE = 150 };
 static uint8_t pixels[SIDE * SIDE];
 static drogue_ray rays[DROGUE_RAYS];
 
+static double darker = 60; /* the disc, than what is about it */
+
 static double step_at(double d, double radius) { return 0.5 * erfc((d - radius) / 1.1); }
 
 /* A dark disc, in a collar that is 'collar' darker than what is about it, and noise; 'share' of the turn is hidden. */
@@ -24,7 +26,8 @@ static drogue_image draw(double xc, double yc, double radius, double collar_radi
     for (y = 0; y < SIDE; y++) {
         for (x = 0; x < SIDE; x++) {
             const double d = hypot(x - xc, y - yc), turn = atan2(y - yc, x - xc) / (2 * TEST_PI) + 0.5;
-            const double grey = turn < share ? 170 : 170 - collar * step_at(d, collar_radius) - 60 * step_at(d, radius);
+            const double grey =
+                turn < share ? 170 : 170 - collar * step_at(d, collar_radius) - darker * step_at(d, radius);
             pixels[y * SIDE + x] = (uint8_t)lround(grey + rng_real(&rng, -2, 2));
         }
     }
@@ -105,6 +108,22 @@ START_TEST(what_is_no_disc)
     view = draw(74.5, 74.5, 3, 1, 0, 0);
     ck_assert_int_eq(seek(out, &view, 0.0165), 0);
     ck_assert_int_eq(seek(out, &view, 0.0175), 1);
+}
+END_TEST
+
+/* Nothing is sought where rays from the middle see little: that must not be a disc well off it, or a faint one. */
+START_TEST(what_is_blank)
+{
+    drogue_ellipse out[2];
+    drogue_image view = draw(74.5 + 20, 74.5, 7, 1, 0, 0); /* crossed by four of 32 */
+    ck_assert_int_eq(seek(out, &view, 0.039), 1);
+    darker = 14;
+    view = draw(74.5 + 14, 74.5 - 14, 21, 1, 0, 0);
+    ck_assert_int_eq(seek(out, &view, 0.12), 1);
+    darker = 5; /* less than twice the least contrast */
+    view = draw(74.5, 74.5, 21, 1, 0, 0);
+    ck_assert_int_eq(seek(out, &view, 0.12), 0);
+    darker = 60;
 }
 END_TEST
 
@@ -197,5 +216,5 @@ START_TEST(sight_through_a_lens)
 }
 END_TEST
 
-SUITE_MAIN("seek", discs_where_and_as_large_as_drawn, disc_in_a_collar, what_is_no_disc, outlines_that_a_disc_allows,
-           sight_through_a_lens)
+SUITE_MAIN("seek", discs_where_and_as_large_as_drawn, disc_in_a_collar, what_is_no_disc, what_is_blank,
+           outlines_that_a_disc_allows, sight_through_a_lens)
