@@ -201,11 +201,11 @@ static int asks_disc(const best_try *best, const drogue_frame *f)
     return best->least_q16 > DISC_Q16 && f->setup->model->inner_radius_m_q16 > 0;
 }
 
-/* Does a semi-axis differ by no more than an eighth? */
-static int about_one_size(drogue_q16 a_px_q16, drogue_q16 of_px_q16)
+/* Does a semi-axis differ by no more than a part of it? */
+static int about_one_size(drogue_q16 a_px_q16, drogue_q16 of_px_q16, int32_t part)
 {
     const drogue_q16 off = a_px_q16 > of_px_q16 ? a_px_q16 - of_px_q16 : of_px_q16 - a_px_q16;
-    return off <= of_px_q16 / 8;
+    return off <= of_px_q16 / part;
 }
 
 /* Is the best outline without a disc, and does one say that it is another edge? One that is seen, but too large for it:
@@ -217,15 +217,16 @@ static int is_another_edge(const best_try *best, const drogue_frame *f)
         return 0;
     }
     return best->larger_q16 > 0 ||
-           (f->ring_px_q16 > 0 && !about_one_size(best->result->ellipse.a_px_q16, f->ring_px_q16));
+           (f->ring_px_q16 > 0 && !about_one_size(best->result->ellipse.a_px_q16, f->ring_px_q16, 8));
 }
 
-/* Does less show of an outline about the disc than of one of about its size? Both are edges of one rim then, and the
- * disc may be a little off its place or size. */
-static int shows_less(const drogue_result *about_disc, const drogue_result *best)
+/* Does less show of an outline about the disc than of the best one, about as large? Both are edges of one rim then, and
+ * the disc, which is not too large for it, may be a little off its place. */
+static int shows_less(const drogue_result *about_disc, const best_try *best)
 {
-    return best->status == DROGUE_OK && about_one_size(about_disc->ellipse.a_px_q16, best->ellipse.a_px_q16) &&
-           about_disc->cover_q16 < best->cover_q16 / 8 * 7;
+    return best->result->status == DROGUE_OK && best->larger_q16 == 0 &&
+           about_one_size(about_disc->ellipse.a_px_q16, best->result->ellipse.a_px_q16, 16) &&
+           about_disc->cover_q16 < best->result->cover_q16 / 8 * 7;
 }
 
 /* Look for the outline that the inner disc is of the size for. */
@@ -259,7 +260,7 @@ static drogue_status try_disc(best_try *best, drogue_frame *f, const drogue_regi
     if (status == DROGUE_OK) {
         status = judge(f, DISC);
         if (status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < DROGUE_CONTRADICTED_Q16 &&
-            !shows_less(f->out, best->result)) {
+            !shows_less(f->out, best)) {
             keep_try(best, f, DISC, status);
         }
     }

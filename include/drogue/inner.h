@@ -119,7 +119,7 @@ void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge
  *  view    the region's pixels
  *  mask    of the region asked for, as if made for a drogue in its middle: 2.4 times the outline's semi-axis
  *  return  how many there are; none where the disc would be under 3 px, the model has none, or of 32 rays from the
- *          region's middle fewer than 3 see an edge of twice the least contrast
+ *          region's middle fewer than 3 see grey rise by twice the least contrast (of an outline up to 512 px)
  */
 uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
                            const drogue_mask *mask, const drogue_setup *setup);

@@ -82,8 +82,8 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
  * or else that are sure; or else of all, an inner part counting as a quarter of cover, and one that decides as another.
  * Where nothing is sure and the model has an inner part, the first two sightings are measured once more in regions a
  * quarter larger that the workspace is wide enough for: what was sighted may be an edge within the drogue. The part
- * itself is measured last, with the drogue about its middle, where no inner part decides and the part is small, at most
- * 512 px a side, or the model has no inner part.
+ * itself is measured last, with the drogue about its middle, where nothing is sure and the part is small, at most 512
+ * px a side, or the model has no inner part.
  *
  *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured
  *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not

@@ -14,8 +14,8 @@
 #define LAST_PX DROGUE_Q16(3, 2)      /* they agree within this, or a sixteenth of the radius */
 #define SMALLEST_PX DROGUE_Q16(3, 1)  /* radius as the region suggests it, */
 #define LEAST_PX DROGUE_Q16(2, 1)     /* and as it is found */
-#define SOME 3                        /* rays from the region's middle see a disc a third of a semi-axis off it, */
-#define STEEPER 2                     /* by a step so many times the least */
+#define SOME 3                        /* rays from the middle see a disc a tenth large and a third off, */
+#define STEEPER 2                     /* of the outline; they do by a step so many times the least */
 #define FAR_PX DROGUE_Q16(512, 1)     /* an outline, of which rays from the middle reach all */
 
 /* The places, in sixths of the outline's semi-axis as the region suggests it. */

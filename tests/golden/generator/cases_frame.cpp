@@ -384,7 +384,7 @@ void add_led_by_disc(Set &set)
     }
     k = 0;
     for (const Dashed &d :
-         {Dashed{48, 45, 0.77, 16, 148, 52, 110, 120, 100, -3, -3}, /* more shows of the circle, about as large */
+         {Dashed{48, 45, 0.77, 16, 148, 52, 110, 120, 100, -3, -3}, /* more shows of the circle, a twelfth larger */
           Dashed{37, 3, 0.36, 6, 92, 39, 120, 140, 100, 4, -4},
           Dashed{42, 35, 0.59, 12, 117, 55, 130, 100, 100, -1, -2}, /* or far larger */
           Dashed{52, 33, 0.66, 4, 150, 72, 170, 180, 160, -2, 2},

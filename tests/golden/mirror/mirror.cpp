@@ -509,7 +509,7 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
     return found && std::fabs(e.a - was.a) <= was.a / 16 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 16;
 }
 
-bool about_one_size(Real a, Real of) { return 8 * a >= 7 * of && 8 * a <= 9 * of; }
+bool about_one_size(Real a, Real of, int part) { return std::fabs(a - of) <= of / part; }
 
 bool is_full(drogue_status status)
 {
@@ -634,7 +634,8 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
                                                                : DROGUE_SECOND_NONE;
         }
         contradicted = out.contradicted;
-        const bool shows_less = best.status == DROGUE_OK && about_one_size(out.seen.a, best.seen.a) &&
+        const bool shows_less = best.status == DROGUE_OK && best.larger_q16 == 0 &&
+                                about_one_size(out.seen.a, best.seen.a, 16) &&
                                 out.outline.cover < best.outline.cover * 7 / 8;
         if (out.status == DROGUE_OK && out.has_inner && out.doubt < 1 / 64.0L && !shows_less) {
             keep(out, from, doubt);
@@ -655,7 +656,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    const bool another = best.tried != 4 && least == 1 && f.ring > 0 && !about_one_size(best.seen.a, f.ring);
+    const bool another = best.tried != 4 && least == 1 && f.ring > 0 && !about_one_size(best.seen.a, f.ring, 8);
     const bool whole =
         best.status == DROGUE_OK && !best.too_large && !another && best.second_look <= DROGUE_SECOND_BETTER;
     if (room != DROGUE_SECOND_NONE) {

@@ -249,6 +249,17 @@ START_TEST(the_first_two_once_more)
     larger[0] = with_inner(61, 1); /* which is enough */
     ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_OK);
     ck_assert_int_eq(calls, 3);
+    first = without_inner(40, 50); /* an unsure one that is worth more stands */
+    larger[0] = with_inner(50, 1);
+    ck_assert_int_eq(acquire(&out, &model, 480, 514, 1), DROGUE_E_UNSURE);
+    ck_assert_int_eq(calls, 2);
+    ck_assert_int_eq(out.cover_q16, larger[0].cover_q16);
+    first = with_inner(40, 0); /* what is worth less does not, and the best is measured again */
+    larger[0] = nothing();
+    ck_assert_int_eq(acquire(&out, &model, 480, 514, 1), DROGUE_E_UNSURE);
+    ck_assert_int_eq(calls, 3);
+    ck_assert_int_eq(out.cover_q16, first.cover_q16);
+    first = without_inner(90, 50);
     larger[0] = larger[1] = with_inner(80, 1);
     larger[0].status = larger[1].status = DROGUE_E_DOMAIN;
     ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_E_UNSURE); /* the first is measured again */
