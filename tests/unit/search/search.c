@@ -460,6 +460,7 @@ START_TEST(frames_larger_than_a_region)
         rig r = new_rig(&f);
         const drogue_image image = image_of(&f);
         drogue_result result;
+        int32_t k;
         if (there) {
             (void)draw_drogue(&f, centre, atan2(centre[0], centre[2]), atan2(centre[1], centre[2]), &all_shades[0]);
         }
@@ -471,6 +472,9 @@ START_TEST(frames_larger_than_a_region)
                         fabs(real_of_q16(result.pose.position_m_q16[1]) - centre[1]) < 0.005),
              "case %d: x %g, y %g", (int)i, real_of_q16(result.pose.position_m_q16[0]),
              real_of_q16(result.pose.position_m_q16[1]));
+        for (k = 0; k < r.search.search.count; k++) {
+            ck_assert_int_le(r.search.search.best[k].region.width_px, DROGUE_MAX_SIDE);
+        }
         free_rig(&r);
         free(f.pixels);
     }

@@ -122,6 +122,9 @@ START_TEST(dark_and_sharp)
     ck_assert(!drogue_result_sure(&r, &model));
     r.cover_q16 = DROGUE_Q16(31, 32);
     ck_assert(drogue_result_sure(&r, &model));
+    r.quality.reliability_q16 = DROGUE_Q16(989, 1000); /* or hardly one */
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.quality.reliability_q16 = DROGUE_Q16(991, 1000);
     r.inner.area_px = 4100; /* and the disc near to its size */
     ck_assert(!drogue_result_sure(&r, &model));
     r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(154, 10); /* where 4.97 px, 77 px of area, are expected */
