@@ -152,9 +152,11 @@ void drogue_inner_rims(drogue_inner_expected *rims, const drogue_inner_sight *si
 
 #define DROGUE_INNER_BEYOND_POINTS 511 /* at most: the outline looks at all of so many at once */
 
-/* Look along rays for the outline that an inner disc is of the size for which is too large for the one found; its step
- * of grey may be too low for the edge detector. It is an edge of either sign on 28 of 64 rays, in six of eight parts,
- * within 3/4 px of one place and size.
+/* Look along rays for the outline that an inner disc is of the size for which is too large for the one found. It is an
+ * edge of either sign in six of eight parts, within 3/4 px of one place and size: on 48 of 64 rays by DROGUE_RAY_LINES,
+ * as the outer edge of a lip whose inner one was found; or, of a step that may be too low for the edge detector, on 28
+ * rays by DROGUE_RAY_STEPS. Steps are of 16 grey levels and half of drogue_noise_threshold(), or of 10 and a quarter of
+ * it, whichever is more: noise alone is none.
  *
  *  workspace  out: its edge points, from 0 on, on eight times the rays; as many as there is room for
  *  view       the region's pixels

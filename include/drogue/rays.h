@@ -15,7 +15,7 @@ extern "C" {
 /* An edge on a ray. */
 typedef struct drogue_ray_edge {
     drogue_q16 at_px_q16; /* from the ellipse outwards */
-    int32_t slope_q8;     /* DROGUE_RAY_WEIGHT times the step of grey across it */
+    int32_t slope_q8;     /* DROGUE_RAY_WEIGHT times the step of grey across it; less of a blurred one */
     int32_t level_q8;     /* grey on it */
 } drogue_ray_edge;
 
@@ -60,17 +60,20 @@ void drogue_ray_read(int32_t *grey_q8, const drogue_ray *ray, const drogue_image
 void drogue_ray_read_light(int32_t *light_q8, const drogue_ray *ray, const drogue_image *image, drogue_q16 from_px_q16,
                            int32_t count);
 
-/* Place rays and find where the grey rises outwards along them, or changes either way.
+/* What is looked for along rays: where the grey rises outwards; where it rises or falls, whose slope is taken as
+ * positive; the same from samples half as far apart, so that the two edges of a line of 2 px are two. */
+typedef enum drogue_ray_look { DROGUE_RAY_RISES, DROGUE_RAY_STEPS, DROGUE_RAY_LINES } drogue_ray_look;
+
+/* Place rays and find the edges on them.
  *
  *  reach   how far from the ellipse edges are looked for, [2, 512] px and limited to that; samples are half a pixel
- *          apart or, beyond 16 px, 32 to the reach
+ *          apart, of lines a quarter, or 32 to the reach where that is more
  *  every   1 or 2: of the rays each, or every second one and no edges on the others
  *  least   least step of grey, grey levels
- *  either  1: falling grey, too, its slope taken as positive
  *  image, ellipse, phase  as above
  */
 void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *ellipse,
-                      drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least, int either);
+                      drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least, drogue_ray_look look);
 
 #ifdef __cplusplus
 }

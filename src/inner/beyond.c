@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A larger outline along rays, where its step is too low for the edge detector: so many pixels together show it. */
+/* A larger outline along rays, which the edge detector does not tell: the outer edge of a lip some pixels wide, or one
+ * whose step is too low, which so many pixels together show. */
+#include "drogue/frontend.h"
 #include "drogue/inner.h"
 
 #include "fit.h"
 
-#define LEAST 10                   /* grey levels, of which blur may halve the slope */
+#define LEAST 10 /* grey levels, of which blur may leave half as a slope; and a quarter of what is noise in Sobel's */
+#define LEAST_LINE 16 /* the same of a lip's edge, of which samples so near leave a quarter; and half of that noise */
 #define WITHIN DROGUE_Q16(3, 4)    /* px: what agrees */
 #define ENOUGH (7 * RAYS / 16)     /* rays that agree */
+#define ENOUGH_LINE (3 * RAYS / 4) /* the same, to a lip's edge */
 #define LARGEST DROGUE_Q16(180, 1) /* px: of a larger one the points would cover too little */
 #define PHASES 8                   /* all that there are */
 #define PARTS 8                    /* of the outline, of which all but two must have some */
@@ -16,7 +20,7 @@
 static drogue_q16 reach_of(drogue_q16 beyond_px_q16) { return drogue_q16_add(beyond_px_q16 / 8 * 5, DROGUE_Q16_ONE); }
 
 /* Do enough rays agree, all about? */
-static int all_about(const drogue_ray rays[RAYS], const drogue_q16 v_px_q16[3])
+static int all_about(const drogue_ray rays[RAYS], const drogue_q16 v_px_q16[3], uint32_t enough)
 {
     uint32_t seen = 0;
     uint32_t parts = 0;
@@ -31,7 +35,7 @@ static int all_about(const drogue_ray rays[RAYS], const drogue_q16 v_px_q16[3])
     for (k = 0; k < PARTS; k++) {
         parts += seen >> k & 1u;
     }
-    return parts >= PARTS - 2 && agree >= ENOUGH;
+    return parts >= PARTS - 2 && agree >= enough;
 }
 
 static inline int16_t gradient_of(int32_t n_q14, int32_t grey_q8)
@@ -62,31 +66,48 @@ static int put_point(drogue_edge *out, drogue_ray *r, const drogue_ray_edge *e, 
 
 /* Edges on rays about an ellipse, without what belongs to the one within. */
 static void cast(drogue_ray rays[RAYS], const drogue_image *view, const drogue_ellipse *about, drogue_q16 beyond_px_q16,
-                 int32_t phase)
+                 int32_t phase, drogue_ray_look look, int32_t least)
 {
-    drogue_rays_cast(rays, view, about, reach_of(beyond_px_q16), phase, 1, LEAST, 1);
+    drogue_rays_cast(rays, view, about, reach_of(beyond_px_q16), phase, 1, least, look);
     drogue_rays_keep(rays, -(beyond_px_q16 / 2), DROGUE_Q16_MAX);
+}
+
+/* Do the edges that are looked for make an outline, and how far off is it? */
+static int settle(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], const drogue_image *view, const drogue_ellipse *about,
+                  drogue_q16 beyond_px_q16, drogue_ray_look look, int32_t least)
+{
+    drogue_ray_sums sums;
+    v_px_q16[0] = v_px_q16[1] = v_px_q16[2] = 0;
+    cast(rays, view, about, beyond_px_q16, 4, look, least);
+    return drogue_ray_sums_settle(&sums, v_px_q16, rays, reach_of(beyond_px_q16), WITHIN, 1) &&
+           all_about(rays, v_px_q16, look == DROGUE_RAY_LINES ? ENOUGH_LINE : ENOUGH);
 }
 
 uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about,
                              drogue_q16 beyond_px_q16)
 {
     drogue_ray *const rays = workspace->rays;
-    drogue_q16 v_px_q16[3] = {0, 0, 0};
-    drogue_ray_sums sums;
+    drogue_ray_look look = DROGUE_RAY_LINES;
+    drogue_q16 v_px_q16[3];
     uint32_t count = 0;
+    int32_t noise;
+    int32_t least;
     int32_t phase;
     int32_t k;
     if (about->b_px_q16 < DROGUE_Q16_ONE || about->a_px_q16 > LARGEST) {
         return 0;
     }
-    cast(rays, view, about, beyond_px_q16, 4);
-    if (!drogue_ray_sums_settle(&sums, v_px_q16, rays, reach_of(beyond_px_q16), WITHIN, 1) ||
-        !all_about(rays, v_px_q16)) {
-        return 0;
+    noise = drogue_noise_threshold(workspace->histogram, view);
+    least = larger(LEAST_LINE, noise / 2);
+    while (!settle(v_px_q16, rays, view, about, beyond_px_q16, look, least)) { /* bound: 2 */
+        if (look == DROGUE_RAY_STEPS) {
+            return 0;
+        }
+        look = DROGUE_RAY_STEPS;
+        least = larger(LEAST, noise / 4);
     }
     for (phase = 0; phase < PHASES; phase++) {
-        cast(rays, view, about, beyond_px_q16, phase);
+        cast(rays, view, about, beyond_px_q16, phase, look, least);
         for (k = 0; k < RAYS && count < workspace->capacity.edges && count < DROGUE_INNER_BEYOND_POINTS; k++) {
             const int32_t which = drogue_ray_chosen(&rays[k], drogue_ray_along(&rays[k], v_px_q16), WITHIN);
             if (which >= 0) {

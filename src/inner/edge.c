@@ -82,7 +82,7 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     const int32_t every = e->a_px_q16 < SMALL ? EVERY : 1;
     int32_t k;
     phases = drogue_clamp_s32(phases, 1, 8);
-    drogue_rays_cast(rays, image, e, 0, 4, every, least, 0);
+    drogue_rays_cast(rays, image, e, 0, 4, every, least, DROGUE_RAY_RISES);
     if (!narrow(&s, v, &within, rays) || !drogue_inner_shade_find(&grey, rays, image, v, within)) {
         return DROGUE_E_NO_INNER_PART;
     }
@@ -150,7 +150,7 @@ static int look_about(first_place *out, drogue_ray rays[RAYS], const drogue_imag
     drogue_q16 *const v = out->v_px_q16;
     drogue_ray_sums s;
     memset(out, 0, sizeof *out);
-    drogue_rays_cast(rays, image, e, reach, 4, EVERY, config->min_inner_contrast, 0);
+    drogue_rays_cast(rays, image, e, reach, 4, EVERY, config->min_inner_contrast, DROGUE_RAY_RISES);
     if (!drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(gate_px_q16, DROGUE_Q16(1, 1)),
                                 larger(DROGUE_Q16(3, 2), reach / 16), 1)) {
         return 0;

@@ -49,7 +49,7 @@ static int sees_edge(drogue_ray rays[RAYS], const drogue_image *view, const drog
     int32_t k;
     half.a_px_q16 = far_px_q16 / 2;
     half.b_px_q16 = half.a_px_q16;
-    drogue_rays_cast(rays, view, &half, half.a_px_q16, PHASE, EVERY, STEEPER * least, 0);
+    drogue_rays_cast(rays, view, &half, half.a_px_q16, PHASE, EVERY, STEEPER * least, DROGUE_RAY_RISES);
     for (k = 0; k < RAYS; k++) {
         seen += rays[k].count > 0;
     }
@@ -82,7 +82,7 @@ uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[RAYS], const d
         place.yc_px_q16 = drogue_q16_add(middle.yc_px_q16, places[k][1] * (a / 6));
         place.a_px_q16 = r;
         place.b_px_q16 = r;
-        drogue_rays_cast(rays, view, &place, r / 4 * 3, PHASE, EVERY, least, 0);
+        drogue_rays_cast(rays, view, &place, r / 4 * 3, PHASE, EVERY, least, DROGUE_RAY_RISES);
         for (size = -1; size <= 1; size++) { /* a collar's edge beside the disc's: each by itself */
             drogue_ellipse e = place;
             const int32_t slopes_q8 = settle(&e, rays, size * (r / 3), r / 4 * 3);
@@ -93,14 +93,14 @@ uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[RAYS], const d
         }
     }
     if (steepest > 0) { /* once more from there, where all rays see it alike */
-        drogue_rays_cast(rays, view, &out[0], r / 4, PHASE, EVERY, least, 0);
+        drogue_rays_cast(rays, view, &out[0], r / 4, PHASE, EVERY, least, DROGUE_RAY_RISES);
         steepest = settle(&out[0], rays, 0, r / 4);
     }
     if (steepest == 0) {
         return 0;
     }
     out[1] = out[0];
-    drogue_rays_cast(rays, view, &out[1], out[0].a_px_q16 / 2, PHASE, EVERY, least, 0);
+    drogue_rays_cast(rays, view, &out[1], out[0].a_px_q16 / 2, PHASE, EVERY, least, DROGUE_RAY_RISES);
     drogue_rays_keep(rays, -DROGUE_Q16_MAX, -(out[0].a_px_q16 / 16));
     return settle(&out[1], rays, -(out[0].a_px_q16 / 4), out[0].a_px_q16 / 4) > 0 ? 2 : 1;
 }

@@ -8,6 +8,7 @@
 #define REACH 4    /* samples on either side that a slope is made of, and between the sums */
 #define SAMPLES 65 /* most slopes along a ray */
 #define HALF DROGUE_Q16(1, 2)
+#define QUARTER DROGUE_Q16(1, 4)
 #define NEAREST DROGUE_Q16(2, 1) /* px: reach */
 #define FARTHEST DROGUE_Q16(512, 1)
 
@@ -222,11 +223,13 @@ void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int3
 }
 
 void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *e,
-                      drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least, int either)
+                      drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least, drogue_ray_look look)
 {
     const drogue_q16 reach = drogue_clamp_s32(reach_px_q16, NEAREST, FARTHEST);
     const drogue_q16 least_step = reach / (SAMPLES / 2);
-    const drogue_q16 step = HALF < least_step ? least_step : HALF;
+    const drogue_q16 finest = look == DROGUE_RAY_LINES ? QUARTER : HALF;
+    const drogue_q16 step = finest < least_step ? least_step : finest;
+    const int32_t least_q8 = least * DROGUE_RAY_WEIGHT * ((step < HALF ? step : HALF) >> 8); /* blur may leave half */
     const int32_t out = drogue_clamp_s32(reach / step + 1, 1, SAMPLES / 2);
     int32_t k;
     aim(rays, e, phase, 0, DROGUE_RAYS / 2, every);
@@ -234,7 +237,7 @@ void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, c
         rays[k].count = 0;
         if (k % every == 0) {
             rays[k].step_px_q16 = step;
-            find_edges(&rays[k], image, out, least * DROGUE_RAY_WEIGHT * 128, either); /* blur may halve a slope */
+            find_edges(&rays[k], image, out, least_q8, look != DROGUE_RAY_RISES);
         }
     }
 }

@@ -396,6 +396,13 @@ void add_led_by_disc(Set &set)
         add_frame(set, "rim-in-circle-" + std::to_string(k++), Tier::stress, {}, dashed_drogue(d));
     }
     k = 0;
+    for (const Dashed &d :
+         {Dashed{48, 45.6, 1, 1, 120, 0, 0, 140, 70}, /* a lip, whose inner edge is found first */
+          Dashed{36, 34, 1, 1, 90, 0, 0, 150, 60, 1, 1}, Dashed{30, 28, 1, 1, 76, 0, 0, 130, 50, -1, 1},
+          Dashed{50, 47, 1, 1, 126, 0, 0, 160, 110}}) {
+        add_frame(set, "lip-" + std::to_string(k++), Tier::stress, {}, dashed_drogue(d));
+    }
+    k = 0;
     for (const uint32_t seed : {1u, 2u, 3u, 4u}) {
         add_frame(set, "noisy-rim-" + std::to_string(k++), Tier::stress, {"noise"}, noisy_drogue(12, 20, seed));
     }

@@ -121,7 +121,7 @@ void prefer_size(Offset &first, Rays rays, int least)
 Rays cast(const drogue_image &view, const drogue_ellipse &e, drogue_q16 reach, int every, int least)
 {
     Rays rays;
-    drogue_rays_cast(rays.data(), &view, &e, reach, 4, every, least, 0);
+    drogue_rays_cast(rays.data(), &view, &e, reach, 4, every, least, DROGUE_RAY_RISES);
     return rays;
 }
 

@@ -36,7 +36,7 @@ public:
     const Rays &cast(const Ellipse &at, Real reach)
     {
         const drogue_ellipse e = circle(at.xc, at.yc, at.a);
-        drogue_rays_cast(rays_.data(), &view_, &e, q16(reach), 4, 2, least_, 0);
+        drogue_rays_cast(rays_.data(), &view_, &e, q16(reach), 4, 2, least_, DROGUE_RAY_RISES);
         return rays_;
     }
 

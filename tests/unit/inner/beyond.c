@@ -152,5 +152,68 @@ START_TEST(as_large_as_points_suffice_for)
 }
 END_TEST
 
-SUITE_MAIN("beyond", as_large_as_points_suffice_for, points_on_a_faint_outline, no_more_than_there_is_room_for,
-           what_is_no_outline, across_the_border)
+/* A lip about a dark cone before brighter ground, blurred by 0.78 px and its outer edge at 48 px. */
+static drogue_image draw_lip(double width, int lip, int ground)
+{
+    const drogue_image view = {pixels, SIDE, SIDE, SIDE};
+    int x, y;
+    for (y = 0; y < SIDE; y++) {
+        for (x = 0; x < SIDE; x++) {
+            const double d = hypot(x - xc, y - yc);
+            const double cone = 0.5 * erfc((d - 48 + width) / 1.1), drogue = 0.5 * erfc((d - 48) / 1.1);
+            pixels[y * SIDE + x] = (uint8_t)lround(ground + (lip - ground) * drogue + (70 - lip) * cone);
+        }
+    }
+    return view;
+}
+
+/* The outer edge of a lip, whose inner one is steeper and near: of stairs, which blur draws together, and of a line, which it
+ * draws apart. */
+START_TEST(outer_edge_of_a_lip)
+{
+    static const struct {
+        double width;
+        int lip, ground;
+        double least, most; /* px off */
+    } lips[] = {{2.4, 140, 200, -0.4, 0}, {3, 140, 200, -0.1, 0}, {2.4, 230, 170, 0, 0.3}, {1.2, 230, 170, 0, 1}};
+    size_t i;
+    begin(600);
+    for (i = 0; i < sizeof lips / sizeof lips[0]; i++) {
+        const drogue_image view = draw_lip(lips[i].width, lips[i].lip, lips[i].ground);
+        const uint32_t count = look(&view, 48.5, 0.5 + lips[i].width);
+        double off = 0;
+        uint32_t k;
+        MUST(count > 400, "lip %d: %u points", (int)i, count);
+        for (k = 0; k < count; k++) {
+            off += hypot(workspace.edges[k].x_q5 / 32.0 - xc, workspace.edges[k].y_q5 / 32.0 - yc) - 48;
+        }
+        off /= count;
+        MUST(off > lips[i].least && off < lips[i].most, "lip %d: off by %g px", (int)i, off);
+    }
+}
+END_TEST
+
+/* Noise that the least steps do not keep out: a standard deviation of 8 grey levels beside a disc, 24 times. */
+START_TEST(noise_is_no_outline)
+{
+    static const double beyond[] = {1, 2.5, 5};
+    uint64_t rng = 5;
+    size_t i;
+    int k, n;
+    begin(600);
+    for (i = 0; i < sizeof beyond / sizeof beyond[0]; i++) {
+        for (k = 0; k < 24; k++) {
+            const drogue_image view = draw(48, 0, 1, 30, 0);
+            for (n = 0; n < SIDE * SIDE; n++) { /* of four even ones */
+                const double noise =
+                    rng_real(&rng, -7, 7) + rng_real(&rng, -7, 7) + rng_real(&rng, -7, 7) + rng_real(&rng, -7, 7);
+                pixels[n] = (uint8_t)lround(fmax(0, pixels[n] + noise));
+            }
+            MUST(look(&view, 30 + beyond[i], beyond[i]) == 0, "beyond %g px, drawing %d", beyond[i], k);
+        }
+    }
+}
+END_TEST
+
+SUITE_MAIN("beyond", noise_is_no_outline, outer_edge_of_a_lip, as_large_as_points_suffice_for,
+           points_on_a_faint_outline, no_more_than_there_is_room_for, what_is_no_outline, across_the_border)

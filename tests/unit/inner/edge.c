@@ -280,15 +280,26 @@ START_TEST(rays_meet_the_edge)
     const drogue_ellipse e = circle(100, 100, 30);
     int k;
     draw_disc(100, 100, 31);
-    drogue_rays_cast(rays, &image, &e, 0, 4, 1, 6, 0);
+    drogue_rays_cast(rays, &image, &e, 0, 4, 1, 6, DROGUE_RAY_RISES);
     for (k = 0; k < DROGUE_RAYS; k++) {
         ck_assert_uint_eq(rays[k].count, 1);
         MUST(fabs(real_of_q16(rays[k].edges[0].at_px_q16) - 1) < 0.1, "ray %d", k);
         ck_assert_int_lt(abs(rays[k].edges[0].level_q8 - 70 * 256), 12 * 256);
     }
-    drogue_rays_cast(rays, &image, &e, DROGUE_Q16(1000, 1), 4, 1, 6, 0); /* 16 px from sample to sample */
+    drogue_rays_cast(rays, &image, &e, DROGUE_Q16(2, 1), 4, 1, 190, DROGUE_RAY_LINES);
     for (k = 0; k < DROGUE_RAYS; k++) {
-        ck_assert_int_eq(rays[k].step_px_q16, DROGUE_Q16(16, 1));
+        ck_assert_int_eq(rays[k].step_px_q16,
+                         DROGUE_Q16(1, 4)); /* where a fourth of 190 is enough of the 100 grey levels */
+        ck_assert_uint_eq(rays[k].count, 1);
+    }
+    drogue_rays_cast(rays, &image, &e, DROGUE_Q16(18, 1), 4, 1, 190, DROGUE_RAY_LINES);
+    for (k = 0; k < DROGUE_RAYS; k++) {
+        ck_assert_int_ge(rays[k].step_px_q16, DROGUE_Q16(1, 2)); /* and half of it is needed */
+        ck_assert_uint_eq(rays[k].count, 0);
+    }
+    drogue_rays_cast(rays, &image, &e, DROGUE_Q16(1000, 1), 4, 1, 6, DROGUE_RAY_RISES);
+    for (k = 0; k < DROGUE_RAYS; k++) {
+        ck_assert_int_eq(rays[k].step_px_q16, DROGUE_Q16(16, 1)); /* from sample to sample */
     }
 }
 END_TEST
