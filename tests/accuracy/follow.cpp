@@ -24,6 +24,7 @@ struct Options {
     Variety variety;
     std::string cache, sheets, only;
     bool list = false;
+    bool bars = false;
 };
 
 cv::Mat contact_sheet(const std::vector<cv::Mat> &images, int columns, const cv::Size &tile)
@@ -110,7 +111,8 @@ void print_frames(const Options &o, bool has_drogue)
     }
 }
 
-void print_courses(const Options &o)
+/* Is each course right in 99 of 100 frames in sight, with no false one and no wrong twin? */
+bool print_courses(const Options &o)
 {
     struct Job {
         std::string name;
@@ -168,6 +170,12 @@ void print_courses(const Options &o)
             line(name, by[name]);
         }
     }
+    bool met = true;
+    for (const auto &[name, s] : by) {
+        met = met && 100 * s.right >= 99 * s.visible && s.false_frames == 0 && s.wrong_twins == 0;
+    }
+    std::printf("follow: courses=%zu bars=%s\n", jobs.size(), met ? "met" : "missed");
+    return met && !jobs.empty();
 }
 
 } // namespace
@@ -197,9 +205,11 @@ int main(int argc, char **argv)
             o.variety.held_out = true;
         } else if (a == "--list") {
             o.list = true;
+        } else if (a == "--bars") {
+            o.bars = true;
         } else {
             std::fprintf(stderr, "usage: follow [--seed N] [--courses N] [--only NAME] [--frames N] [--held-out] "
-                                 "[--cache FOLDER] [--sheets FOLDER] [--list]\n");
+                                 "[--cache FOLDER] [--sheets FOLDER] [--list] [--bars]\n");
             return 2;
         }
     }
@@ -212,8 +222,5 @@ int main(int argc, char **argv)
         print_frames(o, true);
         print_frames(o, false);
     }
-    if (courses) {
-        print_courses(o);
-    }
-    return 0;
+    return courses && !print_courses(o) && o.bars;
 }
