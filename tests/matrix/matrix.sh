@@ -9,6 +9,7 @@ cd "$(dirname "$0")/../.." || exit
 . tests/matrix/machine.sh
 work=${DROGUE_MATRIX_DIR:-build/matrix}
 jobs=${DROGUE_MATRIX_JOBS:-$(nproc)}
+read -ra stages <<<"${DROGUE_MATRIX_STAGES:-}"
 most_s=900 # of one row's run
 host=$(uname -m)
 host=${host/_/-}
@@ -43,7 +44,8 @@ usage: tests/matrix/matrix.sh [--ci] [ROW...]
 
 Without ROW: every row; with --ci: those that a commit must pass, where a row that cannot be built is a failure and not
 SKIPPED. Exit status 0 when the rows that ran passed every case with the same digest.
-Works in build/matrix (DROGUE_MATRIX_DIR) with as many jobs as processors (DROGUE_MATRIX_JOBS).
+Works in build/matrix (DROGUE_MATRIX_DIR) with as many jobs as processors (DROGUE_MATRIX_JOBS), with the vectors of every
+stage (or DROGUE_MATRIX_STAGES).
 Rows: $(row_names "" | tr '\n' ' ')
 END
 }
@@ -275,7 +277,7 @@ for row in "${chosen[@]}"; do
         data_dirs+=("$data_dir")
     fi
 done
-if ! tests/matrix/embed.sh "$work/cases"; then
+if ! tests/matrix/embed.sh "$work/cases" 4 "${stages[@]}"; then
     echo "matrix: cannot turn vectors/ into C" >&2
     exit 1
 fi
