@@ -6,6 +6,7 @@
 
 #include "drogue/decide.h"
 #include "drogue/inner.h"
+#include "drogue/undistort.h"
 #include "look.h"
 
 #define TEXT(x) #x
@@ -338,8 +339,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
 static int valid(const drogue_image *image, const drogue_setup *setup)
 {
     return image->data != NULL && image->width_px >= 1 && image->height_px >= 1 && image->stride >= image->width_px &&
-           setup->camera->fx_px_q16 > 0 && setup->camera->fy_px_q16 > 0 && setup->model->rim_radius_m_q16 > 0 &&
-           setup->model->inner_radius_m_q16 >= 0 && drogue_config_valid(setup->config);
+           drogue_camera_valid(setup->camera) && drogue_model_valid(setup->model) && drogue_config_valid(setup->config);
 }
 
 drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,

@@ -26,12 +26,13 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
                                     const drogue_frontend_config *config, int32_t width_px, int32_t height_px)
 {
     const drogue_status status = drogue_frontend_check(workspace, config, width_px, height_px);
+    frontend->rows_in = 0;
+    frontend->height_px = -1;
     if (status != DROGUE_OK) {
         return status;
     }
     the_last = the_bank == NULL ? DROGUE_BLOCK_ABSENT : drogue_block_examine(the_bank, &workspace->capacity);
     frontend->workspace = workspace;
-    frontend->rows_in = 0;
     frontend->height_px = height_px;
     at_work.frame.config = *config;
     at_work.frame.width_px = width_px;
@@ -45,6 +46,7 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
 {
     const int32_t y = frontend->rows_in;
     if (y >= frontend->height_px) {
+        frontend->rows_in = frontend->height_px + 1; /* not a frame any more */
         return;
     }
     frontend->rows_in++;

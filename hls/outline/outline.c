@@ -18,8 +18,8 @@ typedef struct frame {
 
 static int valid(const drogue_hls_parameters *p)
 {
-    return p->camera.fx_px_q16 > 0 && p->camera.fy_px_q16 > 0 && p->model.rim_radius_m_q16 > 0 &&
-           p->model.inner_radius_m_q16 >= 0 && drogue_config_valid(&p->config) && drogue_mask_valid(&p->mask);
+    return drogue_camera_valid(&p->camera) && drogue_model_valid(&p->model) && drogue_config_valid(&p->config) &&
+           drogue_mask_valid(&p->mask);
 }
 
 /* The lists into the workspace; 0 when they cannot be a front end's. */

@@ -91,8 +91,8 @@ typedef char drogue_assume_result_fits[sizeof(drogue_result) + 4 <= DROGUE_KEPT_
  *             workspace for that width holds every second look; a smaller one keeps the first, and second_look says
  *             so. A region about a disc (tried 5) is as large as the outline that the disc allows asks for; with the
  *             lens and model of a real camera no larger
- *  setup      camera, model, thresholds; the model's inner_radius 0: inner part unknown, both poses are given and the
- *             orientation stays unresolved
+ *  setup      camera, model, thresholds, each within its range; the model's inner_radius 0: inner part unknown, both
+ *             poses are given and the orientation stays unresolved
  *  image      the caller's; not written
  *  region     where to look, drogue about its middle, longest side 2 to 3 major semi-axes; may reach past the
  *             image, then the part inside is used and the masks stay where they were

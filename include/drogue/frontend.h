@@ -32,10 +32,10 @@ typedef struct drogue_capacity {
 
 /* Capacity that suits a region of the given longest side. What noise needs grows with the area: at 8 grey levels and
  * 443 px 10.6 edge points and 5.6 labels a pixel of side, where the frames in vectors/ need 6.3 and 2.1. No more than
- * 88 arcs of an eighth of the side fit into the edge points. */
+ * 82 arcs of an eighth of the side, and one more for every 64 px of it, fit into the edge points. */
 #define DROGUE_EDGES_FOR(side_px) (10u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 512u)
 #define DROGUE_LABELS_FOR(side_px) (3u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 140u + 2u)
-#define DROGUE_ARCS_FOR(side_px) ((size_t)96u)
+#define DROGUE_ARCS_FOR(side_px) ((size_t)(side_px) > 896u ? 82u + (size_t)(side_px) / 64u : 96u)
 
 #define DROGUE_HALF(width_px) (((size_t)(width_px) + 7u) / 8u * 4u) /* half of a row, rounded up to four pixels */
 
@@ -89,6 +89,9 @@ typedef struct drogue_workspace {
 
 /* Is a workspace wide enough for what of a region lies within an image? */
 int drogue_workspace_spans(const drogue_workspace *workspace, const drogue_region *region, const drogue_image *image);
+
+/* Make a square region that a workspace is too narrow for as wide as that, about the same middle. */
+void drogue_workspace_narrow(drogue_region *region, const drogue_workspace *workspace, const drogue_image *image);
 
 /* Bytes that drogue_workspace_init() needs; equals DROGUE_WORKSPACE_BYTES. */
 size_t drogue_workspace_bytes(const drogue_capacity *capacity);
@@ -155,18 +158,19 @@ drogue_status drogue_frontend_check(const drogue_workspace *workspace, const dro
  *  frontend   out
  *  workspace  width_px <= capacity.width_px
  *  config     copied
- *  return     as drogue_frontend_check()
+ *  return     as drogue_frontend_check(); what is refused takes no rows, and its end is DROGUE_E_ARGUMENT
  */
 drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace *workspace,
                                     const drogue_frontend_config *config, int32_t width_px, int32_t height_px);
 
-/* Feed the next row, width_px grey levels; the row is copied. Exactly height_px rows make a frame. */
+/* Feed the next row, width_px grey levels; the row is copied. Exactly height_px rows make a frame;
+ * what comes after them is not read. */
 void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row);
 
 /* End a frame: resolve hysteresis, drop what did not survive, sort the points by arc.
  *
  *  list    out; defined for every return value
- *  return  DROGUE_OK; DROGUE_E_ARGUMENT when rows are missing (list empty); DROGUE_E_LABELS_FULL,
+ *  return  DROGUE_OK; DROGUE_E_ARGUMENT when rows are missing or too many (list empty); DROGUE_E_LABELS_FULL,
  *          DROGUE_E_EDGES_FULL or DROGUE_E_ARCS_FULL when a table filled: what did fit is in the list
  */
 drogue_status drogue_frontend_end(drogue_edge_list *list, drogue_frontend *frontend);

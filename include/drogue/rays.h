@@ -3,7 +3,7 @@
 #ifndef DROGUE_RAYS_H
 #define DROGUE_RAYS_H
 
-#include "drogue/types.h"
+#include "drogue/config.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -60,6 +60,17 @@ void drogue_ray_read(int32_t *grey_q8, const drogue_ray *ray, const drogue_image
 void drogue_ray_read_light(int32_t *light_q8, const drogue_ray *ray, const drogue_image *image, drogue_q16 from_px_q16,
                            int32_t count);
 
+/* Grey, or the light that a transfer function makes of it, along a ray. */
+static inline void drogue_ray_read_as(int32_t *value_q8, const drogue_ray *ray, const drogue_image *image,
+                                      drogue_transfer transfer, drogue_q16 from_px_q16, int32_t count)
+{
+    if (transfer == DROGUE_TRANSFER_SRGB) {
+        drogue_ray_read_light(value_q8, ray, image, from_px_q16, count);
+    } else {
+        drogue_ray_read(value_q8, ray, image, from_px_q16, count);
+    }
+}
+
 /* What is looked for along rays: where the grey rises outwards; where it rises or falls, whose slope is taken as
  * positive; the same from samples half as far apart, so that the two edges of a line of 2 px are two. */
 typedef enum drogue_ray_look { DROGUE_RAY_RISES, DROGUE_RAY_STEPS, DROGUE_RAY_LINES } drogue_ray_look;
@@ -69,7 +80,7 @@ typedef enum drogue_ray_look { DROGUE_RAY_RISES, DROGUE_RAY_STEPS, DROGUE_RAY_LI
  *  reach   how far from the ellipse edges are looked for, [2, 512] px and limited to that; samples are half a pixel
  *          apart, of lines a quarter, or 32 to the reach where that is more
  *  every   1 or 2: of the rays each, or every second one and no edges on the others
- *  least   least step of grey, grey levels
+ *  least   least step of grey, grey levels, [0, 2^16]
  *  image, ellipse, phase  as above
  */
 void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *ellipse,

@@ -40,7 +40,7 @@ typedef struct drogue_support {
  * A bin is covered by 0.35 points and more per pixel of its length (8-connected edges have 0.7 to 1). An outline of
  * one polarity is preferred: a mixed one loses a bin for each change of polarity round it.
  *
- *  stride  every stride-th edge point has been counted, >= 1
+ *  stride  every stride-th edge point has been counted, [1, 2^16]
  */
 void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse, drogue_polarity polarity,
                           uint32_t stride);

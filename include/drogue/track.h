@@ -54,7 +54,7 @@ typedef struct drogue_track_config {
     drogue_q16 region_scale_q16;    /* 2.5: side of the next region in predicted major semi-axes */
     drogue_q16 region_sigmas_q16;   /* 3: standard deviations that region and search allow for */
     int32_t min_region_px;          /* 32 px */
-    int32_t max_region_px;          /* DROGUE_MAX_SIDE; what the workspace holds */
+    int32_t max_region_px;          /* DROGUE_MAX_SIDE; drogue_track_frame() takes no more than the workspace holds */
     drogue_q16 lateral_std_q16;     /* 0.0005: standard deviation of x and y, share of the distance; this and the */
     drogue_q16 depth_std_q16;     /* 0.002: of z, share of the distance; next two where a result has no covariance; the
                                      gate allows for it, too */
@@ -131,6 +131,7 @@ drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *
 
 /* Begin a frame dt_us after the one before: predict and place the region for drogue_measure().
  *
+ *  dt_us   microseconds; 0, a frame once more, moves nothing and adds the acceleration's noise
  *  region  out, may reach past the image; all zero when the whole frame is to be searched. Its side grows by up to a
  *          tenth with the predicted uncertainty, as far as the ring mask bears it; beyond that track->search is set
  */
@@ -151,7 +152,9 @@ void drogue_track_get(drogue_track_estimate *out, const drogue_track *track);
  * drogue is in sight.
  *
  *  result  out, the frame's measurement; its region is where it was taken
- *  region  out, the region asked for
+ *  region  out, the region asked for. One about a prediction is at most as wide as the workspace, which follows a
+ *          drogue until that is about as large
+ *  dt_us   as drogue_track_begin() has it
  *  search  memory for a frame as wide as the image
  */
 drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *region, drogue_track *track,

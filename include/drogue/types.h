@@ -73,9 +73,16 @@ typedef struct drogue_camera {
 /* The drogue: its end plane is a circle, its inner black part a disc behind it on the axis. */
 typedef struct drogue_model {
     drogue_q16 rim_radius_m_q16;   /* > 0 */
-    drogue_q16 inner_radius_m_q16; /* 0: inner part unknown */
-    drogue_q16 inner_depth_m_q16;  /* from the end plane along the axis, into the drogue */
+    drogue_q16 inner_radius_m_q16; /* at most the rim's; 0: inner part unknown */
+    drogue_q16 inner_depth_m_q16;  /* from the end plane along the axis, into the drogue, >= 0 */
 } drogue_model;
+
+/* Are the drogue's lengths within their ranges? */
+static inline int drogue_model_valid(const drogue_model *m)
+{
+    return m->rim_radius_m_q16 > 0 && m->inner_radius_m_q16 >= 0 && m->inner_radius_m_q16 <= m->rim_radius_m_q16 &&
+           m->inner_depth_m_q16 >= 0;
+}
 
 /* Ellipse: centre, semi-axes a >= b, angle of the major axis from +x towards +y in (-pi/2, pi/2]. */
 typedef struct drogue_ellipse {

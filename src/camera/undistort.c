@@ -26,8 +26,6 @@ static int32_t mul_q30(int32_t a, int32_t b) { return (int32_t)mul(a, b, 30); }
 
 static int64_t abs_s64(int64_t v) { return v < 0 ? -v : v; }
 
-static int small(drogue_q16 k) { return k >= -DROGUE_MAX_DISTORTION_Q16 && k <= DROGUE_MAX_DISTORTION_Q16; }
-
 enum { K1, K2, K3, P1, P2, COEFFICIENTS };
 
 /* Coefficients Q16 and their bits. */
@@ -150,9 +148,6 @@ static int normalise(int32_t *x_q29, drogue_q16 px_q16, drogue_q16 centre_q16, d
 {
     drogue_real x;
     drogue_real focal;
-    if (focal_q16 <= 0) {
-        return 0;
-    }
     drogue_real_set(&x, (int64_t)px_q16 - centre_q16, 0);
     drogue_real_set(&focal, focal_q16, 0);
     drogue_real_quotient(&x, &x, &focal);
@@ -165,8 +160,7 @@ static int enter(lens *l, int32_t *x_q29, int32_t *y_q29, drogue_q16 x_px_q16, d
                  const drogue_camera *c)
 {
     lens_of(l, c);
-    return small(c->k1_q16) && small(c->k2_q16) && small(c->p1_q16) && small(c->p2_q16) && small(c->k3_q16) &&
-           normalise(x_q29, x_px_q16, c->cx_px_q16, c->fx_px_q16) &&
+    return drogue_camera_valid(c) && normalise(x_q29, x_px_q16, c->cx_px_q16, c->fx_px_q16) &&
            normalise(y_q29, y_px_q16, c->cy_px_q16, c->fy_px_q16);
 }
 

@@ -14,6 +14,8 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
 {
     const drogue_status status = drogue_frontend_check(workspace, config, width_px, height_px);
     uint32_t k;
+    frontend->rows_in = 0;
+    frontend->height_px = -1; /* no number of rows makes a frame of what is refused */
     if (status != DROGUE_OK) {
         return status;
     }
@@ -21,7 +23,6 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
     frontend->config = *config;
     frontend->width_px = width_px;
     frontend->height_px = height_px;
-    frontend->rows_in = 0;
     if (config->use_ring) {
         drogue_ring_chords_of(&frontend->chords, &config->ring);
     }
@@ -199,6 +200,7 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row)
 {
     int32_t y = frontend->rows_in;
     if (y >= frontend->height_px) {
+        frontend->rows_in = frontend->height_px + 1; /* not a frame any more */
         return;
     }
     frontend->rows_in++;

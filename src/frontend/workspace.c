@@ -92,3 +92,15 @@ int drogue_workspace_spans(const drogue_workspace *workspace, const drogue_regio
     drogue_clip(&x_px, &width_px, image->width_px);
     return (uint32_t)width_px <= workspace->capacity.width_px;
 }
+
+void drogue_workspace_narrow(drogue_region *region, const drogue_workspace *workspace, const drogue_image *image)
+{
+    const int32_t most = (int32_t)workspace->capacity.width_px;
+    const int32_t over = region->width_px - most;
+    if (over > 0 && !drogue_workspace_spans(workspace, region, image)) {
+        region->x_px += over / 2;
+        region->y_px += over / 2;
+        region->width_px = most;
+        region->height_px = most;
+    }
+}

@@ -70,7 +70,7 @@ static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], uint32_t 
 /* Measure about a first place: which rays see the edge, and how large it is, by its steepest place; where it is, by
  * half as many rays as it has pixels, at most 512. */
 static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
-                             const drogue_ellipse *e, int32_t least)
+                             const drogue_ellipse *e, const drogue_config *config)
 {
     drogue_q16 within = DROGUE_Q16(3, 2);
     drogue_q16 v[3] = {0, 0, 0};
@@ -82,14 +82,14 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     const int32_t every = e->a_px_q16 < SMALL ? EVERY : 1;
     int32_t k;
     phases = drogue_clamp_s32(phases, 1, 8);
-    drogue_rays_cast(rays, image, e, 0, 4, every, least, DROGUE_RAY_RISES);
-    if (!narrow(&s, v, &within, rays) || !drogue_inner_shade_find(&grey, rays, image, v, within)) {
+    drogue_rays_cast(rays, image, e, 0, 4, every, config->min_inner_contrast, DROGUE_RAY_RISES);
+    if (!narrow(&s, v, &within, rays) || !drogue_inner_shade_find(&grey, rays, image, config->transfer, v, within)) {
         return DROGUE_E_NO_INNER_PART;
     }
     out->contrast = (uint8_t)drogue_clamp_s32(
         (int32_t)drogue_div_round_s64(s.slopes_q8, (int64_t)s.rays * DROGUE_RAY_WEIGHT * 256), 0, 255);
     out->level = (uint8_t)drogue_clamp_s32((int32_t)drogue_div_round_s64(s.levels_q8, (int64_t)s.rays * 256), 0, 255);
-    drogue_inner_shade_cross(rays, image, &grey, v, every);
+    drogue_inner_shade_cross(rays, image, config->transfer, &grey, v, every);
     within = DROGUE_Q16(3, 2);
     size = v[2];
     if (!narrow(&s, v, &within, rays)) {
@@ -101,7 +101,7 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
         const drogue_q16 about[3] = {v[0], v[1], size};
         if (phases > 1) { /* or they have been cast */
             drogue_rays_aim(rays, e, (8 * k + 4) / phases % 8, 0, DROGUE_RAYS / 2);
-            drogue_inner_shade_cross(rays, image, &grey, about, 1);
+            drogue_inner_shade_cross(rays, image, config->transfer, &grey, about, 1);
         }
         drogue_ray_sums_add_edges(&s, &bins, rays, v, within);
     }
@@ -166,7 +166,7 @@ static int look_about(first_place *out, drogue_ray rays[RAYS], const drogue_imag
 /* Measure about a first place of one of the expected discs. */
 static drogue_status measure_at(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
                                 const drogue_inner_expected *expected, uint32_t which, const first_place *first,
-                                int32_t least)
+                                const drogue_config *config)
 {
     const drogue_q16 grown = whole(first->v_px_q16[2]);
     drogue_ellipse at = expected->disc[which];
@@ -179,7 +179,7 @@ static drogue_status measure_at(drogue_inner_edge *out, drogue_ray rays[RAYS], c
     if (at.b_px_q16 < DROGUE_Q16_ONE) {
         return DROGUE_E_NO_INNER_PART;
     }
-    status = measure(out, rays, image, &at, least);
+    status = measure(out, rays, image, &at, config);
     if (status != DROGUE_OK) {
         memset(out, 0, sizeof *out);
         return status;
@@ -203,7 +203,6 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
 {
     const drogue_q16 gate_px_q16 =
         drogue_q16_add(config->inner_gate_px_q16, drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16));
-    const int32_t least = config->min_inner_contrast;
     first_place first[2];
     drogue_inner_edge other;
     drogue_status status;
@@ -220,9 +219,9 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
     if (first[which].slopes_q8 == 0) {
         return DROGUE_E_NO_INNER_PART;
     }
-    status = measure_at(out, rays, image, expected, which, &first[which], least);
+    status = measure_at(out, rays, image, expected, which, &first[which], config);
     if (first[1 - which].slopes_q8 > 0 && (status != DROGUE_OK || credit(out, expected, outline, config) == 0) &&
-        measure_at(&other, rays, image, expected, 1 - which, &first[1 - which], least) == DROGUE_OK &&
+        measure_at(&other, rays, image, expected, 1 - which, &first[1 - which], config) == DROGUE_OK &&
         other.grown_px_q16 <= expected->disc[other.which].a_px_q16 / LARGER &&
         credit(&other, expected, outline, config) > 0) {
         *out = other; /* what is steeper is another edge of the drogue */

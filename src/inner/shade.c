@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The disc is dark all over, what surrounds it need not be of one grey: light, ribs and a ring about it move the
  * steepest place of a blurred edge, and hardly the one where the grey begins to rise. So the edge is looked for where
- * the grey is a quarter of the usual step above the disc's own. */
+ * the grey is a quarter of the usual step above the disc's own. Where grey levels are encoded it is the light's, which
+ * blur mixes: a quarter of the step between encoded levels lies farther within. */
 #include "shade.h"
 
 #include <string.h>
@@ -90,7 +91,7 @@ static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const 
 }
 
 int drogue_inner_shade_find(drogue_inner_shade *out, const drogue_ray rays[RAYS], const drogue_image *image,
-                            const drogue_q16 v_px_q16[3], drogue_q16 within_px_q16)
+                            drogue_transfer transfer, const drogue_q16 v_px_q16[3], drogue_q16 within_px_q16)
 {
     int32_t dark_q16[RAYS];
     int32_t beyond_q16[RAYS];
@@ -103,7 +104,7 @@ int drogue_inner_shade_find(drogue_inner_shade *out, const drogue_ray rays[RAYS]
             const int32_t part_q15 = drogue_q16_sub(drogue_q16_add(at, FROM), begin_of(at));
             int32_t grey_q8[PROFILE];
             int32_t i;
-            drogue_ray_read(grey_q8, &rays[k], image, begin_of(at), PROFILE);
+            drogue_ray_read_as(grey_q8, &rays[k], image, transfer, begin_of(at), PROFILE);
             dark_q16[k] = between_q16(grey_q8[0], grey_q8[DARK], part_q15) / DARK;
             for (i = 1; i < DARK; i++) {
                 dark_q16[k] += grey_q8[i] * (256 / DARK);
@@ -123,8 +124,8 @@ int drogue_inner_shade_find(drogue_inner_shade *out, const drogue_ray rays[RAYS]
     return out->rise_q16 > 0;
 }
 
-void drogue_inner_shade_cross(drogue_ray rays[RAYS], const drogue_image *image, const drogue_inner_shade *grey,
-                              const drogue_q16 v_px_q16[3], int32_t every)
+void drogue_inner_shade_cross(drogue_ray rays[RAYS], const drogue_image *image, drogue_transfer transfer,
+                              const drogue_inner_shade *grey, const drogue_q16 v_px_q16[3], int32_t every)
 {
     int32_t k;
     for (k = 0; k < RAYS; k += every) { /* bound: 64 */
@@ -133,7 +134,7 @@ void drogue_inner_shade_cross(drogue_ray rays[RAYS], const drogue_image *image, 
         const int32_t level_q16 = drogue_ray_along(r, grey->dark_q16) + grey->rise_q16;
         int32_t grey_q8[PROFILE];
         int32_t i;
-        drogue_ray_read(grey_q8, r, image, from, PROFILE);
+        drogue_ray_read_as(grey_q8, r, image, transfer, from, PROFILE);
         r->count = 0;
         for (i = FIRST; i <= LAST; i++) {
             const int32_t below_q16 = level_q16 - grey_q8[i] * 256;

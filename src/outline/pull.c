@@ -166,11 +166,7 @@ static void add_grey(int32_t sum[], int32_t samples, int32_t middle, const drogu
         if (support->bin[bin].count[bright] > 0) {
             const int32_t sign = bright ? 1 : -1;
             const drogue_q16 from = -(middle + 1) * rays[k].step_px_q16;
-            if (transfer == DROGUE_TRANSFER_SRGB) {
-                drogue_ray_read_light(grey, &rays[k], view, from, samples);
-            } else {
-                drogue_ray_read(grey, &rays[k], view, from, samples);
-            }
+            drogue_ray_read_as(grey, &rays[k], view, transfer, from, samples);
             for (i = 0; i < samples; i++) { /* bound: DROGUE_SMEARED_SLOPES + 2 */
                 sum[i] += sign * grey[i];
             }

@@ -8,11 +8,12 @@
 
 /* What a search must show to be sure: where the model knows no inner part cover of the outline and reliability; else an
  * inner part that is dark, sharp and near to its size, and cover. One that decides the orientation and has its size
- * needs less of it, none where it is so sharp and so exactly of its size as nothing else is, or need not be sharp; nor
+ * needs less of it, least where it is so sharp and so exactly of its size as nothing else is, or need not be sharp; nor
  * need one of some pixels within an outline that is whole. */
 #define SURE_COVER DROGUE_Q16(3, 4)
 #define SURE_RELIABILITY DROGUE_Q16(9, 10)
 #define DECIDED_COVER DROGUE_Q16(6, 10)
+#define EXACT_COVER DROGUE_Q16(1, 2)
 #define BLURRED_COVER DROGUE_Q16(9, 10)
 #define EVIDENT_COVER DROGUE_Q16(31, 32)
 #define EVIDENT_RELIABILITY DROGUE_Q16(99, 100)
@@ -30,6 +31,12 @@
 #define WIDER 2                          /* so many sightings are measured once more */
 #define MOST_WHOLE_PX 512 /* a larger image is not measured itself: a drogue in it shows its inner part */
 
+/* Radius of a circle of an inner part's area, px Q16. */
+static int64_t radius_of(const drogue_inner_part *p)
+{
+    return (int64_t)drogue_isqrt_u64((((uint64_t)p->area_px << 32) / (uint64_t)DROGUE_Q16_PI) << 16);
+}
+
 /* Radii of the inner part, px Q16, as circles of its area: what the model expects in this outline, and by how much it
  * is off. A ring about some dark disc has another; and of concentric outlines the rim fits best. */
 static int sizes(int64_t *expected, int64_t *off, const drogue_result *r, const drogue_model *model)
@@ -44,7 +51,7 @@ static int sizes(int64_t *expected, int64_t *off, const drogue_result *r, const 
     *expected = *expected < MOST_PRODUCT / z ? *expected : MOST_PRODUCT / z; /* of a model that fits no outline */
     *expected = drogue_div_round_s64(*expected * z, end);
     *expected = *expected < MOST_EXPECTED ? *expected : MOST_EXPECTED;
-    *off = (int64_t)drogue_isqrt_u64((((uint64_t)r->inner.area_px << 32) / (uint64_t)DROGUE_Q16_PI) << 16) - *expected;
+    *off = radius_of(&r->inner) - *expected;
     *off = *off < 0 ? -*off : *off;
     return 1;
 }
@@ -65,7 +72,7 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
     }
     sharp = r->inner.spread_px_q16 <= MOST_SPREAD_PX;
     if (decided(r) && sharp && expected >= EVIDENT_PX && 64 * (off - WITNESS_PX) <= expected) {
-        return 1;
+        return r->cover_q16 >= EXACT_COVER;
     }
     if (decided(r) && 25 * (off - EXACT_PX) <= expected) {
         return r->cover_q16 >= (sharp ? DECIDED_COVER : BLURRED_COVER);
@@ -114,35 +121,54 @@ static int settles(const drogue_result *r, const drogue_model *model)
 /* What is kept of the best measurement. */
 typedef struct best_seen {
     int32_t worth;
-    drogue_region region; /* where it was measured */
+    int32_t where; /* it was measured: by place() */
     drogue_q16 a_px_q16;
-    drogue_q16 x_px_q16; /* of the inner part */
-    drogue_q16 y_px_q16;
+    drogue_q16 xc_px_q16;
+    drogue_q16 yc_px_q16;
+    drogue_q16 inner_x_px_q16;
+    drogue_q16 inner_y_px_q16;
+    drogue_q16 inner_px_q16; /* its radius where it decides and enough of the outline shows; else 0 */
 } best_seen;
 
-/* Keep a result that is worth more; returns whether it is. Of two sure outlines about one inner part the larger one is
- * more likely the rim, and the other an edge of the canopy. */
-static int keep_better(best_seen *best, const drogue_result *r, const drogue_region *region, const drogue_model *model)
+static int within(drogue_q16 x, drogue_q16 y, drogue_q16 of_x, drogue_q16 of_y, drogue_q16 px_q16)
 {
-    const int64_t a = r->ellipse.a_px_q16;
+    return drogue_square_sum(drogue_q16_sub(x, of_x), drogue_q16_sub(y, of_y)) < drogue_square_sum(px_q16, 0);
+}
+
+/* Is an outline a ring about the inner part of a larger one, as its coupling's? */
+static int is_part(const best_seen *small, const best_seen *large)
+{
+    return 5 * (int64_t)small->a_px_q16 < 4 * (int64_t)large->a_px_q16 &&
+           small->a_px_q16 < 3 * (int64_t)large->inner_px_q16 &&
+           within(small->xc_px_q16, small->yc_px_q16, large->inner_x_px_q16, large->inner_y_px_q16,
+                  large->inner_px_q16 / 2);
+}
+
+/* Keep a result that is worth more; returns whether it is. Of two sure outlines about one inner part the larger one is
+ * more likely the rim, and the other an edge of the canopy; what is a part of a larger outline is none. */
+static int keep_better(best_seen *best, const drogue_result *r, int32_t where, const drogue_model *model)
+{
     const int64_t was = best->a_px_q16;
-    const int32_t value = worth(r, model);
-    int32_t own = value;
+    best_seen now;
+    int32_t own;
     int32_t other = best->worth;
-    if (r->has_inner && value > SURE && best->worth > SURE &&
-        drogue_square_sum(drogue_q16_sub(r->inner.x_px_q16, best->x_px_q16),
-                          drogue_q16_sub(r->inner.y_px_q16, best->y_px_q16)) < drogue_square_sum(DROGUE_Q16_ONE, 0)) {
-        own += 8 * a > 9 * was ? LARGER : 0;
-        other += 9 * a < 8 * was ? LARGER : 0;
+    now.worth = own = worth(r, model);
+    now.where = where;
+    now.a_px_q16 = r->ellipse.a_px_q16;
+    now.xc_px_q16 = r->ellipse.xc_px_q16;
+    now.yc_px_q16 = r->ellipse.yc_px_q16;
+    now.inner_x_px_q16 = r->inner.x_px_q16;
+    now.inner_y_px_q16 = r->inner.y_px_q16;
+    now.inner_px_q16 = decided(r) && r->cover_q16 >= EXACT_COVER ? drogue_sat_s32(radius_of(&r->inner)) : 0;
+    if (r->has_inner && own > SURE && other > SURE &&
+        within(now.inner_x_px_q16, now.inner_y_px_q16, best->inner_x_px_q16, best->inner_y_px_q16, DROGUE_Q16_ONE)) {
+        own += 8 * (int64_t)now.a_px_q16 > 9 * was ? LARGER : 0;
+        other += 9 * (int64_t)now.a_px_q16 < 8 * was ? LARGER : 0;
     }
-    if (own <= other) {
+    if (now.worth == 0 || is_part(&now, best) || (own <= other && !is_part(best, &now))) {
         return 0;
     }
-    best->worth = value;
-    best->region = *region;
-    best->a_px_q16 = r->ellipse.a_px_q16;
-    best->x_px_q16 = r->inner.x_px_q16;
-    best->y_px_q16 = r->inner.y_px_q16;
+    *best = now;
     return 1;
 }
 
@@ -207,6 +233,23 @@ static void widen(drogue_region *r)
     r->height_px += r->height_px / 4;
 }
 
+#define WHOLE (DROGUE_SEARCH_MAX + WIDER)
+
+/* Regions that are measured, by number: those of the sightings, larger ones about the first of them, what is asked
+ * for. */
+static void place(drogue_region *out, int32_t where, const drogue_search *search, const drogue_region *region,
+                  const drogue_image *image)
+{
+    if (where == WHOLE) {
+        put_asked(out, region, image);
+    } else if (where < DROGUE_SEARCH_MAX) {
+        *out = search->best[where].region;
+    } else {
+        *out = search->best[where - DROGUE_SEARCH_MAX].region;
+        widen(out); /* what was sighted may be an edge within the drogue */
+    }
+}
+
 /* Is the part that was searched measured itself when nothing sighted decides? */
 static int measures_whole(const drogue_search *search, const drogue_model *model)
 {
@@ -218,6 +261,7 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
 {
     drogue_status status;
     best_seen best;
+    drogue_region asked;
     const drogue_sighting *settled = NULL; /* after which only larger ones about it are looked at */
     int current = 0;                       /* is the best what was measured last? */
     int32_t i;
@@ -238,27 +282,26 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
             continue;
         }
         (void)drogue_measure(out, workspace, setup, image, &search->best[i].region);
-        current = keep_better(&best, out, &search->best[i].region, setup->model);
+        current = keep_better(&best, out, i, setup->model);
         if (current && (settled != NULL || settles(out, setup->model))) {
             settled = &search->best[i];
         }
     }
     for (i = 0; i < WIDER && i < search->count && best.worth <= SURE && setup->model->inner_radius_m_q16 > 0; i++) {
-        drogue_region wider = search->best[i].region;
-        widen(&wider); /* what was sighted may be an edge within the drogue */
-        if (drogue_workspace_spans(workspace, &wider, image)) {
-            (void)drogue_measure(out, workspace, setup, image, &wider);
-            current = keep_better(&best, out, &wider, setup->model);
+        place(&asked, DROGUE_SEARCH_MAX + i, search, region, image);
+        if (drogue_workspace_spans(workspace, &asked, image)) {
+            (void)drogue_measure(out, workspace, setup, image, &asked);
+            current = keep_better(&best, out, DROGUE_SEARCH_MAX + i, setup->model);
         }
     }
     if (best.worth <= SURE && measures_whole(search, setup->model)) {
-        drogue_region whole;
-        put_asked(&whole, region, image);
-        (void)drogue_measure(out, workspace, setup, image, &whole);
-        current = keep_better(&best, out, &whole, setup->model);
+        place(&asked, WHOLE, search, region, image);
+        (void)drogue_measure(out, workspace, setup, image, &asked);
+        current = keep_better(&best, out, WHOLE, setup->model);
     }
     if (best.worth > 0 && !current) { /* again, so that the workspace holds its points */
-        (void)drogue_measure(out, workspace, setup, image, &best.region);
+        place(&asked, best.where, search, region, image);
+        (void)drogue_measure(out, workspace, setup, image, &asked);
     }
     if (out->status == DROGUE_OK && !drogue_result_sure(out, setup->model)) {
         out->status = DROGUE_E_UNSURE;

@@ -103,6 +103,15 @@ static drogue_q16 wrap_q16(drogue_q16 angle)
     return (drogue_q16)(angle - turn * drogue_floor_div_s64((int64_t)angle + DROGUE_Q16_PI, turn));
 }
 
+/* Filtered angles as an axis's: where the pitch has passed a right angle, the yaw is the opposite one. */
+static void angles_of(drogue_q16 *yaw_rad_q16, drogue_q16 *pitch_rad_q16, drogue_q16 yaw, drogue_q16 pitch)
+{
+    const drogue_q16 wrapped = wrap_q16(pitch);
+    const int over = wrapped > DROGUE_Q16_HALF_PI || wrapped < -DROGUE_Q16_HALF_PI;
+    *pitch_rad_q16 = !over ? wrapped : wrapped > 0 ? DROGUE_Q16_PI - wrapped : -DROGUE_Q16_PI - wrapped;
+    *yaw_rad_q16 = wrap_q16(over ? drogue_q16_add(yaw, DROGUE_Q16_PI) : yaw);
+}
+
 /* Root of yaw's variance times cos^2 pitch plus pitch's variance. */
 static int64_t axis_std(int64_t yaw_std_q32, int64_t pitch_std_q32, drogue_q16 pitch_rad_q16)
 {
@@ -158,8 +167,7 @@ void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
         out->velocity_mps_q16[k] = rate[k];
         out->position_std_m_q32[k] = std[k];
     }
-    out->yaw_rad_q16 = wrap_q16(value[DROGUE_YAW]);
-    out->pitch_rad_q16 = wrap_q16(value[DROGUE_PITCH]);
+    angles_of(&out->yaw_rad_q16, &out->pitch_rad_q16, value[DROGUE_YAW], value[DROGUE_PITCH]);
     axis_of(out->axis_q16, out->yaw_rad_q16, out->pitch_rad_q16);
     out->orientation_resolved = track->orientation_known && track->turned == 0;
     out->yaw_std_rad_q32 = std[DROGUE_YAW];
@@ -361,6 +369,9 @@ drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *regi
     setup.model = &track->model;
     setup.config = config;
     drogue_track_begin(region, track, dt_us);
+    if (track->state != DROGUE_LOST) {
+        drogue_workspace_narrow(region, workspace, image);
+    }
     if (in_doubt(track) && drogue_acquire(result, search, workspace, &setup, image, NULL) == DROGUE_OK &&
         drogue_measurement_counts(result, &track->config) && result->orientation_resolved) {
         track->state = DROGUE_LOST; /* begin anew from this */

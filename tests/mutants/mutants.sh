@@ -246,7 +246,7 @@ declare -A cli_first=([camera_file]=camera [keys]=camera [keys_xml]=camera [keys
     [sequence]=track [overlay]=images [canvas]=images [font]=images [thresholds]=settings [table]=outputs [explain]=outputs)
 
 # What a room's code is tested by beside the room's own tests.
-declare -A also=([track]=search [inner]=measure [pose]=measure [outline]="measure inner" [frontend]=measure
+declare -A also=([track]=search [inner]=measure [pose]=measure [outline]="measure inner" [frontend]="measure track"
     [camera]="pose measure" [arithmetic]="pose outline track")
 
 # rooms OBJECT...: those of the unit tests for these objects

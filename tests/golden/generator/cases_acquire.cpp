@@ -133,6 +133,39 @@ Picture banded(double a, double within, int ground, int canopy, int wall, int in
     return p;
 }
 
+/* A drogue that part of the rim is hidden of, and about its dark opening a bright ring, as wide as so many openings, with
+ * a darker middle: what a smaller drogue in the same attitude shows. */
+Picture coupled(double a, double ratio, double ring, double hidden_rad)
+{
+    struct Shape {
+        double x, y, a;
+    };
+    const int side = static_cast<int>(std::ceil(4 * a));
+    const double c = std::cos(0.6), s = std::sin(0.6), turned = std::sqrt(1 - ratio * ratio);
+    const auto disc_of = [&](const Shape &rim) {
+        const double z = 500 * 0.35 / rim.a, farther = z / (z + 0.25), lean = turned * rim.a * 0.25 / 0.35;
+        return Shape{rim.x - lean * s * farther, rim.y + lean * c * farther, rim.a * 0.12 / 0.35 * farther};
+    };
+    const Shape rim = {side / 2.0 + 0.3, side / 2.0 + 0.2, a}, opening = disc_of(rim),
+                about = {opening.x, opening.y, ring * opening.a}, middle = disc_of(about);
+    Picture p;
+    p.camera = {500, 500, rim.x, rim.y};
+    p.image = image_from(side, side, [&](int x, int y) {
+        double sum = 0;
+        for (int k = 0; k < 36; k++) { /* two pixels wide: some blur */
+            const double px = x + (2 * (k % 6) - 5) / 6.0, py = y + (2 * (k / 6) - 5) / 6.0;
+            const auto in = [&](const Shape &e) {
+                const double dx = px - e.x, dy = py - e.y;
+                return std::hypot(dx * c + dy * s, (dy * c - dx * s) / ratio) < e.a;
+            };
+            const bool hidden = std::fabs(std::atan2(py - rim.y, px - rim.x)) < hidden_rad / 2;
+            sum += in(middle) ? 10 : in(opening) ? 60 : in(about) ? 175 : in(rim) && !hidden ? 120 : 200;
+        }
+        return static_cast<int>(std::lround(sum / 36));
+    });
+    return p;
+}
+
 /* What is asked of an acquisition. */
 struct Ask {
     bool part = false;
@@ -233,6 +266,13 @@ void add_acquire(Set &set)
         add_ask(set, name + "-dark", Tier::stress, {"tie"}, banded(a, 0.74, 15, 90, 160, 10), ask);
         add_ask(set, name + "-haze", Tier::stress, {"tie"}, banded(a, 0.8, 230, 150, 135, 103), ask);
         add_ask(set, name + "-thick-haze", Tier::stress, {"tie"}, banded(a, 0.8, 230, 150, 135, 90), ask);
+    }
+    int number = 0;
+    for (const double ring : {1.2, 1.5, 2.0}) { /* a ring about the opening is no drogue of its own */
+        for (const double hidden : {0.0, 1.2, 2.4}) {
+            add_ask(set, "coupling-" + std::to_string(number++), Tier::stress, {"tie"}, coupled(44, 0.95, ring, hidden),
+                    ask);
+        }
     }
     p.image = constant(520, 8, 90);
     ask.search = 520;

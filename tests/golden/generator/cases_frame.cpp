@@ -273,9 +273,17 @@ void add_regions(Set &set)
     add_frame(set, "inner-radius-one-lsb", Tier::boundary, {"threshold-met"}, f);
     f.inner_radius = 0;
     add_frame(set, "inner-unknown", Tier::ordinary, {"inner-missing"}, f);
+    f.inner_radius = f.radius + 1.0 / 65536;
+    add_frame(set, "inner-radius-above-rim", Tier::must_reject, {"argument"}, f);
     f = all;
-    f.depth = -14;
-    add_frame(set, "inner-behind-camera", Tier::stress, {"behind-camera", "inner-missing"}, f);
+    f.depth = -1.0 / 65536;
+    add_frame(set, "inner-depth-negative", Tier::must_reject, {"argument"}, f);
+    f = all;
+    f.camera.k1 = 256 + 1.0 / 65536;
+    add_frame(set, "lens-out-of-range", Tier::must_reject, {"argument"}, f);
+    f.camera.k1 = 0;
+    f.camera.p2 = -256 - 1.0 / 65536;
+    add_frame(set, "lens-out-of-range-tangential", Tier::must_reject, {"argument"}, f);
 }
 
 /* A scene that varies the drogue itself. */

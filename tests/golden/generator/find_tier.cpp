@@ -191,13 +191,21 @@ public:
         const bool decides = resolved_ && off_ <= 0.3L + expected_ / 25;
         const bool witness = resolved_ && sharp_ && expected_ >= 5 && off_ <= 0.2L + expected_ / 64;
         return seen_ && dark_ &&
-               (witness   ? true
+               (witness   ? cover_ >= 0.5L
                 : decides ? cover_ >= (sharp_ ? 0.6L : 0.9L)
                           : sharp_ && cover_ >= 0.75L && off_ <= 0.6L + expected_ / 10);
     }
     bool settles() const
     {
         return sure() && cover_ >= 0.8L && (model_.inner_radius <= 0 || (resolved_ && off_ <= 0.3L + expected_ / 16));
+    }
+    /* Is another, smaller outline a ring about this one's inner part? */
+    bool has_part(const mirror::Result &small, const mirror::Result &own) const
+    {
+        const Real radius = std::sqrt(std::floor(own.area + 0.5L) / std::acos(Real(-1)));
+        return ok_ && resolved_ && cover_ >= 0.5L && small.status == DROGUE_OK && small.seen.a < 0.8L * own.seen.a &&
+               small.seen.a < 3 * radius &&
+               std::hypot(small.seen.xc - own.inner.x, small.seen.yc - own.inner.y) < radius / 2;
     }
     /* To whole units of Q16: of what is equal in it the first stands. */
     Real worth() const { return std::floor(exact_worth() * 65536 + 0.5L) / 65536; }
@@ -270,7 +278,8 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
             own += larger > 9 / 8.0L ? 0.125L : 0;
             other += larger < 8 / 9.0L ? 0.125L : 0;
         }
-        if (own <= other) {
+        if (w.worth() <= 0 || (most > 0 && weigh(kept).has_part(f.result, kept.result)) ||
+            (own <= other && !w.has_part(kept.result, f.result))) {
             return false;
         }
         most = w.worth();

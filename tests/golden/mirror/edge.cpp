@@ -144,10 +144,12 @@ bool narrow(Sums &s, Offset &v, Real &within, const Rays &rays)
 using Profile = std::array<int32_t, 13>;
 Real begin_of(Real at) { return std::floor(2 * (at - 3.5L)) / 2; } /* a multiple of the distance of samples */
 
-Profile profile_of(const drogue_ray &r, const drogue_image &view, Real at)
+/* Of light, where grey levels are encoded. */
+Profile profile_of(const drogue_ray &r, const drogue_image &view, drogue_transfer transfer, Real at)
 {
     Profile p;
-    drogue_ray_read(p.data(), &r, &view, reference::q16(begin_of(at)), static_cast<int32_t>(p.size()));
+    const auto read = transfer == DROGUE_TRANSFER_SRGB ? drogue_ray_read_light : drogue_ray_read;
+    read(p.data(), &r, &view, reference::q16(begin_of(at)), static_cast<int32_t>(p.size()));
     return p;
 }
 
@@ -163,7 +165,8 @@ Real median_of(std::vector<Real> v)
     return v[v.size() / 2];
 }
 
-bool find_shade(Shade &out, const Rays &rays, const drogue_image &view, const Offset &v, Real within)
+bool find_shade(Shade &out, const Rays &rays, const drogue_image &view, drogue_transfer transfer, const Offset &v,
+                Real within)
 {
     struct Seen {
         const drogue_ray *ray;
@@ -173,7 +176,7 @@ bool find_shade(Shade &out, const Rays &rays, const drogue_image &view, const Of
     for (const drogue_ray &r : rays) {
         const Real at = along(r, v);
         if (chosen(r, at, within) != nullptr) {
-            const Profile p = profile_of(r, view, at);
+            const Profile p = profile_of(r, view, transfer, at);
             const Real part = 2 * (at - 3.5L - begin_of(at));
             seen.push_back({&r, (p[0] + (p[4] - p[0]) * part + p[1] + p[2] + p[3]) / 1024,
                             (p[11] + (p[12] - p[11]) * part) / 256});
@@ -212,12 +215,13 @@ bool find_shade(Shade &out, const Rays &rays, const drogue_image &view, const Of
 }
 
 /* Where the grey passes the level, as the rays' edges. */
-void cross(Rays &rays, const drogue_image &view, const Shade &shade, const Offset &v, size_t every)
+void cross(Rays &rays, const drogue_image &view, drogue_transfer transfer, const Shade &shade, const Offset &v,
+           size_t every)
 {
     for (size_t k = 0; k < rays.size(); k += every) {
         drogue_ray &r = rays[k];
         const Real at = along(r, v), level = 256 * (along(r, shade.dark) + shade.rise);
-        const Profile p = profile_of(r, view, at);
+        const Profile p = profile_of(r, view, transfer, at);
         r.count = 0;
         for (size_t i = 3; i <= 9; i++) {
             if (p[i] < level && p[i + 1] >= level && r.count < DROGUE_RAY_EDGES) {
@@ -236,7 +240,8 @@ struct Place {
 };
 
 /* Measure about a first place. */
-Disc about(const drogue_image &view, const drogue_inner_expected &expected, const Place &place, int least)
+Disc about(const drogue_image &view, const drogue_inner_expected &expected, const Place &place,
+           const drogue_config &config)
 {
     Disc out;
     drogue_ellipse at = expected.disc[place.which];
@@ -250,12 +255,12 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     }
     const int phases = std::min(std::max(at.a_px_q16 / (20 * 65536), 1), 8);
     const int every = at.a_px_q16 < 10 * 65536 ? 2 : 1;
-    Rays rays = cast(view, at, 0, every, least);
+    Rays rays = cast(view, at, 0, every, config.min_inner_contrast);
     Offset v = {0, 0, 0};
     Shade shade;
     Sums s;
     Real within = 1.5;
-    if (!narrow(s, v, within, rays) || !find_shade(shade, rays, view, v, within)) {
+    if (!narrow(s, v, within, rays) || !find_shade(shade, rays, view, config.transfer, v, within)) {
         return out;
     }
     const auto grey = [&](Real sum, Real per) {
@@ -264,7 +269,7 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     out.contrast = grey(s.slopes, DROGUE_RAY_WEIGHT * 256);
     out.level = grey(s.levels, 256);
     const Real size = v[2];
-    cross(rays, view, shade, v, static_cast<size_t>(every));
+    cross(rays, view, config.transfer, shade, v, static_cast<size_t>(every));
     within = 1.5;
     if (!narrow(s, v, within, rays)) {
         return out;
@@ -273,7 +278,7 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     for (int k = 0; k < phases; k++) {
         if (phases > 1) {
             drogue_rays_aim(rays.data(), &at, (8 * k + 4) / phases % 8, 0, DROGUE_RAYS / 2);
-            cross(rays, view, shade, {v[0], v[1], size}, 1);
+            cross(rays, view, config.transfer, shade, {v[0], v[1], size}, 1);
         }
         add_rays(s, rays, v, within, true);
     }
@@ -333,7 +338,7 @@ bool look_about(First &out, const drogue_image &view, const drogue_ellipse &e, R
 /* Measure about a first place; near the middle between two in which rays read the image, that of the library's disc is
  * taken. */
 Disc measure_at(const drogue_image &view, const drogue_inner_expected &expected, int which, const Offset &first,
-                int least, const drogue_inner_edge *library)
+                const drogue_config &config, const drogue_inner_edge *library)
 {
     const drogue_ellipse &e = expected.disc[which];
     const Real exact[3] = {256 * (real(e.xc_px_q16) + first[0]), 256 * (real(e.yc_px_q16) + first[1]), 256 * first[2]};
@@ -349,7 +354,7 @@ Disc measure_at(const drogue_image &view, const drogue_inner_expected &expected,
             place.at[k] = static_cast<int>(turn ? other : up);
         }
         if (open) {
-            const Disc d = about(view, expected, place, least);
+            const Disc d = about(view, expected, place, config);
             const Real off = library == nullptr
                                  ? 0
                                  : std::fabs(d.x - real(library->x_px_q16)) + std::fabs(d.y - real(library->y_px_q16)) +
@@ -388,7 +393,6 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
                 const drogue_config &config, const drogue_inner_edge *library)
 {
     const Real gate = real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * real(outline.a_px_q16);
-    const int least = config.min_inner_contrast;
     const reference::Ellipse rim = real_of(outline);
     const auto holds = [&](const Disc &d) { return in_its_place(d, real_of(expected.disc[d.which]), rim, config); };
     std::array<First, 2> first;
@@ -403,9 +407,9 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     if (first[which].slopes == 0) {
         return {};
     }
-    const Disc steeper = measure_at(view, expected, static_cast<int>(which), first[which].v, least, library);
+    const Disc steeper = measure_at(view, expected, static_cast<int>(which), first[which].v, config, library);
     if (first[1 - which].slopes > 0 && !holds(steeper)) {
-        const Disc other = measure_at(view, expected, static_cast<int>(1 - which), first[1 - which].v, least, library);
+        const Disc other = measure_at(view, expected, static_cast<int>(1 - which), first[1 - which].v, config, library);
         if (holds(other) && other.grown <= real(expected.disc[other.which].a_px_q16) / 64) {
             return other;
         }

@@ -559,7 +559,12 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
     Result best;
     Real least = DOUBTED;
     best.outline.arcs.fill(DROGUE_NO_ARC);
-    if (!(task.camera.fx > 0) || !(task.camera.fy > 0) || !(task.model.rim_radius > 0) || task.model.inner_radius < 0) {
+    const reference::Camera &c = task.camera;
+    const reference::Model &m = task.model;
+    const bool distorts_too_much =
+        std::max({std::fabs(c.k1), std::fabs(c.k2), std::fabs(c.k3), std::fabs(c.p1), std::fabs(c.p2)}) > 256;
+    if (!(c.fx > 0) || !(c.fy > 0) || distorts_too_much || !(m.rim_radius > 0) || m.inner_radius < 0 ||
+        m.inner_radius > m.rim_radius || m.inner_depth < 0) {
         best.status = DROGUE_E_ARGUMENT;
         return best;
     }

@@ -340,7 +340,7 @@ START_TEST(a_frame_ends_once)
     int k;
     memset(row + 8, 255, 8);
     ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &c, 16, 16), DROGUE_OK);
-    for (k = 0; k < 20; k++) { /* the last four are too many */
+    for (k = 0; k < 16; k++) {
         drogue_frontend_row(&f, row);
     }
     ck_assert_int_eq(drogue_frontend_end(&list, &f), DROGUE_OK);
@@ -349,6 +349,49 @@ START_TEST(a_frame_ends_once)
     ck_assert_int_eq(drogue_frontend_end(&list, &f), DROGUE_E_ARGUMENT);
     ck_assert_uint_eq(list.edge_count, 0);
     test_workspace_free(&t);
+}
+END_TEST
+
+/* A camera that has lost its step sends rows too many, and a frame that is refused has none. */
+START_TEST(rows_too_many)
+{
+    test_workspace t = test_workspace_of(16, 64, 64, 16);
+    drogue_frontend f;
+    const drogue_frontend_config c = {40, 100, 1, 0, {15, 15, 16}, 1};
+    const drogue_frontend_config refused = {100, 40, 1, 0, {15, 15, 16}, 1};
+    uint8_t row[16] = {0};
+    drogue_edge_list list;
+    int rows, k;
+    memset(row + 8, 255, 8);
+    for (rows = 17; rows < 20; rows++) {
+        list.edge_count = list.arc_count = 77;
+        ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &c, 16, 16), DROGUE_OK);
+        for (k = 0; k < rows; k++) {
+            drogue_frontend_row(&f, row);
+        }
+        ck_assert_int_eq(drogue_frontend_end(&list, &f), DROGUE_E_ARGUMENT);
+        ck_assert_uint_eq(list.edge_count, 0);
+        ck_assert_uint_eq(list.arc_count, 0);
+    }
+    for (rows = 0; rows < 20; rows++) {
+        memset(&f, 0, sizeof f);
+        ck_assert_int_eq(drogue_frontend_begin(&f, &t.workspace, &refused, 16, 16), DROGUE_E_ARGUMENT);
+        for (k = 0; k < rows; k++) {
+            drogue_frontend_row(&f, row);
+        }
+        ck_assert_int_eq(drogue_frontend_end(&list, &f), DROGUE_E_ARGUMENT);
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* As many arcs of an eighth of the side as fit into the edge points fit into the table, too. */
+START_TEST(arcs_for_any_side)
+{
+    uint32_t side;
+    for (side = 64; side <= DROGUE_MAX_SIDE; side++) {
+        MUST(DROGUE_ARCS_FOR(side) >= DROGUE_EDGES_FOR(side) / ((side + 4) / 8), "side %u", side);
+    }
 }
 END_TEST
 
@@ -445,4 +488,4 @@ END_TEST
 SUITE_MAIN("frontend", every_small_size, random_images, rings_anywhere, strength_counts_within_the_ring,
            one_workspace_for_many_sizes, edge_table_overfilled_by_one, arc_table_overfilled_by_one,
            label_table_overfilled_by_one, workspace_arguments, begin_arguments, missing_rows, a_frame_ends_once,
-           endless_weak_chain, merges_fill_no_more_than_a_row, the_form_asked_for)
+           rows_too_many, arcs_for_any_side, endless_weak_chain, merges_fill_no_more_than_a_row, the_form_asked_for)

@@ -43,6 +43,8 @@ static drogue_ellipse circle(double xc, double yc, double radius)
     return e;
 }
 
+static drogue_transfer transfer = DROGUE_TRANSFER_LINEAR;
+
 static drogue_status find(drogue_inner_edge *out, const drogue_ellipse *discs, uint32_t count)
 {
     const drogue_ellipse outline = circle(100, 100, 90);
@@ -50,6 +52,7 @@ static drogue_status find(drogue_inner_edge *out, const drogue_ellipse *discs, u
     drogue_ray rays[DROGUE_RAYS];
     drogue_config config;
     drogue_config_default(&config);
+    config.transfer = transfer;
     memset(&expected, 0, sizeof expected);
     memcpy(expected.disc, discs, count * sizeof *discs);
     expected.count = count;
@@ -76,6 +79,36 @@ START_TEST(place_and_size)
         MUST(fabs(real_of_q16(e.grown_px_q16) - grown) < 0.15, "case %d: %g larger, not %g", i,
              real_of_q16(e.grown_px_q16), grown);
     }
+}
+END_TEST
+
+/* An encoded blurred edge lies farther towards its dark side: of a picture that is known to be encoded the light's edge
+ * is measured. */
+START_TEST(an_encoded_disc_has_its_size)
+{
+    double off[2] = {0, 0};
+    int i, encoded;
+    for (i = 0; i < 40; i++) {
+        const double radius = 8 + 0.8 * i;
+        const drogue_ellipse disc = circle(100, 100, radius);
+        drogue_inner_edge e;
+        int k;
+        draw_disc(100.3, 99.8, radius);
+        for (k = 0; k < SIDE * SIDE; k++) {
+            const double light = pixels[k] / 255.0;
+            pixels[k] =
+                (uint8_t)lround(255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055));
+        }
+        for (encoded = 0; encoded < 2; encoded++) {
+            transfer = encoded ? DROGUE_TRANSFER_SRGB : DROGUE_TRANSFER_LINEAR;
+            MUST(find(&e, &disc, 1) == DROGUE_OK, "radius %g: not found", radius);
+            off[encoded] += real_of_q16(e.grown_px_q16) / 40;
+            MUST(!encoded || fabs(real_of_q16(e.grown_px_q16)) < 0.15, "radius %g: %g larger", radius,
+                 real_of_q16(e.grown_px_q16));
+        }
+        transfer = DROGUE_TRANSFER_LINEAR;
+    }
+    MUST(off[0] < off[1] - 0.1, "%g and %g px larger", off[0], off[1]);
 }
 END_TEST
 
@@ -304,6 +337,6 @@ START_TEST(rays_meet_the_edge)
 }
 END_TEST
 
-SUITE_MAIN("edge", place_and_size, noise_shows_in_the_standard_deviation, what_touches_it_costs_rays_alone,
-           neither_light_nor_a_ring_moves_it, the_size_decides_between_two_edges, one_edge_of_another_size_stays,
-           what_is_steeper_may_be_another_edge, nothing_there, rays_meet_the_edge)
+SUITE_MAIN("edge", place_and_size, an_encoded_disc_has_its_size, noise_shows_in_the_standard_deviation,
+           what_touches_it_costs_rays_alone, neither_light_nor_a_ring_moves_it, the_size_decides_between_two_edges,
+           one_edge_of_another_size_stays, what_is_steeper_may_be_another_edge, nothing_there, rays_meet_the_edge)

@@ -76,7 +76,8 @@ START_TEST(a_plane_of_grey_that_rays_do_not_determine)
             r->edges[0].slope_q8 = 100 * 256 * DROGUE_RAY_WEIGHT;
             r->count = 1;
         }
-        ck_assert_int_eq(drogue_inner_shade_find(&shade, rays, &image, v, DROGUE_Q16(3, 2)), spread);
+        ck_assert_int_eq(drogue_inner_shade_find(&shade, rays, &image, DROGUE_TRANSFER_LINEAR, v, DROGUE_Q16(3, 2)),
+                         spread);
     }
 }
 END_TEST

@@ -4,6 +4,7 @@
 #include "suite.h"
 
 #include "drogue/drogue.h"
+#include "drogue/undistort.h"
 #include "geometry.h"
 #include "images.h"
 #include "workspace.h"
@@ -135,8 +136,16 @@ static void random_config(drogue_config *c, uint64_t *rng)
     } while (!drogue_config_valid(c));
 }
 
+/* A coefficient of the lens within its range. */
+static drogue_q16 random_distortion(uint64_t *rng)
+{
+    const drogue_q16 any = rng_s32_any_width(rng);
+    return any > DROGUE_MAX_DISTORTION_Q16 || any < -DROGUE_MAX_DISTORTION_Q16 ? any / 128 : any;
+}
+
 static void random_setup(hostile *h, uint64_t *rng)
 {
+    drogue_model *m = &h->model;
     int k;
     h->camera =
         pinhole(rng_real(rng, 50, 3000), rng_real(rng, 50, 3000), rng_real(rng, -50, 150), rng_real(rng, -50, 150));
@@ -156,16 +165,17 @@ static void random_setup(hostile *h, uint64_t *rng)
         case 1: h->camera.fy_px_q16 = positive; break;
         case 2: h->camera.cx_px_q16 = any; break;
         case 3: h->camera.cy_px_q16 = any; break;
-        case 4: h->camera.k1_q16 = any; break;
-        case 5: h->camera.k2_q16 = any; break;
-        case 6: h->camera.p1_q16 = any; break;
-        case 7: h->camera.p2_q16 = any; break;
-        case 8: h->camera.k3_q16 = any; break;
+        case 4: h->camera.k1_q16 = random_distortion(rng); break;
+        case 5: h->camera.k2_q16 = random_distortion(rng); break;
+        case 6: h->camera.p1_q16 = random_distortion(rng); break;
+        case 7: h->camera.p2_q16 = random_distortion(rng); break;
+        case 8: h->camera.k3_q16 = random_distortion(rng); break;
         case 9: h->model.rim_radius_m_q16 = positive; break;
         case 10: h->model.inner_radius_m_q16 = positive; break;
-        default: h->model.inner_depth_m_q16 = any; break;
+        default: h->model.inner_depth_m_q16 = positive; break;
         }
     }
+    m->inner_radius_m_q16 = m->inner_radius_m_q16 < m->rim_radius_m_q16 ? m->inner_radius_m_q16 : m->rim_radius_m_q16;
 }
 
 static int all_zero(const void *data, size_t bytes)

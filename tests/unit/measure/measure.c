@@ -526,10 +526,13 @@ START_TEST(geometry_out_of_range)
     m.rim_radius_m_q16 = INT32_MAX;
     ck_assert_int_eq(measure(&r, &t, &config, &m, &whole), DROGUE_E_DOMAIN);
     m = model;
-    m.inner_depth_m_q16 = -8 * 65536; /* the inner part behind the camera: it is not there, the outline is */
-    ck_assert_int_eq(measure(&r, &t, &config, &m, &whole), DROGUE_OK);
-    ck_assert_int_eq(r.has_inner, 0);
-    ck_assert_int_eq(r.orientation_resolved, 0);
+    m.inner_depth_m_q16 = -1;
+    ck_assert_int_eq(measure(&r, &t, &config, &m, &whole), DROGUE_E_ARGUMENT);
+    m.inner_depth_m_q16 = 0;
+    m.inner_radius_m_q16 = m.rim_radius_m_q16 + 1;
+    ck_assert_int_eq(measure(&r, &t, &config, &m, &whole), DROGUE_E_ARGUMENT);
+    m.inner_radius_m_q16 = m.rim_radius_m_q16;
+    ck_assert_int_ne(measure(&r, &t, &config, &m, &whole), DROGUE_E_ARGUMENT);
     test_workspace_free(&t);
 }
 END_TEST

@@ -184,6 +184,43 @@ START_TEST(what_is_worth_more_stands)
 }
 END_TEST
 
+/* A drogue of so many px, exactly as it should be, beside the middle; not so whole that nothing else is looked at. */
+static drogue_result perfect(int32_t a_px, int32_t x_px)
+{
+    drogue_result r = with_inner(79, 1);
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = a_px * DROGUE_Q16_ONE;
+    r.ellipse.xc_px_q16 = x_px * DROGUE_Q16_ONE;
+    r.inner.x_px_q16 = (x_px + 20) * DROGUE_Q16_ONE;
+    r.inner.area_px = (uint32_t)lround(3.14159 * pow(a_px * 0.12 / 0.35 * 4 / 4.25, 2));
+    return r;
+}
+
+/* What lies about the inner part of a larger outline belongs to that, be it worth more. */
+START_TEST(a_ring_about_the_inner_part_is_no_drogue)
+{
+    drogue_result large = with_inner(61, 1); /* whose inner part has 31.4 px */
+    drogue_result small = perfect(60, 15);
+    better(&large, &small, &model, DROGUE_OK);
+    small = perfect(60, 16); /* half of the inner part's radius beside it */
+    better(&small, &large, &model, DROGUE_OK);
+    small = perfect(79, 0);
+    better(&large, &small, &model, DROGUE_OK);
+    small = perfect(81, 0); /* nearly as large */
+    better(&small, &large, &model, DROGUE_OK);
+    small = perfect(79, 0);
+    large.cover_q16 = DROGUE_Q16(49, 100);
+    better(&small, &large, &model, DROGUE_OK);
+    large.cover_q16 = DROGUE_Q16(61, 100);
+    large.orientation_resolved = 0;
+    better(&small, &large, &model, DROGUE_OK);
+    large.orientation_resolved = 1;
+    large.inner.area_px = 2100; /* 25.9 px: three times that is less than 79 */
+    better(&small, &large, &model, DROGUE_OK);
+    small = perfect(77, 0);
+    better(&large, &small, &model, DROGUE_E_UNSURE);
+}
+END_TEST
+
 /* Of two sure outlines about one inner part the larger one stands, though its worth be less by up to an eighth. */
 START_TEST(the_larger_of_two_about_one_inner_part)
 {
@@ -368,5 +405,6 @@ START_TEST(the_part_after_its_sightings)
 }
 END_TEST
 
-SUITE_MAIN("acquire", what_is_worth_more_stands, the_larger_of_two_about_one_inner_part, what_settles,
-           what_is_about_what_settles, the_first_two_once_more, when_the_part_is_measured, the_part_after_its_sightings)
+SUITE_MAIN("acquire", what_is_worth_more_stands, a_ring_about_the_inner_part_is_no_drogue,
+           the_larger_of_two_about_one_inner_part, what_settles, what_is_about_what_settles, the_first_two_once_more,
+           when_the_part_is_measured, the_part_after_its_sightings)

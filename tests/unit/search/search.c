@@ -377,10 +377,12 @@ START_TEST(sure_at_its_limits)
     r.ellipse.a_px_q16 = 200 * DROGUE_Q16_ONE; /* an inner part of 50 px is expected */
     r.ellipse.b_px_q16 = 50 * DROGUE_Q16_ONE;
     r.inner.area_px = 7540; /* 48.99 px: a 64th is 0.78, and 0.2 */
-    r.cover_q16 = 0;
+    r.cover_q16 = DROGUE_Q16(1, 2);
     ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
     r.inner.area_px = 7570; /* 49.09 px */
     ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
+    r.cover_q16--;
+    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
     r.inner.area_px = 7450; /* 48.7 px */
     r.cover_q16 = DROGUE_Q16(6, 10);
     ck_assert_int_eq(drogue_result_sure(&r, &even), 1);

@@ -158,4 +158,41 @@ START_TEST(reconsidered_once_in_a_while)
 }
 END_TEST
 
-SUITE_MAIN("frame", what_is_believed_while_uncertain, search_ends_at_reach, reconsidered_once_in_a_while)
+/* Where the predicted region is wider than the workspace, its middle is measured, as wide as that; but the first region
+ * is the caller's. */
+START_TEST(no_wider_than_the_workspace)
+{
+    const drogue_result hit = covered(0, 100, 1);
+    drogue_track t = steady_track(&hit);
+    drogue_result result;
+    int32_t most;
+    expected = elsewhere = hit;
+    ck_assert_int_eq(frame(&result, &t), DROGUE_TRACKING);
+    for (most = predicted.width_px + 1; most >= predicted.width_px - 41; most -= 21) {
+        const int32_t over = predicted.width_px > most ? predicted.width_px - most : 0;
+        drogue_track next = t;
+        workspace.capacity.width_px = (uint32_t)most;
+        ck_assert_int_eq(frame(&result, &next), DROGUE_TRACKING);
+        ck_assert_int_eq(measured[0].width_px, predicted.width_px - over);
+        ck_assert_int_eq(measured[0].height_px, predicted.width_px - over);
+        ck_assert_int_eq(measured[0].x_px, predicted.x_px + over / 2);
+        ck_assert_int_eq(measured[0].y_px, predicted.y_px + over / 2);
+    }
+    t.first_region = predicted;
+    t.camera.cx_px_q16 = 0; /* half of it is beside the image */
+    expected = elsewhere = hit;
+    {
+        drogue_track next = t;
+        ck_assert_int_eq(frame(&result, &next), DROGUE_TRACKING);
+        ck_assert_int_lt(predicted.x_px, -40);
+        ck_assert_int_eq(memcmp(&measured[0], &predicted, sizeof predicted), 0);
+    }
+    t.state = DROGUE_LOST;
+    ck_assert_int_eq(frame(&result, &t), DROGUE_TRACKING);
+    ck_assert_int_eq(measured[0].width_px, predicted.width_px);
+    workspace.capacity.width_px = DROGUE_MAX_SIDE;
+}
+END_TEST
+
+SUITE_MAIN("frame", no_wider_than_the_workspace, what_is_believed_while_uncertain, search_ends_at_reach,
+           reconsidered_once_in_a_while)

@@ -359,6 +359,38 @@ START_TEST(lost_beyond_the_lens)
 }
 END_TEST
 
+/* An axis that turns on while nothing is measured passes the vertical: yaw and pitch stay those of the axis. */
+START_TEST(pitch_ends_at_a_right_angle)
+{
+    const drogue_camera camera = pinhole(1000, 1000, 640, 512);
+    drogue_track t = new_track(&camera);
+    drogue_region region;
+    int k, over = 0;
+    for (k = 0; k <= 20; k++) {
+        drogue_result hit = seen(0, 0, 10, 0.1, 0.03 * k);
+        (void)step(&t, &hit);
+    }
+    for (k = 0; k < 20 && t.state != DROGUE_LOST; k++) {
+        const drogue_result miss = missed(DROGUE_E_NO_ELLIPSE);
+        drogue_track_estimate e;
+        drogue_track_begin(&region, &t, 300000);
+        (void)drogue_track_end(&t, &miss);
+        drogue_track_get(&e, &t);
+        if (t.state == DROGUE_COASTING) {
+            MUST(fabs(real_of_q16(e.pitch_rad_q16) - asin(fmax(-1, fmin(1, real_of_q16(e.axis_q16[1]))))) < 0.01,
+                 "frame %d: pitch %g", k, real_of_q16(e.pitch_rad_q16));
+            if (hypot(real_of_q16(e.axis_q16[0]), real_of_q16(e.axis_q16[2])) > 0.05) {
+                MUST(fabs(real_of_q16(e.yaw_rad_q16) - atan2(real_of_q16(e.axis_q16[0]), real_of_q16(e.axis_q16[2]))) <
+                         0.01,
+                     "frame %d: yaw %g", k, real_of_q16(e.yaw_rad_q16));
+            }
+            over += e.axis_q16[2] < 0;
+        }
+    }
+    ck_assert_int_gt(over, 0);
+}
+END_TEST
+
 START_TEST(unresolved_poses_go_by_the_predicted_axis)
 {
     const drogue_camera camera = pinhole(1000, 1000, 640, 512);
@@ -386,4 +418,4 @@ SUITE_MAIN("track", defaults_are_the_documented_ones, each_limit, names_of_state
            every_failure_is_a_miss, no_miss_allowed, region_follows_a_steady_drogue, region_is_clamped,
            region_leads_a_moving_drogue, region_allows_for_distortion, region_grows_with_uncertainty,
            without_a_first_region_the_whole_frame, lost_when_it_flies_behind_the_camera, lost_beyond_the_lens,
-           unresolved_poses_go_by_the_predicted_axis)
+           pitch_ends_at_a_right_angle, unresolved_poses_go_by_the_predicted_axis)
