@@ -14,5 +14,7 @@ install(EXPORT drogue FILE drogue-config.cmake NAMESPACE drogue:: DESTINATION ${
 write_basic_package_version_file(drogue-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/drogue-config-version.cmake DESTINATION ${drogue_package_dir})
 
+# Relative, since 'cmake --install --prefix' may put it anywhere.
+file(RELATIVE_PATH drogue_pc_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/drogue.pc.in drogue.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/drogue.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
