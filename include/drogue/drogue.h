@@ -95,7 +95,8 @@ typedef char drogue_assume_result_fits[sizeof(drogue_result) + 4 <= DROGUE_KEPT_
  *             poses are given and the orientation stays unresolved
  *  image      the caller's; not written
  *  region     where to look, drogue about its middle, longest side 2 to 3 major semi-axes; may reach past the
- *             image, then the part inside is used and the masks stay where they were
+ *             image, then the part inside is used and the masks stay where they were. In a region of another size the
+ *             rim is cut or not in the ring, and what stands may be another edge, its covariance that edge's
  *  return     DROGUE_OK, or why there is no pose: DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE,
  *             DROGUE_E_LABELS_FULL, DROGUE_E_EDGES_FULL, DROGUE_E_ARCS_FULL, DROGUE_E_NO_EDGES, DROGUE_E_NO_ARCS,
  *             DROGUE_E_NO_ELLIPSE, DROGUE_E_DOMAIN

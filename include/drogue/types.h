@@ -72,7 +72,7 @@ typedef struct drogue_camera {
 
 /* The drogue: its end plane is a circle, its inner black part a disc behind it on the axis. */
 typedef struct drogue_model {
-    drogue_q16 rim_radius_m_q16;   /* > 0 */
+    drogue_q16 rim_radius_m_q16;   /* > 0; of a rim under a millimetre variances may round to 0 */
     drogue_q16 inner_radius_m_q16; /* at most the rim's; 0: inner part unknown */
     drogue_q16 inner_depth_m_q16;  /* from the end plane along the axis, into the drogue, >= 0 */
 } drogue_model;
