@@ -533,6 +533,8 @@ START_TEST(geometry_out_of_range)
     ck_assert_int_eq(measure(&r, &t, &config, &m, &whole), DROGUE_E_ARGUMENT);
     m.inner_radius_m_q16 = m.rim_radius_m_q16;
     ck_assert_int_ne(measure(&r, &t, &config, &m, &whole), DROGUE_E_ARGUMENT);
+    config.canny_low = config.canny_high = config.canny_least = 0; /* every change of grey is an edge */
+    ck_assert_int_ne(measure(&r, &t, &config, &model, &whole), DROGUE_E_ARGUMENT);
     test_workspace_free(&t);
 }
 END_TEST
