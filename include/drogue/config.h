@@ -30,7 +30,7 @@ typedef struct drogue_cluster_config {
 typedef enum drogue_transfer {
     DROGUE_TRANSFER_LINEAR, /* in proportion: a sensor's own */
     DROGUE_TRANSFER_SRGB    /* sRGB (IEC 61966-2-1): what is made to be looked at, as most stored pictures and rendered
-                               frames are; outlines are put where the light changes */
+                               frames are; outlines and the inner disc are put where the light changes */
 } drogue_transfer;
 
 /* Thresholds; drogue_config_default() fills in the defaults given here. */

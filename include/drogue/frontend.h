@@ -90,7 +90,8 @@ typedef struct drogue_workspace {
 /* Is a workspace wide enough for what of a region lies within an image? */
 int drogue_workspace_spans(const drogue_workspace *workspace, const drogue_region *region, const drogue_image *image);
 
-/* Make a square region that a workspace is too narrow for as wide as that, about the same middle. */
+/* Make a square region of which more lies within an image than a workspace is wide enough for as wide as that,
+ * about the same middle. */
 void drogue_workspace_narrow(drogue_region *region, const drogue_workspace *workspace, const drogue_image *image);
 
 /* Bytes that drogue_workspace_init() needs; equals DROGUE_WORKSPACE_BYTES. */

@@ -60,8 +60,8 @@ static inline uint64_t drogue_inner_away2_q32(const drogue_inner_edge *edge, con
 
 /* Measure the disc by its edge along rays across the ellipse that a pose expects: where the grey rises fastest says
  * which rays see it, where it has risen by a quarter of the usual step above the disc's own where it is and how large,
- * by a fit of place and size to the rays that agree. Ribs, a wall or a probe that touch the disc cost rays, not place;
- * a ring about it or light from one side hardly move what is dark.
+ * by a fit of place and size to the rays that agree; of an encoded image where its light has. Ribs, a wall or a probe
+ * that touch the disc cost rays, not place; a ring about it or light from one side hardly move what is dark.
  * Where the edge that rises fastest is of another size than expected, and one of the size is beside it, that one is the
  * disc's.
  *

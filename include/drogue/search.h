@@ -66,24 +66,27 @@ int32_t drogue_search_end(drogue_search *search);
 /* Is enough of a drogue seen in a measurement to begin with it? For a model with an inner part one that is dark (a
  * contrast of at least a quarter of the grey at its edge), sharp (a spread of at most 0.3 px) and near to the model's
  * size (its radius to 0.6 px and a tenth), within an outline covered to 0.75; where it decides the orientation and has
- * its size (to 0.3 px and a twenty-fifth) a cover of 0.6 will do, or, where it is not sharp, one of 0.9; one of 5 px
- * and more which decides need not be sharp within an outline of a cover of 31/32 and a reliability of 0.99. For a model
- * without one a cover of 0.75 and a reliability of 0.9.
+ * its size (to 0.3 px and a twenty-fifth) a cover of 0.6 will do, or, where it is not sharp, one of 0.9; where it is
+ * sharp, decides and has 5 px and more, and its size to 0.2 px and a 64th, one of 0.5; one of 5 px and more which
+ * decides need not be sharp within an outline of a cover of 31/32 and a reliability of 0.99. For a model without one a
+ * cover of 0.75 and a reliability of 0.9.
  *
  *  r  of status DROGUE_OK
  */
 int drogue_result_sure(const drogue_result *r, const drogue_model *model);
 
 /* Search a part of an image, and measure what was sighted in order of score, until an inner part decides the
- * orientation within an outline covered to four fifths; after that only what was sighted about the same middle with 9/8
- * to 2 times the radius. Of two sure outlines whose inner parts are within 1 px of each other and whose semi-axes
+ * orientation within an outline covered to four fifths; after that only what was sighted about the same middle with
+ * 9/8 to 2 times the radius. Of two sure outlines whose inner parts are within 1 px of each other and whose semi-axes
  * differ by more than an eighth the larger one is preferred, unless it has less cover, or an inner part less of its
- * size, by an eighth. Else the result is the one of most cover among those that are sure and whose inner part decides;
- * or else that are sure; or else of all, an inner part counting as a quarter of cover, and one that decides as another.
- * Where nothing is sure and the model has an inner part, the first two sightings are measured once more in regions a
- * quarter larger that the workspace is wide enough for: what was sighted may be an edge within the drogue. The part
- * itself is measured last, with the drogue about its middle, where nothing is sure and the part is small, at most 512
- * px a side, or the model has no inner part.
+ * size, by an eighth. What lies about the inner part of a sure outline that decides, to half its radius, and has less
+ * than twice its radius and four fifths of that outline's semi-axis, is a part of that, whatever it is worth. Else the
+ * result is the one of most cover among those that are sure and whose inner part decides; or else that are sure; or
+ * else of all, an inner part counting as a quarter of cover, and one that decides as another. Where nothing is sure
+ * and the model has an inner part, the first two sightings are measured once more in regions a quarter larger that the
+ * workspace is wide enough for: what was sighted may be an edge within the drogue. The part itself is measured last,
+ * with the drogue about its middle, where nothing is sure and the part is small, at most 512 px a side, or the model
+ * has no inner part.
  *
  *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured
  *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not

@@ -54,7 +54,7 @@ typedef struct drogue_track_config {
     drogue_q16 region_scale_q16;    /* 2.5: side of the next region in predicted major semi-axes */
     drogue_q16 region_sigmas_q16;   /* 3: standard deviations that region and search allow for */
     int32_t min_region_px;          /* 32 px */
-    int32_t max_region_px;          /* DROGUE_MAX_SIDE; drogue_track_frame() takes no more than the workspace holds */
+    int32_t max_region_px;          /* DROGUE_MAX_SIDE; see drogue_track_frame() for what the workspace holds */
     drogue_q16 lateral_std_q16;     /* 0.0005: standard deviation of x and y, share of the distance; this and the */
     drogue_q16 depth_std_q16;     /* 0.002: of z, share of the distance; next two where a result has no covariance; the
                                      gate allows for it, too */
@@ -152,8 +152,8 @@ void drogue_track_get(drogue_track_estimate *out, const drogue_track *track);
  * drogue is in sight.
  *
  *  result  out, the frame's measurement; its region is where it was taken
- *  region  out, the region asked for. One about a prediction is at most as wide as the workspace, which follows a
- *          drogue until that is about as large
+ *  region  out, the region asked for. One about a prediction is made as wide as the workspace where more of it lies in
+ *          the image, while that still holds two predicted semi-axes: so near a drogue is followed
  *  dt_us   as drogue_track_begin() has it
  *  search  memory for a frame as wide as the image
  */

@@ -17,12 +17,18 @@ static inline int drogue_distortion_valid(drogue_q16 k)
     return k >= -DROGUE_MAX_DISTORTION_Q16 && k <= DROGUE_MAX_DISTORTION_Q16;
 }
 
-/* Are focal lengths and coefficients within their ranges? */
+/* Are all? */
+static inline int drogue_lens_valid(const drogue_camera *c)
+{
+    return drogue_distortion_valid(c->k1_q16) && drogue_distortion_valid(c->k2_q16) &&
+           drogue_distortion_valid(c->p1_q16) && drogue_distortion_valid(c->p2_q16) &&
+           drogue_distortion_valid(c->k3_q16);
+}
+
+/* Are focal lengths and lens within their ranges? */
 static inline int drogue_camera_valid(const drogue_camera *c)
 {
-    return c->fx_px_q16 > 0 && c->fy_px_q16 > 0 && drogue_distortion_valid(c->k1_q16) &&
-           drogue_distortion_valid(c->k2_q16) && drogue_distortion_valid(c->p1_q16) &&
-           drogue_distortion_valid(c->p2_q16) && drogue_distortion_valid(c->k3_q16);
+    return c->fx_px_q16 > 0 && c->fy_px_q16 > 0 && drogue_lens_valid(c);
 }
 
 /* Does the camera distort at all? */

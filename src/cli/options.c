@@ -10,6 +10,7 @@
 #include "camera_file.h"
 #include "cli.h"
 #include "drogue/drogue.h"
+#include "drogue/undistort.h"
 #include "numbers.h"
 #include "settings.h"
 
@@ -338,6 +339,9 @@ int options_parse(options *out, int argc, char **argv)
     if (check_use(out, given, argv + optind, argc - optind) ||
         take_camera(out, (given & BIT(OPTION_DISTORTION)) != 0)) {
         return EXIT_BAD;
+    }
+    if (!drogue_lens_valid(&out->camera)) {
+        return complain(out->camera_file != NULL ? out->camera_file : "--distortion", "a coefficient is beyond 256");
     }
     if (out->command == COMMAND_TRACK && out->overlay != NULL && strcmp(out->overlay, "-") == 0) {
         return complain("--overlay", "track writes numbered files, not to standard output");

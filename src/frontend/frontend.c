@@ -14,12 +14,12 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
 {
     const drogue_status status = drogue_frontend_check(workspace, config, width_px, height_px);
     uint32_t k;
+    frontend->workspace = workspace;
     frontend->rows_in = 0;
     frontend->height_px = -1; /* no number of rows makes a frame of what is refused */
     if (status != DROGUE_OK) {
         return status;
     }
-    frontend->workspace = workspace;
     frontend->config = *config;
     frontend->width_px = width_px;
     frontend->height_px = height_px;

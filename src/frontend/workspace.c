@@ -96,10 +96,10 @@ int drogue_workspace_spans(const drogue_workspace *workspace, const drogue_regio
 void drogue_workspace_narrow(drogue_region *region, const drogue_workspace *workspace, const drogue_image *image)
 {
     const int32_t most = (int32_t)workspace->capacity.width_px;
-    const int32_t over = region->width_px - most;
-    if (over > 0 && !drogue_workspace_spans(workspace, region, image)) {
-        region->x_px += over / 2;
-        region->y_px += over / 2;
+    if (region->width_px > most && !drogue_workspace_spans(workspace, region, image)) {
+        const int32_t half = (region->width_px - most) / 2;
+        region->x_px = drogue_sat_s32((int64_t)region->x_px + half);
+        region->y_px = drogue_sat_s32((int64_t)region->y_px + half);
         region->width_px = most;
         region->height_px = most;
     }

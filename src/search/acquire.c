@@ -127,7 +127,7 @@ typedef struct best_seen {
     drogue_q16 yc_px_q16;
     drogue_q16 inner_x_px_q16;
     drogue_q16 inner_y_px_q16;
-    drogue_q16 inner_px_q16; /* its radius where it decides and enough of the outline shows; else 0 */
+    drogue_q16 inner_px_q16; /* its radius where it decides and the outline is sure; else 0 */
 } best_seen;
 
 static int within(drogue_q16 x, drogue_q16 y, drogue_q16 of_x, drogue_q16 of_y, drogue_q16 px_q16)
@@ -139,7 +139,7 @@ static int within(drogue_q16 x, drogue_q16 y, drogue_q16 of_x, drogue_q16 of_y, 
 static int is_part(const best_seen *small, const best_seen *large)
 {
     return 5 * (int64_t)small->a_px_q16 < 4 * (int64_t)large->a_px_q16 &&
-           small->a_px_q16 < 3 * (int64_t)large->inner_px_q16 &&
+           small->a_px_q16 < 2 * (int64_t)large->inner_px_q16 &&
            within(small->xc_px_q16, small->yc_px_q16, large->inner_x_px_q16, large->inner_y_px_q16,
                   large->inner_px_q16 / 2);
 }
@@ -159,7 +159,7 @@ static int keep_better(best_seen *best, const drogue_result *r, int32_t where, c
     now.yc_px_q16 = r->ellipse.yc_px_q16;
     now.inner_x_px_q16 = r->inner.x_px_q16;
     now.inner_y_px_q16 = r->inner.y_px_q16;
-    now.inner_px_q16 = decided(r) && r->cover_q16 >= EXACT_COVER ? drogue_sat_s32(radius_of(&r->inner)) : 0;
+    now.inner_px_q16 = own > SURE && decided(r) ? drogue_sat_s32(radius_of(&r->inner)) : 0;
     if (r->has_inner && own > SURE && other > SURE &&
         within(now.inner_x_px_q16, now.inner_y_px_q16, best->inner_x_px_q16, best->inner_y_px_q16, DROGUE_Q16_ONE)) {
         own += 8 * (int64_t)now.a_px_q16 > 9 * was ? LARGER : 0;

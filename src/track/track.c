@@ -360,6 +360,14 @@ static int in_doubt(drogue_track *track)
     return 1;
 }
 
+/* Would a workspace's width, which a predicted region is made as wide as, still hold the rim: two semi-axes? In a
+ * narrower ring only what lies within the rim is left. */
+static int holds_rim(const drogue_workspace *workspace, const drogue_region *region, const drogue_track_config *config)
+{
+    return (int64_t)workspace->capacity.width_px * config->region_scale_q16 >=
+           (int64_t)region->width_px * (2 * DROGUE_Q16_ONE);
+}
+
 drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *region, drogue_track *track,
                                       drogue_workspace *workspace, drogue_search *search, const drogue_config *config,
                                       const drogue_image *image, uint32_t dt_us)
@@ -369,7 +377,7 @@ drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *regi
     setup.model = &track->model;
     setup.config = config;
     drogue_track_begin(region, track, dt_us);
-    if (track->state != DROGUE_LOST) {
+    if (track->state != DROGUE_LOST && holds_rim(workspace, region, &track->config)) {
         drogue_workspace_narrow(region, workspace, image);
     }
     if (in_doubt(track) && drogue_acquire(result, search, workspace, &setup, image, NULL) == DROGUE_OK &&

@@ -79,6 +79,33 @@ run check
 [ $code -eq 1 ] || wrong "exit status $code after a failed test"
 says 'run check: FAILED, 1 of 4 steps'
 
+# Steps beside each other: one that returns, leaves or dies without a word has failed, whatever lies there from before.
+mkdir -p "$work/tree/build/steps"
+for k in 0 1 2 3; do
+    echo 0 0 >"$work/tree/build/steps/$k.status"
+done
+(
+    cd "$work/tree"
+    eval "$(sed -n '/^summary=()/,/^run_tests()/p' run | sed '$d')"
+    returns() { return 3; }
+    leaves() { exit 0; }
+    dies() { kill -9 $BASHPID; }
+    nproc() { echo 2; }
+    beside 'goes well' echo seen
+    beside 'returns 3' returns
+    beside 'leaves' leaves
+    beside 'dies' dies
+    beside 'is skipped' exit_with 77
+    exit_with() { return "$1"; }
+    together
+    printf '%s\n' "${summary[@]}" "failures $failures"
+) >"$work/out" 2>&1 || wrong 'steps beside each other end the run'
+says seen
+for verdict in 'ok            0 s  goes well' 'FAILED        0 s  returns 3' 'FAILED        0 s  leaves' 'FAILED        0 s  dies' \
+    'skipped       0 s  is skipped' 'failures 3'; do
+    says "$verdict"
+done
+
 # The demo ends with the path of the program.
 mkdir -p "$work/tree/build/release/src/cli"
 stand_in ../tree/build/release/src/cli/drogue

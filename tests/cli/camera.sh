@@ -116,6 +116,9 @@ refused kalibr.yaml '$a cam1: {camera_model: pinhole}' 'more than one'
 refused kalibr.yaml '/intrinsics/d' 'has no camera_matrix'
 refused opencv.yaml 's/^flags: 0/fisheye_model: 1/' fisheye_model
 refused opencv.yaml '/distortion_coefficients/,/data/d' 'has no distortion_coefficients'
+refused opencv.yaml 's/-1.0000000000000001e-01/-2.561e+02/' 'a coefficient is beyond 256'
+run 2 measure scene.png --camera 800,805,159.5,119.5 --distortion 0,0,0,0,257
+says 'drogue: --distortion: a coefficient is beyond 256'
 refused opencv.yaml 's/805/x&/;s/8.0500000000000000e+02/eight/' 'no number'
 refused opencv.yaml 's/data: \[ 8.0/data: [ -8.0/' 'above 0'
 refused opencv.yaml 's/+02, 0., 1.595/+02, 1., 1.595/' skew

@@ -150,12 +150,17 @@ void fuzz_scene_make(fuzz_scene *s, fuzz_bytes *b, int32_t most_px)
     s->model.inner_radius_m_q16 = hostile & 1 ? 13107 : 0;
     s->model.inner_depth_m_q16 = 16384;
     for (k = 0; k < 9 && hostile & 2; k++) {
-        *camera[k] = k > 3 || hostile & 4 ? fuzz_any(b) >> (hostile & 4 ? 0 : 14) : *camera[k];
+        *camera[k] = k > 3 || hostile & 4 ? fuzz_any(b) >> (hostile & 4 ? (k > 3 ? 7 : 0) : 14) : *camera[k];
     }
     if (hostile & 8) {
         s->model.rim_radius_m_q16 = fuzz_any(b);
         s->model.inner_radius_m_q16 = fuzz_any(b);
         s->model.inner_depth_m_q16 = fuzz_any(b);
+        if (hostile & 16) { /* within their ranges; else most are refused */
+            s->model.rim_radius_m_q16 &= INT32_MAX;
+            s->model.inner_radius_m_q16 = s->model.rim_radius_m_q16 >> (s->model.inner_radius_m_q16 & 15);
+            s->model.inner_depth_m_q16 &= INT32_MAX;
+        }
     }
     change_config(&s->config, b);
     s->setup.camera = &s->camera;

@@ -203,8 +203,8 @@ public:
     bool has_part(const mirror::Result &small, const mirror::Result &own) const
     {
         const Real radius = std::sqrt(std::floor(own.area + 0.5L) / std::acos(Real(-1)));
-        return ok_ && resolved_ && cover_ >= 0.5L && small.status == DROGUE_OK && small.seen.a < 0.8L * own.seen.a &&
-               small.seen.a < 3 * radius &&
+        return resolved_ && sure() && small.status == DROGUE_OK && small.seen.a < 0.8L * own.seen.a &&
+               small.seen.a < 2 * radius &&
                std::hypot(small.seen.xc - own.inner.x, small.seen.yc - own.inner.y) < radius / 2;
     }
     /* To whole units of Q16: of what is equal in it the first stands. */

@@ -254,7 +254,10 @@ START_TEST(in_the_place_of_the_front_end)
 {
     test_workspace t = begin(NONE);
     static const uint8_t elsewhere[SIDE * SIDE] = {0};
+    const drogue_frontend_config config = whole_frame().config;
+    drogue_frontend frontend;
     drogue_edge_list list;
+    int32_t y;
     ck_assert_int_eq(through_rows(&list, &t, memory, SIDE, SIDE), DROGUE_OK);
     ck_assert_int_eq(drogue_block_last(), DROGUE_BLOCK_OK);
     ck_assert_uint_ge(list.edge_count, 120);
@@ -267,6 +270,14 @@ START_TEST(in_the_place_of_the_front_end)
     ck_assert_int_eq(drogue_block_last(), DROGUE_BLOCK_LENGTH);
     ck_assert_int_eq(through_rows(&list, &t, memory + SIDE, SIDE, SIDE), DROGUE_E_ARGUMENT); /* one row too low */
     ck_assert_int_eq(drogue_block_last(), DROGUE_BLOCK_LENGTH);
+    ck_assert_int_eq(drogue_frontend_begin(&frontend, &t.workspace, &config, SIDE, SIDE), DROGUE_OK);
+    for (y = 0; y <= SIDE; y++) { /* one row too many */
+        drogue_frontend_row(&frontend, memory + y % SIDE * SIDE);
+    }
+    ck_assert_int_eq(drogue_frontend_end(&list, &frontend), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_frontend_begin(&frontend, &t.workspace, &config, SIDE, 0), DROGUE_E_REGION);
+    drogue_frontend_row(&frontend, memory);
+    ck_assert_int_eq(drogue_frontend_end(&list, &frontend), DROGUE_E_ARGUMENT);
     wrong = NEVER_ENDS;
     ck_assert_int_eq(through_rows(&list, &t, memory, SIDE, SIDE), DROGUE_E_ARGUMENT);
     ck_assert_int_eq(drogue_block_last(), DROGUE_BLOCK_STUCK);

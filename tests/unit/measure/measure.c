@@ -3,6 +3,7 @@
 #include "suite.h"
 
 #include "drogue/drogue.h"
+#include "drogue/undistort.h"
 #include "geometry.h"
 #include "workspace.h"
 
@@ -521,6 +522,7 @@ START_TEST(geometry_out_of_range)
     drogue_model m = model;
     drogue_config config;
     drogue_result r;
+    int k;
     draw(&usual);
     drogue_config_default(&config);
     m.rim_radius_m_q16 = INT32_MAX;
@@ -533,6 +535,18 @@ START_TEST(geometry_out_of_range)
     ck_assert_int_eq(measure(&r, &t, &config, &m, &whole), DROGUE_E_ARGUMENT);
     m.inner_radius_m_q16 = m.rim_radius_m_q16;
     ck_assert_int_ne(measure(&r, &t, &config, &m, &whole), DROGUE_E_ARGUMENT);
+    for (k = 0; k < 5; k++) {
+        drogue_camera camera = the_camera();
+        drogue_q16 *const lens[5] = {&camera.k1_q16, &camera.k2_q16, &camera.p1_q16, &camera.p2_q16, &camera.k3_q16};
+        *lens[k] = DROGUE_MAX_DISTORTION_Q16;
+        ck_assert_int_eq(drogue_camera_valid(&camera), 1);
+        ++*lens[k];
+        ck_assert_int_eq(drogue_camera_valid(&camera), 0);
+        *lens[k] = -DROGUE_MAX_DISTORTION_Q16;
+        ck_assert_int_eq(drogue_camera_valid(&camera), 1);
+        --*lens[k];
+        ck_assert_int_eq(drogue_camera_valid(&camera), 0);
+    }
     config.canny_low = config.canny_high = config.canny_least = 0; /* every change of grey is an edge */
     ck_assert_int_ne(measure(&r, &t, &config, &model, &whole), DROGUE_E_ARGUMENT);
     test_workspace_free(&t);

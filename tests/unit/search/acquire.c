@@ -195,7 +195,7 @@ static drogue_result perfect(int32_t a_px, int32_t x_px)
     return r;
 }
 
-/* What lies about the inner part of a larger outline belongs to that, be it worth more. */
+/* What lies about the inner part of a larger sure outline belongs to that, be it worth more. */
 START_TEST(a_ring_about_the_inner_part_is_no_drogue)
 {
     drogue_result large = with_inner(61, 1); /* whose inner part has 31.4 px */
@@ -203,21 +203,23 @@ START_TEST(a_ring_about_the_inner_part_is_no_drogue)
     better(&large, &small, &model, DROGUE_OK);
     small = perfect(60, 16); /* half of the inner part's radius beside it */
     better(&small, &large, &model, DROGUE_OK);
-    small = perfect(79, 0);
+    small = perfect(62, 0);
     better(&large, &small, &model, DROGUE_OK);
-    small = perfect(81, 0); /* nearly as large */
+    small = perfect(63, 0); /* twice that radius */
     better(&small, &large, &model, DROGUE_OK);
-    small = perfect(79, 0);
-    large.cover_q16 = DROGUE_Q16(49, 100);
+    small = perfect(60, 0);
+    large.cover_q16 = DROGUE_Q16(59, 100); /* not sure */
     better(&small, &large, &model, DROGUE_OK);
-    large.cover_q16 = DROGUE_Q16(61, 100);
+    large.cover_q16 = DROGUE_Q16(76, 100);
     large.orientation_resolved = 0;
     better(&small, &large, &model, DROGUE_OK);
     large.orientation_resolved = 1;
-    large.inner.area_px = 2100; /* 25.9 px: three times that is less than 79 */
+    large.ellipse.a_px_q16 = 75 * DROGUE_Q16_ONE; /* 60 is four fifths of it */
+    large.ellipse.b_px_q16 = DROGUE_Q16(13333, 100);
     better(&small, &large, &model, DROGUE_OK);
-    small = perfect(77, 0);
-    better(&large, &small, &model, DROGUE_E_UNSURE);
+    large.ellipse.a_px_q16 = 76 * DROGUE_Q16_ONE;
+    large.ellipse.b_px_q16 = DROGUE_Q16(13158, 100);
+    better(&large, &small, &model, DROGUE_OK);
 }
 END_TEST
 

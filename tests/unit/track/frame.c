@@ -158,8 +158,8 @@ START_TEST(reconsidered_once_in_a_while)
 }
 END_TEST
 
-/* Where the predicted region is wider than the workspace, its middle is measured, as wide as that; but the first region
- * is the caller's. */
+/* Where the predicted region is wider than the workspace, its middle is measured, as wide as that, if the rim still fits:
+ * four fifths of a region of 2.5 semi-axes. The first region is the caller's. */
 START_TEST(no_wider_than_the_workspace)
 {
     const drogue_result hit = covered(0, 100, 1);
@@ -168,8 +168,9 @@ START_TEST(no_wider_than_the_workspace)
     int32_t most;
     expected = elsewhere = hit;
     ck_assert_int_eq(frame(&result, &t), DROGUE_TRACKING);
-    for (most = predicted.width_px + 1; most >= predicted.width_px - 41; most -= 21) {
-        const int32_t over = predicted.width_px > most ? predicted.width_px - most : 0;
+    for (most = predicted.width_px + 1; most >= predicted.width_px - 41; most -= 7) {
+        const int fits = 5 * most >= 4 * predicted.width_px;
+        const int32_t over = predicted.width_px > most && fits ? predicted.width_px - most : 0;
         drogue_track next = t;
         workspace.capacity.width_px = (uint32_t)most;
         ck_assert_int_eq(frame(&result, &next), DROGUE_TRACKING);
@@ -180,6 +181,7 @@ START_TEST(no_wider_than_the_workspace)
     }
     t.first_region = predicted;
     t.camera.cx_px_q16 = 0; /* half of it is beside the image */
+    workspace.capacity.width_px = (uint32_t)predicted.width_px - 10;
     expected = elsewhere = hit;
     {
         drogue_track next = t;
