@@ -91,9 +91,8 @@ void drogue_config_default(drogue_config *config);
 
 /* 1 when every threshold is within its range: counts and lengths not negative, fit_error to 1024 px, low <= high,
  * shares of a length or of points in [0, 1] (sizes, inner_gate and inner_size without upper bound),
- * min_size <= max_size,
- * refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px and its uncertainty in [0, 16] px^2,
- * outline_shading in (0, 1024], inner_std in (0, 16] px, k1 in [0, 64], k2 in [0, 1). */
+ * min_size <= max_size, refit_band in (0, 8] px, at most 16 rounds, optics_blur in [0, 16] px and its uncertainty in
+ * [0, 16] px^2, outline_shading in (0, 1024], inner_std in (0, 16] px, k1 in [0, 64], k2 in [0, 1). */
 int drogue_config_valid(const drogue_config *config);
 
 /* What stays the same from frame to frame, made once and passed from stage to stage. */

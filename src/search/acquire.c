@@ -165,7 +165,7 @@ static int keep_better(best_seen *best, const drogue_result *r, int32_t where, c
         own += 8 * (int64_t)now.a_px_q16 > 9 * was ? LARGER : 0;
         other += 9 * (int64_t)now.a_px_q16 < 8 * was ? LARGER : 0;
     }
-    if (now.worth == 0 || is_part(&now, best) || (own <= other && !is_part(best, &now))) {
+    if (is_part(&now, best) || (own <= other && !is_part(best, &now))) {
         return 0;
     }
     *best = now;

@@ -278,8 +278,7 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
             own += larger > 9 / 8.0L ? 0.125L : 0;
             other += larger < 8 / 9.0L ? 0.125L : 0;
         }
-        if (w.worth() <= 0 || (most > 0 && weigh(kept).has_part(f.result, kept.result)) ||
-            (own <= other && !w.has_part(kept.result, f.result))) {
+        if (weigh(kept).has_part(f.result, kept.result) || (own <= other && !w.has_part(kept.result, f.result))) {
             return false;
         }
         most = w.worth();
