@@ -6,7 +6,6 @@
 
 #include "drogue/decide.h"
 #include "drogue/inner.h"
-#include "drogue/undistort.h"
 #include "look.h"
 
 #define TEXT(x) #x
@@ -15,16 +14,6 @@
 const char *drogue_version(void)
 {
     return VERSION_TEXT(DROGUE_VERSION_MAJOR, DROGUE_VERSION_MINOR, DROGUE_VERSION_PATCH);
-}
-
-static void clear(drogue_result *out)
-{
-    int k;
-    memset(out, 0, sizeof *out);
-    out->ambiguity_q16 = DROGUE_Q16_ONE;
-    for (k = 0; k < 4; k++) {
-        out->arcs[k] = DROGUE_NO_ARC;
-    }
 }
 
 /* What may be tried: the configured thresholds of Canny or those of the region's own noise, and of either the outline
@@ -62,13 +51,13 @@ static drogue_status try_out(drogue_frame *f, const drogue_region *region, int w
     drogue_status status = DROGUE_OK;
     begin_try(f);
     if (!looked) {
-        clear(f->out);
+        drogue_result_clear(f->out);
         status = drogue_frame_outline(f, region);
     }
     if (status == DROGUE_OK && (what == FIRST_LARGER || what == OWN_LARGER)) {
         const drogue_region used = f->out->region;
         const drogue_edge_list list = f->out->list;
-        clear(f->out);
+        drogue_result_clear(f->out);
         f->out->region = used;
         f->out->list = list;
         if (!drogue_outline_enlarge(&f->outline, f->workspace, &f->out->list, &f->mask, f->setup->config)) {
@@ -135,7 +124,7 @@ static void refuse(drogue_result *out)
     const drogue_region used = out->region;
     const drogue_edge_list list = out->list;
     const int32_t tried = out->tried;
-    clear(out);
+    drogue_result_clear(out);
     out->region = used;
     out->list = list;
     out->tried = tried;
@@ -237,7 +226,7 @@ static void try_beyond(best_try *best, drogue_frame *f)
     const drogue_region region = best->region;
     drogue_status status;
     begin_try(f);
-    clear(f->out);
+    drogue_result_clear(f->out);
     f->second_look = best->result->second_look;
     status = drogue_frame_beyond(f, &region, &was, best->larger_q16);
     if (status == DROGUE_OK) {
@@ -256,7 +245,7 @@ static drogue_status try_disc(best_try *best, drogue_frame *f, const drogue_regi
 {
     drogue_status status;
     begin_try(f);
-    clear(f->out);
+    drogue_result_clear(f->out);
     status = drogue_frame_about_disc(f, region);
     if (status == DROGUE_OK) {
         status = judge(f, DISC);
@@ -336,23 +325,17 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     return best.result->status;
 }
 
-static int valid(const drogue_image *image, const drogue_setup *setup)
-{
-    return image->data != NULL && image->width_px >= 1 && image->height_px >= 1 && image->stride >= image->width_px &&
-           drogue_camera_valid(setup->camera) && drogue_model_valid(setup->model) && drogue_config_valid(setup->config);
-}
-
 drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
                              const drogue_image *image, const drogue_region *region)
 {
     drogue_frame f;
-    clear(out);
+    drogue_result_clear(out);
     memset(&f, 0, sizeof f);
     f.out = out;
     f.workspace = workspace;
     f.setup = setup;
     f.image = image;
-    out->status = valid(image, setup) ? measure(&f, region) : DROGUE_E_ARGUMENT;
+    out->status = drogue_input_valid(image, setup) ? measure(&f, region) : DROGUE_E_ARGUMENT;
     out->second_look = f.second_look;
     return out->status;
 }

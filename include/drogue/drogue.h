@@ -82,6 +82,12 @@ typedef struct drogue_result {
 
 typedef char drogue_assume_result_fits[sizeof(drogue_result) + 4 <= DROGUE_KEPT_BYTES ? 1 : -1];
 
+/* No result yet: zero, without arcs, nothing decided. */
+void drogue_result_clear(drogue_result *out);
+
+/* Are an image, which may be of any size, and camera, model and thresholds within their ranges? */
+int drogue_input_valid(const drogue_image *image, const drogue_setup *setup);
+
 /* Measure one frame.
  *
  *  out        result; every member is defined for every return value, zero where there is nothing to say

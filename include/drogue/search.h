@@ -5,7 +5,9 @@
  * of the drogue's size. In each level a cell that is darker than a circle of eight cells about it, for one of three
  * radii, is a dark disc; rays from it look for the rim, and a circle through what they meet gives centre and size.
  * The inner part is darker than the canopy on every background, so neither the canopy's own grey nor the
- * background's matters. The best few are regions for drogue_measure(). */
+ * background's matters. The best few are regions for drogue_measure(). Where the rim is half lit or as grey as what is
+ * behind it, the inner part is still a round disc that is darker than all about it by most of its grey: the best few
+ * of these are kept by themselves. */
 #ifndef DROGUE_SEARCH_H
 #define DROGUE_SEARCH_H
 
@@ -17,6 +19,7 @@ extern "C" {
 #endif
 
 #define DROGUE_SEARCH_MAX 12   /* candidates */
+#define DROGUE_SEARCH_DARK 4   /* and discs by themselves */
 #define DROGUE_SEARCH_LEVELS 6 /* block means of 2 to 64 px a side: semi-axes from 12 to 800 px */
 
 /* Bytes of memory for frames up to the given width: 100352 for 2048 px. Usable in a static array's size. */
@@ -31,17 +34,35 @@ typedef struct drogue_sighting {
     uint32_t score;       /* by evenness and contrast of disc and rim; compares sightings of one frame */
 } drogue_sighting;
 
+/* What drogue_acquire() weighs of a measurement. */
+typedef struct drogue_weighed {
+    int32_t worth; /* 0: there is no pose */
+    int32_t where; /* it was measured: a number that drogue_acquire() gives the place */
+    drogue_q16 a_px_q16;
+    drogue_q16 xc_px_q16;
+    drogue_q16 yc_px_q16;
+    drogue_q16 inner_x_px_q16;
+    drogue_q16 inner_y_px_q16;
+    drogue_q16 inner_px_q16; /* its radius where it decides and the outline is sure; else 0 */
+} drogue_weighed;
+
 /* A search in progress; set by drogue_search_init(). */
 typedef struct drogue_search {
     uint8_t *memory;     /* the caller's */
     int32_t capacity_px; /* widest frame */
     int32_t
-        min_contrast; /* 6 grey levels: least contrast of inner part and canopy, [0, 255]; the caller may change it */
-    int32_t width_px; /* of the frame in progress */
-    int32_t rows_in;  /* fed so far */
-    int32_t count;    /* of sightings */
+        min_contrast;   /* 6 grey levels: least contrast of inner part and canopy, [0, 255]; the caller may change it */
+    int32_t width_px;   /* of the frame in progress */
+    int32_t rows_in;    /* fed so far */
+    int32_t count;      /* of sightings */
+    int32_t dark_count; /* of dark discs */
+    int32_t darkest;    /* grey of the darkest 4 x 4 px; 255 before the first. Haze and glare lift it */
     drogue_search_level levels[DROGUE_SEARCH_LEVELS]; /* from 2 to 64 px a cell */
     drogue_sighting best[DROGUE_SEARCH_MAX];          /* by falling score */
+    drogue_sighting dark[DROGUE_SEARCH_DARK]; /* dark discs, by falling score; radius and region are the disc's */
+    drogue_region asked;                      /* drogue_acquire()'s work area: what is to be measured, */
+    drogue_weighed last;                      /* what was measured last, */
+    drogue_weighed stands;                    /* and the best so far */
     drogue_result found; /* drogue_track_frame()'s work area: what it acquired beside what it measured */
 } drogue_search;
 
@@ -63,38 +84,50 @@ void drogue_search_row(drogue_search *search, const uint8_t *row);
 /* End the frame: search->best[0 .. count - 1] are its sightings. Returns the count. */
 int32_t drogue_search_end(drogue_search *search);
 
-/* Is enough of a drogue seen in a measurement to begin with it? For a model with an inner part one that is dark (a
- * contrast of at least a quarter of the grey at its edge), sharp (a spread of at most 0.3 px) and near to the model's
- * size (its radius to 0.6 px and a tenth), within an outline covered to 0.75; where it decides the orientation and has
- * its size (to 0.3 px and a twenty-fifth) a cover of 0.6 will do, or, where it is not sharp, one of 0.9; where it is
- * sharp, decides and has 5 px and more, and its size to 0.2 px and a 64th, one of 0.5; one of 5 px and more which
- * decides need not be sharp within an outline of a cover of 31/32 and a reliability of 0.99. For a model without one a
- * cover of 0.75 and a reliability of 0.9.
+/* Is enough of a drogue seen in a measurement to begin with it?
+ *
+ * For a model without an inner part: a cover of 3/4 and a reliability of 0.9. Else an inner part of a contrast of at
+ * least a quarter of the grey at its edge must be there, with a doubt of at most 1/8, and the first row that fits says
+ * what cover is asked for; r is the radius that the model expects in this outline:
+ *
+ *   orientation              spread      r      radius off by at most   cover
+ *   resolved, doubt < 1/64   <= 0.3 px   5 px   0.2 px + r / 64         1/2
+ *   resolved, doubt < 1/64   <= 0.3 px          0.3 px + r / 25         0.6
+ *   resolved, doubt < 1/64                      0.3 px + r / 25         0.9
+ *                            <= 0.3 px          0.6 px + r / 10         3/4
+ *   resolved                             5 px   0.6 px + r / 10         31/32, and a reliability of 0.99
  *
  *  r  of status DROGUE_OK
  */
 int drogue_result_sure(const drogue_result *r, const drogue_model *model);
 
-/* Search a part of an image, and measure what was sighted in order of score, until an inner part decides the
- * orientation within an outline covered to four fifths; after that only what was sighted about the same middle with
- * 9/8 to 2 times the radius. Of two sure outlines whose inner parts are within 1 px of each other and whose semi-axes
- * differ by more than an eighth the larger one is preferred, unless it has less cover, or an inner part less of its
- * size, by an eighth. What lies about the inner part of a sure outline that decides, to half its radius, and has less
- * than twice its radius and four fifths of that outline's semi-axis, is a part of that, whatever it is worth. Else the
- * result is the one of most cover among those that are sure and whose inner part decides; or else that are sure; or
- * else of all, an inner part counting as a quarter of cover, and one that decides as another. Where nothing is sure
- * and the model has an inner part, the first two sightings are measured once more in regions a quarter larger that the
- * workspace is wide enough for: what was sighted may be an edge within the drogue. The part itself is measured last,
- * with the drogue about its middle, where nothing is sure and the part is small, at most 512 px a side, or the model
- * has no inner part.
+/* Search a part of an image, and measure what was sighted:
+ *
+ *  - the sightings in order of score, until an inner part of its size decides the orientation within an outline covered
+ *    to four fifths; after that only what has 9/8 to 2 times the radius about the same middle;
+ *  - where nothing is sure yet, one after another until something is: the drogue that the model puts about each dark
+ *    disc; the first two sightings in regions a quarter larger, as far as the workspace is wide enough, since what was
+ *    sighted may be an edge within the drogue; the part itself where it has at most 512 px a side.
+ *    Without an inner part in the model only the last, of any size.
+ *
+ * What is sure is what drogue_result_sure() says, and where haze or glare lifts every grey, what has its contrast
+ * above the darkest 4 x 4 px of the part: it must be resolved with a doubt < 1/64, r >= 5 px, a radius off by at most
+ * 0.3 px + r / 25 and a cover of 0.9.
+ *
+ * The result is the one of most cover, less the share that the inner part's radius is off, among those that are sure
+ * and whose inner part decides; or else that are sure; or else of all, an inner part counting as a quarter of cover,
+ * and one that decides as another. Two things go before it. Of two sure outlines whose inner parts are within 1 px of
+ * each other and whose semi-axes differ by more than an eighth the larger one has an eighth of cover more. And what
+ * lies about the inner part of a sure outline that decides, to half its radius, and has less than twice its radius and
+ * four fifths of that outline's semi-axis, is a part of that, whatever it is worth.
  *
  *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured
  *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not
  *          measured itself
  *  return  DROGUE_OK when drogue_result_sure() of what was measured; DROGUE_E_UNSURE: something was measured, but less
- *          than that; DROGUE_E_ARGUMENT (the image), DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else the
- *          status of the last, DROGUE_E_REGION where the part itself is too large, DROGUE_E_NO_INNER_PART where nothing
- *          was sighted
+ *          than that; DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else, of what was
+ *          measured, the status that comes last in drogue_status: how far the best attempt got; and
+ *          DROGUE_E_NO_INNER_PART where nothing was sighted
  */
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region);

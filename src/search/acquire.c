@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "drogue/decide.h"
+#include "sightings.h"
 
 /* What a search must show to be sure: where the model knows no inner part cover of the outline and reliability; else an
  * inner part that is dark, sharp and near to its size, and cover. One that decides the orientation and has its size
@@ -59,7 +60,8 @@ static int sizes(int64_t *expected, int64_t *off, const drogue_result *r, const 
 /* Does the inner part decide which pose it is, and agree with the outline, in its place and about its size? */
 static int decided(const drogue_result *r) { return r->orientation_resolved && r->doubt_q16 < DROGUE_CONTRADICTED_Q16; }
 
-int drogue_result_sure(const drogue_result *r, const drogue_model *model)
+/* drogue_result_sure() of what was found where nothing is darker than this. */
+static int is_sure(const drogue_result *r, const drogue_model *model, int32_t darkest)
 {
     int64_t expected;
     int64_t off;
@@ -67,8 +69,13 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
     if (model->inner_radius_m_q16 == 0) {
         return r->cover_q16 >= SURE_COVER && r->quality.reliability_q16 >= SURE_RELIABILITY;
     }
-    if (!sizes(&expected, &off, r, model) || 4 * r->inner.contrast < r->inner.threshold || r->doubt_q16 > MOST_DOUBT) {
+    if (!sizes(&expected, &off, r, model) || 4 * r->inner.contrast < r->inner.threshold - darkest ||
+        r->doubt_q16 > MOST_DOUBT) {
         return 0;
+    }
+    if (4 * r->inner.contrast < r->inner.threshold) { /* dark for what haze leaves */
+        return decided(r) && expected >= EVIDENT_PX && 25 * (off - EXACT_PX) <= expected &&
+               r->cover_q16 >= BLURRED_COVER;
     }
     sharp = r->inner.spread_px_q16 <= MOST_SPREAD_PX;
     if (decided(r) && sharp && expected >= EVIDENT_PX && 64 * (off - WITNESS_PX) <= expected) {
@@ -85,17 +92,19 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model)
                        r->quality.reliability_q16 >= EVIDENT_RELIABILITY;
 }
 
+int drogue_result_sure(const drogue_result *r, const drogue_model *model) { return is_sure(r, model, 0); }
+
 /* How much a result is worth: 0 without a pose; more where it is sure; most when the inner part decides, too; and then
  * by cover, less the share by which the inner part's size is off. What is not sure is worth a quarter more with an
  * inner part, and another one where that decides. */
-static int32_t worth(const drogue_result *r, const drogue_model *model)
+static int32_t worth(const drogue_result *r, const drogue_model *model, int32_t darkest)
 {
     int64_t expected;
     int64_t off;
     if (r->status != DROGUE_OK) {
         return 0;
     }
-    if (!drogue_result_sure(r, model)) {
+    if (!is_sure(r, model, darkest)) {
         return 1 + r->cover_q16 + (r->has_inner + decided(r)) * (DROGUE_Q16_ONE / 4);
     }
     if (!sizes(&expected, &off, r, model)) {
@@ -107,28 +116,16 @@ static int32_t worth(const drogue_result *r, const drogue_model *model)
 }
 
 /* Is a pose good enough to look at nothing else but larger outlines about it? */
-static int settles(const drogue_result *r, const drogue_model *model)
+static int settles(const drogue_result *r, const drogue_model *model, int32_t darkest)
 {
     int64_t expected;
     int64_t off;
-    if (r->cover_q16 < SETTLED_COVER || !drogue_result_sure(r, model)) {
+    if (r->cover_q16 < SETTLED_COVER || !is_sure(r, model, darkest)) {
         return 0;
     }
     return model->inner_radius_m_q16 == 0 ||
            (decided(r) && sizes(&expected, &off, r, model) && 16 * (off - MOST_OFF_PX / 2) <= expected);
 }
-
-/* What is kept of the best measurement. */
-typedef struct best_seen {
-    int32_t worth;
-    int32_t where; /* it was measured: by place() */
-    drogue_q16 a_px_q16;
-    drogue_q16 xc_px_q16;
-    drogue_q16 yc_px_q16;
-    drogue_q16 inner_x_px_q16;
-    drogue_q16 inner_y_px_q16;
-    drogue_q16 inner_px_q16; /* its radius where it decides and the outline is sure; else 0 */
-} best_seen;
 
 static int within(drogue_q16 x, drogue_q16 y, drogue_q16 of_x, drogue_q16 of_y, drogue_q16 px_q16)
 {
@@ -136,7 +133,7 @@ static int within(drogue_q16 x, drogue_q16 y, drogue_q16 of_x, drogue_q16 of_y, 
 }
 
 /* Is an outline a ring about the inner part of a larger one, as its coupling's? */
-static int is_part(const best_seen *small, const best_seen *large)
+static int is_part(const drogue_weighed *small, const drogue_weighed *large)
 {
     return 5 * (int64_t)small->a_px_q16 < 4 * (int64_t)large->a_px_q16 &&
            small->a_px_q16 < 2 * (int64_t)large->inner_px_q16 &&
@@ -146,29 +143,30 @@ static int is_part(const best_seen *small, const best_seen *large)
 
 /* Keep a result that is worth more; returns whether it is. Of two sure outlines about one inner part the larger one is
  * more likely the rim, and the other an edge of the canopy; what is a part of a larger outline is none. */
-static int keep_better(best_seen *best, const drogue_result *r, int32_t where, const drogue_model *model)
+static int keep_better(drogue_search *search, const drogue_result *r, int32_t where, const drogue_model *model)
 {
-    const int64_t was = best->a_px_q16;
-    best_seen now;
-    int32_t own;
-    int32_t other = best->worth;
-    now.worth = own = worth(r, model);
-    now.where = where;
-    now.a_px_q16 = r->ellipse.a_px_q16;
-    now.xc_px_q16 = r->ellipse.xc_px_q16;
-    now.yc_px_q16 = r->ellipse.yc_px_q16;
-    now.inner_x_px_q16 = r->inner.x_px_q16;
-    now.inner_y_px_q16 = r->inner.y_px_q16;
-    now.inner_px_q16 = own > SURE && decided(r) ? drogue_sat_s32(radius_of(&r->inner)) : 0;
+    drogue_weighed *stands = &search->stands;
+    drogue_weighed *last = &search->last;
+    int32_t own = worth(r, model, search->darkest);
+    int32_t other = stands->worth;
+    last->worth = own;
+    last->where = where;
+    last->a_px_q16 = r->ellipse.a_px_q16;
+    last->xc_px_q16 = r->ellipse.xc_px_q16;
+    last->yc_px_q16 = r->ellipse.yc_px_q16;
+    last->inner_x_px_q16 = r->inner.x_px_q16;
+    last->inner_y_px_q16 = r->inner.y_px_q16;
+    last->inner_px_q16 = own > SURE && decided(r) ? drogue_sat_s32(radius_of(&r->inner)) : 0;
     if (r->has_inner && own > SURE && other > SURE &&
-        within(now.inner_x_px_q16, now.inner_y_px_q16, best->inner_x_px_q16, best->inner_y_px_q16, DROGUE_Q16_ONE)) {
-        own += 8 * (int64_t)now.a_px_q16 > 9 * was ? LARGER : 0;
-        other += 9 * (int64_t)now.a_px_q16 < 8 * was ? LARGER : 0;
+        within(last->inner_x_px_q16, last->inner_y_px_q16, stands->inner_x_px_q16, stands->inner_y_px_q16,
+               DROGUE_Q16_ONE)) {
+        own += 8 * (int64_t)last->a_px_q16 > 9 * (int64_t)stands->a_px_q16 ? LARGER : 0;
+        other += 9 * (int64_t)last->a_px_q16 < 8 * (int64_t)stands->a_px_q16 ? LARGER : 0;
     }
-    if (is_part(&now, best) || (own <= other && !is_part(best, &now))) {
+    if (is_part(last, stands) || (own <= other && !is_part(stands, last))) {
         return 0;
     }
-    *best = now;
+    *stands = *last;
     return 1;
 }
 
@@ -194,8 +192,30 @@ static void put_asked(drogue_region *out, const drogue_region *region, const dro
     out->height_px = image->height_px;
 }
 
-/* Sightings in the region asked for, in coordinates of the image. */
-static drogue_status search_part(drogue_search *search, const drogue_image *image, const drogue_region *region)
+/* Sightings of a part of an image in coordinates of the image. */
+static void shift(drogue_sighting *sightings, int32_t count, const drogue_region *part)
+{
+    int32_t i;
+    for (i = 0; i < count; i++) {
+        sightings[i].x_px += part->x_px;
+        sightings[i].y_px += part->y_px;
+        sightings[i].region.x_px += part->x_px;
+        sightings[i].region.y_px += part->y_px;
+    }
+}
+
+/* The drogue about a dark disc: half a pixel more is the middle of what a radius in whole pixels may be. */
+static void frame_drogue(drogue_sighting *s, const drogue_model *model)
+{
+    const int64_t radius_px = drogue_div_round_s64((2 * s->radius_px + 1) * (int64_t)model->rim_radius_m_q16,
+                                                   2 * (int64_t)model->inner_radius_m_q16);
+    s->radius_px = (int32_t)(radius_px < DROGUE_MAX_SIDE ? radius_px : DROGUE_MAX_SIDE);
+    drogue_sighting_frame(s);
+}
+
+/* Sightings in the region asked for; none of dark discs where the model has none. */
+static drogue_status search_part(drogue_search *search, const drogue_model *model, const drogue_image *image,
+                                 const drogue_region *region)
 {
     drogue_region part;
     drogue_status status;
@@ -214,13 +234,13 @@ static drogue_status search_part(drogue_search *search, const drogue_image *imag
     for (y = 0; y < part.height_px; y++) {
         drogue_search_row(search, drogue_image_row(image, part.y_px + y) + part.x_px);
     }
-    for (i = drogue_search_end(search) - 1; i >= 0; i--) {
-        drogue_sighting *c = &search->best[i];
-        c->x_px += part.x_px;
-        c->y_px += part.y_px;
-        c->region.x_px += part.x_px;
-        c->region.y_px += part.y_px;
+    drogue_search_end(search);
+    search->dark_count = model->inner_radius_m_q16 > 0 ? search->dark_count : 0;
+    for (i = 0; i < search->dark_count; i++) {
+        frame_drogue(&search->dark[i], model);
     }
+    shift(search->best, search->count, &part);
+    shift(search->dark, search->dark_count, &part);
     return DROGUE_OK;
 }
 
@@ -233,77 +253,83 @@ static void widen(drogue_region *r)
     r->height_px += r->height_px / 4;
 }
 
-#define WHOLE (DROGUE_SEARCH_MAX + WIDER)
+/* Places that are measured, by number: those of the sightings, of the dark discs, larger ones about the first of the
+ * sightings, what is asked for. */
+#define DARK DROGUE_SEARCH_MAX
+#define WIDE (DARK + DROGUE_SEARCH_DARK)
+#define WHOLE (WIDE + WIDER)
 
-/* Regions that are measured, by number: those of the sightings, larger ones about the first of them, what is asked
- * for. */
-static void place(drogue_region *out, int32_t where, const drogue_search *search, const drogue_region *region,
-                  const drogue_image *image)
+static void place(drogue_search *search, int32_t where, const drogue_region *region, const drogue_image *image)
 {
-    if (where == WHOLE) {
-        put_asked(out, region, image);
-    } else if (where < DROGUE_SEARCH_MAX) {
+    drogue_region *out = &search->asked;
+    if (where < DARK) {
         *out = search->best[where].region;
-    } else {
-        *out = search->best[where - DROGUE_SEARCH_MAX].region;
+    } else if (where < WIDE) {
+        *out = search->dark[where - DARK].region;
+    } else if (where < WHOLE) {
+        *out = search->best[where - WIDE].region;
         widen(out); /* what was sighted may be an edge within the drogue */
+    } else {
+        put_asked(out, region, image);
     }
 }
 
-/* Is the part that was searched measured itself when nothing sighted decides? */
-static int measures_whole(const drogue_search *search, const drogue_model *model)
+/* Is there such a place, to be measured after what was before it? */
+static int is_wanted(const drogue_search *search, int32_t where, int32_t settled, const drogue_model *model)
 {
+    if (where < DARK) {
+        return where < search->count && (settled < 0 || (model->inner_radius_m_q16 > 0 &&
+                                                         surrounds(&search->best[where], &search->best[settled])));
+    }
+    if (search->stands.worth > SURE) {
+        return 0;
+    }
+    if (where < WIDE) {
+        return where - DARK < search->dark_count;
+    }
+    if (where < WHOLE) {
+        return where - WIDE < search->count && model->inner_radius_m_q16 > 0;
+    }
     return model->inner_radius_m_q16 == 0 || (search->width_px <= MOST_WHOLE_PX && search->rows_in <= MOST_WHOLE_PX);
 }
 
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region)
 {
-    drogue_status status;
-    best_seen best;
-    drogue_region asked;
-    const drogue_sighting *settled = NULL; /* after which only larger ones about it are looked at */
-    int current = 0;                       /* is the best what was measured last? */
+    drogue_status furthest = DROGUE_OK; /* of what could not be measured */
+    int32_t settled = -1;               /* the sighting after which only larger ones about it are looked at */
+    int current = 0;                    /* was the best measured last? */
     int32_t i;
-    memset(out, 0, sizeof *out);
-    memset(&best, 0, sizeof best);
-    if (image->data == NULL || image->stride < image->width_px) {
-        out->status = DROGUE_E_ARGUMENT;
+    drogue_result_clear(out);
+    out->status =
+        drogue_input_valid(image, setup) ? search_part(search, setup->model, image, region) : DROGUE_E_ARGUMENT;
+    if (out->status != DROGUE_OK) {
         return out->status;
     }
-    status = search_part(search, image, region);
-    if (status != DROGUE_OK) {
-        out->status = status;
-        return status;
-    }
-    out->status = DROGUE_E_NO_INNER_PART;
-    for (i = 0; i < search->count; i++) {
-        if (settled != NULL && (setup->model->inner_radius_m_q16 == 0 || !surrounds(&search->best[i], settled))) {
+    memset(&search->stands, 0, sizeof search->stands);
+    for (i = 0; i <= WHOLE; i++) {
+        if (!is_wanted(search, i, settled, setup->model)) {
             continue;
         }
-        (void)drogue_measure(out, workspace, setup, image, &search->best[i].region);
-        current = keep_better(&best, out, i, setup->model);
-        if (current && (settled != NULL || settles(out, setup->model))) {
-            settled = &search->best[i];
+        place(search, i, region, image);
+        if (i >= WIDE && i < WHOLE && !drogue_workspace_spans(workspace, &search->asked, image)) {
+            continue;
+        }
+        (void)drogue_measure(out, workspace, setup, image, &search->asked);
+        furthest = out->status > furthest ? out->status : furthest;
+        current = keep_better(search, out, i, setup->model);
+        if (current && i < DARK && (settled >= 0 || settles(out, setup->model, search->darkest))) {
+            settled = i;
         }
     }
-    for (i = 0; i < WIDER && i < search->count && best.worth <= SURE && setup->model->inner_radius_m_q16 > 0; i++) {
-        place(&asked, DROGUE_SEARCH_MAX + i, search, region, image);
-        if (drogue_workspace_spans(workspace, &asked, image)) {
-            (void)drogue_measure(out, workspace, setup, image, &asked);
-            current = keep_better(&best, out, DROGUE_SEARCH_MAX + i, setup->model);
-        }
+    if (search->stands.worth == 0) {
+        drogue_result_clear(out);
+        out->status = furthest > DROGUE_OK ? furthest : DROGUE_E_NO_INNER_PART;
+    } else if (!current) { /* again, so that the workspace holds its points */
+        place(search, search->stands.where, region, image);
+        (void)drogue_measure(out, workspace, setup, image, &search->asked);
     }
-    if (best.worth <= SURE && measures_whole(search, setup->model)) {
-        place(&asked, WHOLE, search, region, image);
-        (void)drogue_measure(out, workspace, setup, image, &asked);
-        current = keep_better(&best, out, WHOLE, setup->model);
-    }
-    if (best.worth > 0 && !current) { /* again, so that the workspace holds its points */
-        place(&asked, best.where, search, region, image);
-        (void)drogue_measure(out, workspace, setup, image, &asked);
-    }
-    if (out->status == DROGUE_OK && !drogue_result_sure(out, setup->model)) {
+    if (out->status == DROGUE_OK && !is_sure(out, setup->model, search->darkest)) {
         out->status = DROGUE_E_UNSURE;
     }
     return out->status;

@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
+/* Loops over rows of cells, for compilers that vectorise and for lanes of a word. */
 #include "cells.h"
 
 #include "drogue/lanes.h"
 
 #define MIDDLE DROGUE_SEARCH_RING
+
+const int16_t drogue_search_ray_x_q8[DROGUE_SEARCH_RAYS] = {256,  237,  181,  98,  0, -98, -181, -237,
+                                                            -256, -237, -181, -98, 0, 98,  181,  237};
+const int16_t drogue_search_ray_y_q8[DROGUE_SEARCH_RAYS] = {0, 98,  181,  237,  256,  237,  181,  98,
+                                                            0, -98, -181, -237, -256, -237, -181, -98};
 
 static const int32_t ring_q[DROGUE_SEARCH_SCALES] = {1, 1, 2, 2};
 static const int32_t inner_at[DROGUE_SEARCH_SCALES] = {1, 1, 2, 2}; /* samples of the disc beside its centre */

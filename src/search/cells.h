@@ -8,6 +8,11 @@
 
 #define DROGUE_SEARCH_SCALES 4
 #define DROGUE_SEARCH_RING 5 /* cells: the largest circle's reach */
+#define DROGUE_SEARCH_RAYS 16
+
+/* Directions of rays about a disc. */
+extern const int16_t drogue_search_ray_x_q8[DROGUE_SEARCH_RAYS];
+extern const int16_t drogue_search_ray_y_q8[DROGUE_SEARCH_RAYS];
 
 /* The circle of eight cells (+-p, +-q), (+-q, +-p) lies between inner part and rim: about half the rim's radius. The
  * first serves the smallest drogues, in the first level alone. */

@@ -4,16 +4,13 @@
 
 #include <string.h>
 
+#include "cells.h"
 #include "drogue/real.h"
 
-#define RAYS 16
+#define RAYS DROGUE_SEARCH_RAYS
 #define FAR_Q4 1024      /* cells Q4: a centre farther away is none */
 #define LEAST_RAYS 9     /* that must meet the circle */
 #define DIFFERENT_RAYS 3 /* on fewer, another choice of steps is the same circle */
-
-/* Directions of the rays, Q8. */
-static const int16_t ray_x[RAYS] = {256, 237, 181, 98, 0, -98, -181, -237, -256, -237, -181, -98, 0, 98, 181, 237};
-static const int16_t ray_y[RAYS] = {0, 98, 181, 237, 256, 237, 181, 98, 0, -98, -181, -237, -256, -237, -181, -98};
 
 #define MOST_STEP 64 /* grey levels that count of an edge's contrast */
 #define LEAST_STEP 3 /* grey levels: less is no edge */
@@ -110,8 +107,8 @@ static void read_rays(rays *r, const drogue_search_level *level, const drogue_se
         rows[DROGUE_SEARCH_REACH + t] = drogue_search_level_row(level, disc->y + (t >= highest && t <= lowest ? t : 0));
     }
     for (i = 0; i < RAYS; i++) {
-        int32_t x_q8 = 256 * disc->x + 128 + ray_x[i] * (r->first - 1);
-        int32_t down_q8 = 128 + ray_y[i] * (r->first - 1);
+        int32_t x_q8 = 256 * disc->x + 128 + drogue_search_ray_x_q8[i] * (r->first - 1);
+        int32_t down_q8 = 128 + drogue_search_ray_y_q8[i] * (r->first - 1);
         int32_t before = 0;
         int32_t here = 0;
         for (t = r->first - 1; t <= r->last + 1; t++) {
@@ -127,8 +124,8 @@ static void read_rays(rays *r, const drogue_search_level *level, const drogue_se
             }
             before = t >= r->first ? here : next;
             here = next;
-            x_q8 += ray_x[i];
-            down_q8 += ray_y[i];
+            x_q8 += drogue_search_ray_x_q8[i];
+            down_q8 += drogue_search_ray_y_q8[i];
         }
         for (t = t > r->first ? t - 1 : r->first - 1; t <= r->last; t++) {
             r->steps[t][i] = 0;
@@ -219,8 +216,8 @@ static int32_t take_steps(rays *r, choice which)
         r->taken[i] = at[i];
         r->step[i] = at[i] > 0 ? step[i] : 0;
         r->used[i] = at[i] > 0;
-        r->x_q4[i] = (int16_t)((ray_x[i] * at[i]) >> 4);
-        r->y_q4[i] = (int16_t)((ray_y[i] * at[i]) >> 4);
+        r->x_q4[i] = (int16_t)((drogue_search_ray_x_q8[i] * at[i]) >> 4);
+        r->y_q4[i] = (int16_t)((drogue_search_ray_y_q8[i] * at[i]) >> 4);
     }
     return differ;
 }

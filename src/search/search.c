@@ -5,11 +5,14 @@
 #include <string.h>
 
 #include "cells.h"
+#include "dark.h"
+#include "sightings.h"
 
 #define SCALES DROGUE_SEARCH_SCALES
 #define REACH DROGUE_SEARCH_REACH
 #define RING DROGUE_SEARCH_RING
 #define PLACES 128 /* looked at together */
+#define DARKEST_LEVEL 1
 
 static const int32_t ring_q4[SCALES] = {36, 51, 72, 86}; /* radius of the circle, 16ths of a cell */
 
@@ -42,6 +45,8 @@ drogue_status drogue_search_begin(drogue_search *search, int32_t width_px)
     search->width_px = width_px;
     search->rows_in = 0;
     search->count = 0;
+    search->dark_count = 0;
+    search->darkest = 255;
     for (k = 0; k < DROGUE_SEARCH_LEVELS; k++) {
         drogue_search_level *level = &search->levels[k];
         level->rows = next;
@@ -53,97 +58,37 @@ drogue_status drogue_search_begin(drogue_search *search, int32_t width_px)
     return DROGUE_OK;
 }
 
-/* Are these about the same outline? */
-static int same_outline(const drogue_sighting *b, const drogue_sighting *c)
+/* A circle about a disc, in pixels. */
+static void put_sighting(drogue_sighting *out, const drogue_rim *rim, const drogue_search_disc *disc, int k)
 {
-    const int32_t larger = b->radius_px > c->radius_px ? b->radius_px : c->radius_px;
-    const int32_t smaller = b->radius_px > c->radius_px ? c->radius_px : b->radius_px;
-    const int32_t dx = b->x_px - c->x_px;
-    const int32_t dy = b->y_px - c->y_px;
-    return 5 * larger <= 6 * smaller && 2 * dx < larger && -2 * dx < larger && 2 * dy < larger && -2 * dy < larger;
-}
-
-/* Keep a sighting if it is among the best; of two of the same outline the better. They are sorted at the end. */
-static void keep_sighting(drogue_search *search, const drogue_sighting *c)
-{
-    int32_t lowest = 0;
-    int32_t i;
-    for (i = search->count - 1; i >= 0; i--) {
-        if (same_outline(&search->best[i], c)) {
-            if (search->best[i].score >= c->score) {
-                return;
-            }
-            search->count--;
-            search->best[i] = search->best[search->count];
-        }
-    }
-    if (search->count < DROGUE_SEARCH_MAX) {
-        search->best[search->count++] = *c;
-        return;
-    }
-    for (i = 1; i < search->count; i++) {
-        if (search->best[i].score < search->best[lowest].score) {
-            lowest = i;
-        }
-    }
-    if (c->score > search->best[lowest].score) {
-        search->best[lowest] = *c;
-    }
-}
-
-static void sort_sightings(drogue_search *search)
-{
-    int32_t i;
-    int32_t k;
-    for (i = 0; i < search->count; i++) {
-        for (k = i + 1; k < search->count; k++) {
-            if (search->best[k].score > search->best[i].score) {
-                const drogue_sighting t = search->best[i];
-                search->best[i] = search->best[k];
-                search->best[k] = t;
-            }
-        }
-    }
-}
-
-/* The score that a sighting must exceed to be among the best. */
-static uint32_t score_to_beat(const drogue_search *search)
-{
-    uint32_t lowest = UINT32_MAX;
-    int32_t i;
-    for (i = 0; i < search->count; i++) {
-        lowest = search->best[i].score < lowest ? search->best[i].score : lowest;
-    }
-    return search->count == DROGUE_SEARCH_MAX ? lowest : 0;
+    const int32_t cell_px = 2 << k;
+    out->score = rim->score;
+    out->x_px = (int32_t)(((16 * disc->x + 8 + rim->x_q4) * cell_px) >> 4);
+    out->y_px = (int32_t)(((16 * disc->y + 8 + rim->y_q4) * cell_px) >> 4);
+    out->radius_px = (int32_t)((rim->radius_q4 * cell_px) >> 4);
+    drogue_sighting_frame(out);
 }
 
 static void judge_disc(drogue_search *search, int k, const drogue_search_disc *disc)
 {
-    const int32_t cell_px = 2 << k;
-    const uint32_t least = score_to_beat(search);
+    const drogue_search_level *level = &search->levels[k];
+    const uint32_t least = drogue_sightings_least(search->best, search->count, DROGUE_SEARCH_MAX);
     drogue_rim rims[DROGUE_RIMS];
+    drogue_sighting c;
     int32_t count;
     int32_t i;
+    if (drogue_dark_find(rims, level, disc,
+                         drogue_sightings_least(search->dark, search->dark_count, DROGUE_SEARCH_DARK))) {
+        put_sighting(&c, rims, disc, k);
+        drogue_sightings_keep(search->dark, &search->dark_count, DROGUE_SEARCH_DARK, &c);
+    }
     if (drogue_rim_most(disc) <= least) {
         return;
     }
-    count = drogue_rim_find(rims, &search->levels[k], disc, least);
+    count = drogue_rim_find(rims, level, disc, least);
     for (i = 0; i < count; i++) {
-        const drogue_rim *rim = &rims[i];
-        drogue_sighting c;
-        int32_t side;
-        c.score = rim->score;
-        c.x_px = (int32_t)(((16 * disc->x + 8 + rim->x_q4) * cell_px) >> 4);
-        c.y_px = (int32_t)(((16 * disc->y + 8 + rim->y_q4) * cell_px) >> 4);
-        c.radius_px = (int32_t)((rim->radius_q4 * cell_px) >> 4);
-        side = c.radius_px + (c.radius_px < 10 ? 1 : 0); /* a small radius may be half a cell too small */
-        side = (side * 21) >> 3;                         /* 2.5 major semi-axes */
-        side = side < DROGUE_MAX_SIDE ? side : DROGUE_MAX_SIDE;
-        c.region.x_px = c.x_px - side / 2;
-        c.region.y_px = c.y_px - side / 2;
-        c.region.width_px = side;
-        c.region.height_px = side;
-        keep_sighting(search, &c);
+        put_sighting(&c, &rims[i], disc, k);
+        drogue_sightings_keep(search->best, &search->count, DROGUE_SEARCH_MAX, &c);
     }
 }
 
@@ -272,6 +217,16 @@ static void scan_row(drogue_search *search, int k, int32_t y)
     judge_above(search, k, y - RING);
 }
 
+static int32_t least_of(const uint8_t *row, int32_t width, int32_t least)
+{
+    uint8_t lowest = (uint8_t)least;
+    int32_t x;
+    for (x = 0; x < width; x++) {
+        lowest = row[x] < lowest ? row[x] : lowest;
+    }
+    return lowest;
+}
+
 void drogue_search_row(drogue_search *search, const uint8_t *row)
 {
     const uint8_t *above = search->memory;
@@ -287,6 +242,9 @@ void drogue_search_row(drogue_search *search, const uint8_t *row)
         const int32_t y = level->rows_in;
         drogue_search_halve(level->rows + (y % DROGUE_SEARCH_ROWS) * level->width, level->width, above, below);
         level->rows_in++;
+        if (k == DARKEST_LEVEL) {
+            search->darkest = least_of(drogue_search_level_row(level, y), level->width, search->darkest);
+        }
         if (y >= REACH) {
             scan_row(search, k, y - REACH);
         }
@@ -309,6 +267,7 @@ int32_t drogue_search_end(drogue_search *search)
         }
         judge_above(search, k, INT32_MAX);
     }
-    sort_sightings(search);
+    drogue_sightings_sort(search->best, search->count);
+    drogue_sightings_sort(search->dark, search->dark_count);
     return search->count;
 }

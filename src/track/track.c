@@ -332,7 +332,7 @@ static void look(drogue_result *result, const drogue_region *region, const drogu
                  const drogue_image *image)
 {
     const int lost = track->state == DROGUE_LOST;
-    memset(result, 0, sizeof *result);
+    drogue_result_clear(result);
     result->status = DROGUE_E_REGION;
     if (region->width_px > 0) {
         (void)drogue_measure(result, workspace, setup, image, region);

@@ -79,13 +79,25 @@ static int new_search(stage_run *r, drogue_search *search, int32_t width_px)
     return block != NULL && drogue_search_init(search, block, bytes, width_px) == DROGUE_OK;
 }
 
+static void put_sightings(int32_t *out, const drogue_sighting *sightings, int32_t count)
+{
+    int32_t i;
+    for (i = 0; i < count; i++) {
+        const drogue_sighting *c = &sightings[i];
+        out[0] = c->x_px;
+        out[1] = c->y_px;
+        out[2] = c->radius_px;
+        out[3] = (int32_t)c->score;
+        out = put_region(out + 4, &c->region);
+    }
+}
+
 int stage_search(stage_run *r)
 {
     const drogue_image image = stage_input_image(r);
-    int32_t *out = stage_output32(r, "sightings", 2 + 8 * DROGUE_SEARCH_MAX);
+    int32_t *out = stage_output32(r, "sightings", 4 + 8 * (DROGUE_SEARCH_MAX + DROGUE_SEARCH_DARK));
     drogue_search search;
     int32_t y;
-    int32_t i;
     if (out == NULL || !new_search(r, &search, image.width_px)) {
         return CONF_E_MEMORY;
     }
@@ -98,15 +110,10 @@ int stage_search(stage_run *r)
         return 0;
     }
     out[1] = drogue_search_end(&search);
-    out += 2;
-    for (i = 0; i < search.count; i++) {
-        const drogue_sighting *c = &search.best[i];
-        out[0] = c->x_px;
-        out[1] = c->y_px;
-        out[2] = c->radius_px;
-        out[3] = (int32_t)c->score;
-        out = put_region(out + 4, &c->region);
-    }
+    out[2] = search.dark_count;
+    out[3] = search.darkest;
+    put_sightings(out + 4, search.best, search.count);
+    put_sightings(out + 4 + 8 * DROGUE_SEARCH_MAX, search.dark, search.dark_count);
     return 0;
 }
 

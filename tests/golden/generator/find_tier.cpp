@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drogue/search.h"
 #include "frame_words.hpp"
 #include "search.hpp"
 
@@ -60,12 +61,18 @@ Tiers search_tier(const Arrays &in, const Arrays &exact)
         return {{like(exact[0], words), {}}};
     }
     const auto found = mirror::sightings_in(image_of(in[0]), as_int(least));
-    words[1] = static_cast<int64_t>(found.size());
-    for (size_t i = 0; i < found.size(); i++) {
-        const mirror::Sighting &s = found[i];
-        const Words own = {s.x, s.y, s.radius, s.score, s.region.x, s.region.y, s.region.width, s.region.height};
-        std::copy(own.begin(), own.end(), words.begin() + 2 + 8 * static_cast<long>(i));
-    }
+    words[1] = static_cast<int64_t>(found.best.size());
+    words[2] = static_cast<int64_t>(found.dark.size());
+    words[3] = found.darkest;
+    const auto put = [&](const std::vector<mirror::Sighting> &sightings, long at) {
+        for (const mirror::Sighting &s : sightings) {
+            const Words own = {s.x, s.y, s.radius, s.score, s.region.x, s.region.y, s.region.width, s.region.height};
+            std::copy(own.begin(), own.end(), words.begin() + at);
+            at += 8;
+        }
+    };
+    put(found.best, 4);
+    put(found.dark, 4 + 8 * DROGUE_SEARCH_MAX);
     return {{like(exact[0], words), {}}};
 }
 
@@ -169,7 +176,7 @@ namespace {
 /* What drogue_acquire() weighs in a measurement, by drogue/search.h. */
 class Weighed {
 public:
-    Weighed(const mirror::Result &r, const reference::Model &m)
+    Weighed(const mirror::Result &r, const reference::Model &m, int darkest)
         : ok_(r.status == DROGUE_OK), has_inner_(r.has_inner), cover_(r.outline.cover),
           resolved_(r.resolved && r.doubt < 1 / 64.0L), model_(m)
     {
@@ -180,7 +187,9 @@ public:
             expected_ = std::sqrt(r.seen.a * r.seen.b) * m.inner_radius / m.rim_radius * z / end;
             off_ = std::fabs(std::sqrt(std::floor(r.area + 0.5L) / std::acos(Real(-1))) - expected_);
             sharp_ = r.part.rms <= 0.3L;
-            dark_ = 4 * r.part.contrast >= r.part.level && r.doubt <= 1 / 8.0L;
+            dark_ = 4 * r.part.contrast >= r.part.level;
+            hazy_ = !dark_ && 4 * r.part.contrast >= r.part.level - darkest;
+            agrees_ = r.doubt <= 1 / 8.0L;
         }
     }
     bool sure() const
@@ -190,7 +199,10 @@ public:
         }
         const bool decides = resolved_ && off_ <= 0.3L + expected_ / 25;
         const bool witness = resolved_ && sharp_ && expected_ >= 5 && off_ <= 0.2L + expected_ / 64;
-        return seen_ && dark_ &&
+        if (seen_ && agrees_ && hazy_) {
+            return decides && expected_ >= 5 && cover_ >= 0.9L;
+        }
+        return seen_ && agrees_ && dark_ &&
                (witness   ? cover_ >= 0.5L
                 : decides ? cover_ >= (sharp_ ? 0.6L : 0.9L)
                           : sharp_ && cover_ >= 0.75L && off_ <= 0.6L + expected_ / 10);
@@ -219,7 +231,8 @@ private:
                          : (resolved_ ? 5 : 3) + cover_ - std::min<Real>(off_ / expected_, 1);
     }
 
-    bool ok_, has_inner_, reliable_ = false, seen_ = false, sharp_ = false, dark_ = false;
+    bool ok_, has_inner_, reliable_ = false, seen_ = false, sharp_ = false, dark_ = false, hazy_ = false,
+                          agrees_ = false;
     Real cover_;
     bool resolved_;
     reference::Model model_;
@@ -264,7 +277,8 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
     };
     std::vector<FrameWords> tried;
     const reference::Model model = {real(in[2].words[0]), real(in[2].words[1]), real(in[2].words[2])};
-    const auto weigh = [&](const FrameWords &f) { return Weighed(f.result, model); };
+    const mirror::Sightings found = mirror::sightings_in(image(part), as_int(p[7]));
+    const auto weigh = [&](const FrameWords &f) { return Weighed(f.result, model, found.darkest); };
     Real most = 0;
     size_t best = 0;
     const auto attempt = [&](const std::array<int64_t, 4> &region) {
@@ -285,10 +299,12 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
         best = tried.size() - 1;
         return w.settles();
     };
-    const std::vector<mirror::Sighting> sightings = mirror::sightings_in(image(part), as_int(p[7]));
+    const auto about = [&](const cv::Rect &r) {
+        return std::array<int64_t, 4>{r.x + left, r.y + top, r.width, r.height};
+    };
     std::vector<mirror::Sighting> measured_ones;
     bool settled = false;
-    for (const mirror::Sighting &s : sightings) {
+    for (const mirror::Sighting &s : found.best) {
         if (settled && model.inner_radius <= 0) {
             break;
         }
@@ -301,13 +317,16 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
             }
         }
         measured_ones.push_back(s);
-        settled = attempt({s.region.x + left, s.region.y + top, s.region.width, s.region.height}) || settled;
+        settled = attempt(about(s.region)) || settled;
     }
-    for (size_t i = 0; i < 2 && i < sightings.size() && most <= 2 && model.inner_radius > 0; i++) {
-        const auto &r = sightings[i].region;
-        const std::array<int64_t, 4> wide = {r.x + left - r.width / 8, r.y + top - r.height / 8, r.width + r.width / 4,
-                                             r.height + r.height / 4};
-        (void)attempt(wide);
+    for (size_t i = 0; i < found.dark.size() && most <= 2 && model.inner_radius > 0; i++) {
+        const mirror::Sighting &s = found.dark[i]; /* the disc's radius as the rim's */
+        const Real radius = std::floor((s.radius + 0.5L) * model.rim_radius / model.inner_radius + 0.5L);
+        (void)attempt(about(mirror::frame_of(s.x, s.y, static_cast<int>(std::min<Real>(radius, DROGUE_MAX_SIDE)))));
+    }
+    for (size_t i = 0; i < 2 && i < found.best.size() && most <= 2 && model.inner_radius > 0; i++) {
+        const cv::Rect &r = found.best[i].region;
+        (void)attempt(about({r.x - r.width / 8, r.y - r.height / 8, r.width + r.width / 4, r.height + r.height / 4}));
     }
     if (most <= 2 && (model.inner_radius <= 0 || std::max(part.width, part.height) <= 512)) {
         (void)attempt(asked);
@@ -315,7 +334,13 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
     if (tried.empty()) {
         return refused(DROGUE_E_NO_INNER_PART);
     }
-    const FrameWords &f = tried[most > 0 ? best : tried.size() - 1];
+    if (most <= 0) {
+        return refused(static_cast<drogue_status>(
+            std::max_element(tried.begin(), tried.end(), [](const FrameWords &a, const FrameWords &b) {
+                return a.result.status < b.result.status;
+            })->result.status));
+    }
+    const FrameWords &f = tried[best];
     words[0] = f.result.status;
     if (f.result.status == DROGUE_OK && !weigh(f).sure()) {
         words[0] = DROGUE_E_UNSURE;

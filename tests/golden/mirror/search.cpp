@@ -238,11 +238,11 @@ private:
 bool same_outline(const Sighting &a, const Sighting &b)
 {
     const int larger = std::max(a.radius, b.radius), smaller = std::min(a.radius, b.radius);
-    return larger * 5 <= smaller * 6 && 2 * std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) < larger;
+    return larger * 5 <= smaller * 6 + 5 && 2 * std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) < larger;
 }
 
 /* The best so far; of the same outline the better. */
-void keep(std::vector<Sighting> &best, const Sighting &s)
+void keep(std::vector<Sighting> &best, size_t most, const Sighting &s)
 {
     for (size_t i = best.size(); i-- > 0;) {
         if (same_outline(best[i], s)) {
@@ -253,7 +253,7 @@ void keep(std::vector<Sighting> &best, const Sighting &s)
             best.pop_back();
         }
     }
-    if (best.size() < DROGUE_SEARCH_MAX) {
+    if (best.size() < most) {
         best.push_back(s);
         return;
     }
@@ -266,14 +266,61 @@ Sighting sighting_of(const Rim &rim, const DarkDisc &d, int cell_px)
 {
     const auto pixels = [cell_px](int q4) { return cvFloor(q4 * cell_px / 16.0); };
     Sighting s = {pixels(16 * d.x + 8 + rim.x), pixels(16 * d.y + 8 + rim.y), pixels(rim.radius), rim.score, {}};
-    const int side = std::min(cvFloor((s.radius + (s.radius < 10)) * 21 / 8.0), DROGUE_MAX_SIDE);
-    s.region = {s.x - side / 2, s.y - side / 2, side, side};
+    s.region = frame_of(s.x, s.y, s.radius);
     return s;
+}
+
+/* By exchange: the order of equals is the library's. */
+void sort(std::vector<Sighting> &best)
+{
+    for (size_t i = 0; i < best.size(); i++) {
+        for (size_t k = i + 1; k < best.size(); k++) {
+            if (best[k].score > best[i].score) {
+                std::swap(best[i], best[k]);
+            }
+        }
+    }
+}
+
+/* The disc by itself: where grey is half way up on each ray, of twelve rays that end together the median. */
+Rim disc_itself(const cv::Mat &cells, const DarkDisc &disc)
+{
+    const int centre = cells.at<uint8_t>(disc.y, disc.x), half = centre + 1 + disc.contrast / 2;
+    std::vector<int> ends;
+    for (int i = 0; i < RAYS; i++) {
+        const double angle = i * CV_PI / 8;
+        const int dx = cvRound(256 * std::cos(angle)), dy = cvRound(256 * std::sin(angle));
+        int before = centre;
+        for (int t = 1; 8 * t <= disc.ring_q4; t++) {
+            const cv::Point p(disc.x + cvFloor((dx * t + 128) / 256.0), disc.y + cvFloor((dy * t + 128) / 256.0));
+            if (!p.inside({0, 0, cells.cols, cells.rows})) {
+                break;
+            }
+            const int here = cells.at<uint8_t>(p);
+            if (here >= half) {
+                ends.push_back(16 * t - cvFloor(16.0 * (here - half) / (here - before)));
+                break;
+            }
+            before = here;
+        }
+    }
+    std::sort(ends.begin(), ends.end());
+    const int median = ends.empty() ? 0 : ends[ends.size() / 2];
+    const auto together =
+        std::count_if(ends.begin(), ends.end(), [median](int r) { return std::abs(r - median) <= median / 4.0 + 4; });
+    const int share = cvFloor(256.0 * disc.contrast / (centre + disc.contrast + 8));
+    return {0, 0, median, together < 12 ? 0 : share * together * together};
 }
 
 } // namespace
 
-std::vector<Sighting> sightings_in(const cv::Mat &image, int min_contrast)
+cv::Rect frame_of(int x, int y, int radius)
+{
+    const int side = std::min(cvFloor((radius + (radius < 10)) * 21 / 8.0), DROGUE_MAX_SIDE);
+    return {x - side / 2, y - side / 2, side, side};
+}
+
+Sightings sightings_in(const cv::Mat &image, int min_contrast)
 {
     std::vector<cv::Mat> levels;
     std::vector<std::tuple<int64_t, int, int>> rows; /* when a level's row is looked at: image row, level, row */
@@ -296,7 +343,12 @@ std::vector<Sighting> sightings_in(const cv::Mat &image, int min_contrast)
     }
     std::sort(rows.begin(), rows.end());
     std::array<Waiting, DROGUE_SEARCH_LEVELS> waiting;
-    std::vector<Sighting> best;
+    Sightings found = {{}, {}, 255};
+    if (!levels[1].empty()) {
+        double darkest = 0;
+        cv::minMaxLoc(levels[1], &darkest);
+        found.darkest = static_cast<int>(darkest);
+    }
     for (const auto &[when, k, y] : rows) {
         const cv::Mat &m = levels[static_cast<size_t>(k)];
         Waiting &w = waiting[static_cast<size_t>(k)];
@@ -312,19 +364,18 @@ std::vector<Sighting> sightings_in(const cv::Mat &image, int min_contrast)
             }
         }
         for (const DarkDisc &d : w.above(y == INT32_MAX ? INT32_MAX : y - 5)) {
+            const Rim itself = disc_itself(m, d);
+            if (itself.score > 0) {
+                keep(found.dark, DROGUE_SEARCH_DARK, sighting_of(itself, d, 2 << k));
+            }
             for (const Rim &rim : rims_about(m, d)) {
-                keep(best, sighting_of(rim, d, 2 << k));
+                keep(found.best, DROGUE_SEARCH_MAX, sighting_of(rim, d, 2 << k));
             }
         }
     }
-    for (size_t i = 0; i < best.size(); i++) { /* by exchange: the order of equals is the library's */
-        for (size_t k = i + 1; k < best.size(); k++) {
-            if (best[k].score > best[i].score) {
-                std::swap(best[i], best[k]);
-            }
-        }
-    }
-    return best;
+    sort(found.best);
+    sort(found.dark);
+    return found;
 }
 
 } // namespace mirror

@@ -27,7 +27,14 @@ struct Sighting {
     cv::Rect region;
 };
 
-/* By falling score. */
-std::vector<Sighting> sightings_in(const cv::Mat &image, int min_contrast);
+struct Sightings {
+    std::vector<Sighting> best, dark; /* by falling score */
+    int darkest;                      /* grey of the darkest cell of 4 px */
+};
+
+Sightings sightings_in(const cv::Mat &image, int min_contrast);
+
+/* What is measured about a sighting of a radius. */
+cv::Rect frame_of(int x, int y, int radius);
 
 } // namespace mirror

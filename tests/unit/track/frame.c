@@ -59,10 +59,12 @@ static drogue_track_state frame(drogue_result *result, drogue_track *t)
     static const drogue_image image = {pixels, WIDTH, HEIGHT, WIDTH};
     drogue_track next = *t;
     drogue_region region;
+    drogue_config config;
+    drogue_config_default(&config);
     drogue_track_begin(&predicted, &next, DT_US);
     calls = 0;
     ck_assert_int_eq(drogue_search_init(&search, memory, sizeof memory, WIDTH), DROGUE_OK);
-    return drogue_track_frame(result, &region, t, &workspace, &search, NULL, &image, DT_US);
+    return drogue_track_frame(result, &region, t, &workspace, &search, &config, &image, DT_US);
 }
 
 /* A track that has missed the drogue until it may be beside its predicted region. */
