@@ -154,11 +154,6 @@ static int first_look(const frame *f, const conf_case *c)
            region[2] == f->region.width_px && region[3] == f->region.height_px;
 }
 
-static int table_full(drogue_status front)
-{
-    return front == DROGUE_E_EDGES_FULL || front == DROGUE_E_LABELS_FULL || front == DROGUE_E_ARCS_FULL;
-}
-
 /* An outline without an inner part may be refused for a disc elsewhere, after the pose: by the library alone. */
 static int refused_after(const frame *f, const conf_case *c)
 {
@@ -172,7 +167,7 @@ static int judge(bench *b, const frame *f, const conf_case *c)
     int32_t words[38];
     int32_t detail[18];
     const int refused = f->result.status == DROGUE_E_ARGUMENT;
-    if (table_full(f->front) || (!refused && !first_look(f, c)) || refused_after(f, c)) {
+    if (drogue_status_full(f->front) || (!refused && !first_look(f, c)) || refused_after(f, c)) {
         return 0;
     }
     frame_words(words, f);
