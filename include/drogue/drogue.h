@@ -96,8 +96,8 @@ typedef char drogue_assume_result_fits[sizeof(drogue_result) + 4 <= DROGUE_KEPT_
  *             in a square region of its own, at most 5/2 of its semi-major axis a side: of an outline that fits into
  *             the region asked for, 5/4 of its longest side, of one as large as the default max_size takes, 15/8. A
  *             workspace for that width holds every second look; a smaller one keeps the first, and second_look says
- *             so. A region about a disc (DROGUE_TRIED_DISC) is as large as the outline that the disc allows asks for; with the
- *             lens and model of a real camera no larger
+ *             so. A region about a disc (DROGUE_TRIED_DISC) is as large as the outline that the disc allows asks for;
+ *             with the lens and model of a real camera no larger
  *  setup      camera, model, thresholds, each within its range; the model's inner_radius 0: inner part unknown, both
  *             poses are given and the orientation stays unresolved
  *  image      the caller's; not written
