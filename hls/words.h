@@ -154,10 +154,10 @@ static inline void drogue_hls_pack_edge_words(int32_t words[DROGUE_HLS_EDGE_WORD
     words[DROGUE_HLS_E_Y] = e->y_px_q16;
     words[DROGUE_HLS_E_GROWN] = e->grown_px_q16;
     words[DROGUE_HLS_E_STD] = e->std_px_q16;
-    words[DROGUE_HLS_E_RMS] = e->rms_px_q16;
+    words[DROGUE_HLS_E_RMS] = e->spread_px_q16;
     words[DROGUE_HLS_E_RAYS] = (int32_t)e->rays;
     words[DROGUE_HLS_E_WHICH] = (int32_t)e->which;
-    words[DROGUE_HLS_E_LEVEL] = e->level;
+    words[DROGUE_HLS_E_LEVEL] = e->threshold;
     words[DROGUE_HLS_E_CONTRAST] = e->contrast;
 }
 
@@ -167,10 +167,10 @@ static inline void drogue_hls_unpack_edge_words(drogue_inner_edge *e, const int3
     e->y_px_q16 = words[DROGUE_HLS_E_Y];
     e->grown_px_q16 = words[DROGUE_HLS_E_GROWN];
     e->std_px_q16 = words[DROGUE_HLS_E_STD];
-    e->rms_px_q16 = words[DROGUE_HLS_E_RMS];
+    e->spread_px_q16 = words[DROGUE_HLS_E_RMS];
     e->rays = (uint32_t)words[DROGUE_HLS_E_RAYS];
     e->which = (uint32_t)words[DROGUE_HLS_E_WHICH] & 1u;
-    e->level = (uint8_t)words[DROGUE_HLS_E_LEVEL];
+    e->threshold = (uint8_t)words[DROGUE_HLS_E_LEVEL];
     e->contrast = (uint8_t)words[DROGUE_HLS_E_CONTRAST];
 }
 

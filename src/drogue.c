@@ -16,70 +16,114 @@ const char *drogue_version(void)
     return VERSION_TEXT(DROGUE_VERSION_MAJOR, DROGUE_VERSION_MINOR, DROGUE_VERSION_PATCH);
 }
 
-/* What may be tried: the configured thresholds of Canny or those of the region's own noise, and of either the outline
- * found or a larger one about it; then, where the disc is far off its size or there is none, DISC, one about a disc
- * that is seen without an outline; at last, where the disc is too large for the best of them, BEYOND, one along rays.
- */
-enum { FIRST, FIRST_LARGER, OWN, OWN_LARGER, BEYOND, DISC };
+/* Of what was measured only the region used stays. */
+static void forget(drogue_result *out)
+{
+    const drogue_region used = out->region;
+    drogue_result_clear(out);
+    out->region = used;
+}
 
-#define RAISES 2     /* at most, of thresholds of the noise that fill a table */
-#define LARGEST 1530 /* L1 Sobel magnitude that there is: a corner's */
+#define RAISES 2       /* at most, of thresholds of the noise that fill a table */
+#define ANOTHER_SIZE 8 /* a semi-axis further off than this part of it is of another rim */
+#define ONE_SIZE 16    /* one no further off than this part of it is of another edge of the same rim */
+#define LESS_EIGHTHS 7 /* of the best outline's cover: of one with less than so many of them less shows */
 
+#define SURE_Q16 DROGUE_Q16(1, 256)    /* of less doubt nothing else is tried */
+#define LEAST_Q16 DROGUE_Q16(2, 100)   /* by less the disc is too large for no other outline along rays */
+#define BEYOND_Q16 DROGUE_Q16(15, 100) /* by more than this it is too large for anything beyond the outline */
+#define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
+#define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
+
+/* What the best try so far gave. */
+typedef struct best_try {
+    drogue_q16 least_q16;  /* its doubt; DROGUE_Q16_MAX: it has no outline */
+    drogue_q16 larger_q16; /* as the frame's */
+    drogue_held held;      /* the edges that it is of */
+    drogue_result *result; /* the workspace's, which leaves the stack free */
+} best_try;
+
+static void keep(best_try *best, const drogue_frame *f, drogue_status status)
+{
+    best->least_q16 = f->doubt_q16;
+    best->larger_q16 = f->larger_q16;
+    best->held = f->held;
+    *best->result = *f->out;
+    best->result->status = status;
+    best->result->second_look = f->second_look;
+}
+
+/* Note where a try had too little room: with more another might stand. What was first in want of it is told. */
+static void note_room(drogue_frame *f, drogue_status status)
+{
+    if (f->room != DROGUE_SECOND_NONE) {
+        return;
+    }
+    if (drogue_status_full(status)) {
+        f->room = DROGUE_SECOND_FULL;
+    } else if (f->second_look >= DROGUE_SECOND_TOO_WIDE) {
+        f->room = f->second_look;
+    }
+}
+
+/* A try has ended: it is the best one where its doubt is clearly less, but never without a pose where that has one. */
+static void consider(best_try *best, drogue_frame *f, drogue_status status)
+{
+    note_room(f, status);
+    if (f->doubt_q16 < best->least_q16 - CLEARLY_Q16 && (status == DROGUE_OK || best->result->status != DROGUE_OK)) {
+        keep(best, f, status);
+    }
+}
+
+/* Before anything is tried: nothing is known of the inner disc. */
 static void begin_try(drogue_frame *f)
 {
+    forget(f->out);
     f->doubt_q16 = DROGUE_Q16_MAX;
     f->larger_q16 = 0;
 }
 
-/* What was tried is in the result from here on. */
-static drogue_status judge(drogue_frame *f, int what)
+/* From the outline that was tried to the pose. */
+static drogue_status judge(drogue_frame *f, drogue_tried what)
 {
-    f->out->tried = what;
+    f->out->tried = (int32_t)what;
     return drogue_frame_judge(f);
 }
 
-/* Both thresholds, as far apart as the configured ones. */
-static void set_thresholds(drogue_frame *f, int32_t high)
+/* The outline in a region, by the edges of an upper threshold. */
+static drogue_status try_edges(drogue_frame *f, const drogue_region *region, int32_t high, drogue_tried what)
 {
-    const drogue_config *config = f->setup->config;
-    f->canny_low = config->canny_high > 0 ? (int32_t)((int64_t)high * config->canny_low / config->canny_high) : 0;
-    f->canny_high = high;
-}
-
-static drogue_status try_out(drogue_frame *f, const drogue_region *region, int what, int looked)
-{
-    drogue_status status = DROGUE_OK;
+    drogue_status status;
     begin_try(f);
-    if (!looked) {
-        drogue_result_clear(f->out);
-        status = drogue_frame_outline(f, region);
-    }
-    if (status == DROGUE_OK && (what == FIRST_LARGER || what == OWN_LARGER)) {
-        const drogue_region used = f->out->region;
-        const drogue_edge_list list = f->out->list;
-        drogue_result_clear(f->out);
-        f->out->region = used;
-        f->out->list = list;
-        if (!drogue_outline_enlarge(&f->outline, f->workspace, &f->out->list, &f->mask, f->setup->config)) {
-            return DROGUE_E_NO_ELLIPSE;
-        }
-    }
+    f->canny_high = high;
+    status = drogue_frame_outline(f, region);
     return status == DROGUE_OK ? judge(f, what) : status;
 }
 
-static int is_full(drogue_status status)
+/* A larger outline about the one just found, by the same edges. */
+static drogue_status try_larger(drogue_frame *f, drogue_tried what)
 {
-    return status == DROGUE_E_LABELS_FULL || status == DROGUE_E_EDGES_FULL || status == DROGUE_E_ARCS_FULL;
+    begin_try(f);
+    return drogue_outline_enlarge(&f->outline, f->workspace, &f->held.list, &f->mask, f->setup->config)
+               ? judge(f, what)
+               : DROGUE_E_NO_ELLIPSE;
+}
+
+/* Has the first try an outline, or may other thresholds find one? */
+static int may_try_more(drogue_status status)
+{
+    return status == DROGUE_OK || status == DROGUE_E_NO_ELLIPSE || status == DROGUE_E_NO_EDGES ||
+           status == DROGUE_E_NO_ARCS || drogue_status_full(status);
 }
 
 /* By half; there is no sense in more than the largest magnitude. */
-static int32_t raised(int32_t high) { return high > LARGEST ? INT32_MAX : high + high / 2 + 1; }
+static int32_t raised(int32_t high) { return high > DROGUE_L1_MAX ? INT32_MAX : high + high / 2 + 1; }
 
 /* May it be tried? Lower thresholds than the configured ones, or where these filled a table higher ones. */
 static int is_other(int32_t high, const drogue_frame *f, int full)
 {
     const drogue_config *config = f->setup->config;
-    return config->canny_least < config->canny_high && (full ? high <= LARGEST : high < config->canny_high);
+    return config->canny_least < config->canny_high && (full ? high <= DROGUE_L1_MAX : high < config->canny_high);
 }
 
 /* Upper threshold of the region's own noise. */
@@ -94,95 +138,23 @@ static int32_t own_threshold(const drogue_frame *f, int full)
     return high;
 }
 
-/* Look with other thresholds, raised where they fill a table, which 'room' then says. */
-static drogue_status try_own(drogue_second_look *room, drogue_frame *f, const drogue_region *region, int32_t high,
-                             int full)
+/* The outline by edges above the region's own noise, further above it where they fill a table; and a larger one. */
+static void try_noise(best_try *best, drogue_frame *f, const drogue_region *region)
 {
-    drogue_status status = DROGUE_OK;
+    const int full = drogue_status_full(best->result->status);
+    int32_t high = own_threshold(f, full);
     int k;
     for (k = 0; k <= RAISES && is_other(high, f, full); k++) { /* bound: 3 */
-        set_thresholds(f, high);
-        status = try_out(f, region, OWN, 0);
-        if (!is_full(status)) {
-            return status;
+        const drogue_status status = try_edges(f, region, high, DROGUE_TRIED_NOISE);
+        consider(best, f, status);
+        if (status == DROGUE_OK && best->least_q16 > SURE_Q16) {
+            consider(best, f, try_larger(f, DROGUE_TRIED_NOISE_LARGER));
         }
-        *room = *room == DROGUE_SECOND_NONE ? DROGUE_SECOND_FULL : *room;
+        if (!drogue_status_full(status)) {
+            return;
+        }
         high = raised(high);
     }
-    return status;
-}
-
-#define SURE_Q16 DROGUE_Q16(1, 256)    /* of less doubt nothing else is tried */
-#define LEAST_Q16 DROGUE_Q16(2, 100)   /* by less the disc is too large for no other outline along rays */
-#define BEYOND_Q16 DROGUE_Q16(15, 100) /* by more than this it is too large for anything beyond the outline */
-#define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
-#define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
-
-/* Take back what was measured. */
-static void refuse(drogue_result *out)
-{
-    const drogue_region used = out->region;
-    const drogue_edge_list list = out->list;
-    const int32_t tried = out->tried;
-    drogue_result_clear(out);
-    out->region = used;
-    out->list = list;
-    out->tried = tried;
-}
-
-/* What the best try so far gave. */
-typedef struct best_try {
-    int what;
-    drogue_q16 least_q16; /* its doubt; DROGUE_Q16_MAX: it has no outline */
-    drogue_q16 larger_q16;
-    drogue_region region;  /* where its edges were looked for */
-    drogue_result *result; /* the workspace's, which leaves the stack free */
-} best_try;
-
-static void keep_try(best_try *best, const drogue_frame *f, int what, drogue_status status)
-{
-    best->what = what;
-    best->least_q16 = f->doubt_q16;
-    best->larger_q16 = f->larger_q16;
-    best->region = f->asked;
-    *best->result = *f->out;
-    best->result->status = status;
-    best->result->second_look = f->second_look;
-}
-
-/* What was best stands, and its edges are in the workspace again; where nothing was found they are those of the last
- * try. */
-static void return_to(const best_try *best, drogue_frame *f, const drogue_region *region, int last)
-{
-    const int found = best->result->ellipse.a_px_q16 > 0; /* its arcs are in the list of that outline, pose or not */
-    drogue_edge_list list;
-    if (found && best->what != last && (last >= BEYOND || (best->what < OWN && last >= OWN))) {
-        if (best->what < OWN) {
-            set_thresholds(f, f->setup->config->canny_high);
-        }
-        (void)drogue_frame_edges(f, &best->region);
-    } else if (!found && (f->others || last == DISC)) {
-        (void)drogue_frame_edges(f, region);
-    }
-    list = f->out->list;
-    *f->out = *best->result;
-    f->out->list = list;
-    f->second_look = best->result->second_look;
-}
-
-/* TOO_WIDE or FULL when a try had too little room: with more another might stand. */
-static drogue_second_look short_of_room(const drogue_frame *f, drogue_status status)
-{
-    return is_full(status)                            ? DROGUE_SECOND_FULL
-           : f->second_look >= DROGUE_SECOND_TOO_WIDE ? f->second_look
-                                                      : DROGUE_SECOND_NONE;
-}
-
-/* Is the inner disc too large for the best outline, by no more than one about it explains? */
-static int asks_beyond(const best_try *best)
-{
-    return best->result->status == DROGUE_OK && best->least_q16 > SURE_Q16 && best->larger_q16 > LEAST_Q16 &&
-           best->larger_q16 <= BEYOND_Q16;
 }
 
 /* Is the disc to be looked for without an outline? Where the ring has no edge, too: it may not suit the drogue. */
@@ -198,6 +170,81 @@ static int about_one_size(drogue_q16 a_px_q16, drogue_q16 of_px_q16, int32_t par
     return off <= of_px_q16 / part;
 }
 
+/* Does less show of an outline about the disc than of the best one, about as large? Both are edges of one rim then, and
+ * the disc, which is not too large for it, may be a little off its place. */
+static int shows_less(const drogue_result *about_disc, const best_try *best)
+{
+    return best->result->status == DROGUE_OK && best->larger_q16 == 0 &&
+           about_one_size(about_disc->ellipse.a_px_q16, best->result->ellipse.a_px_q16, ONE_SIZE) &&
+           about_disc->cover_q16 < best->result->cover_q16 / 8 * LESS_EIGHTHS;
+}
+
+/* The disc itself, and an outline about it. That stands, whatever the doubt, where the disc does not contradict it. */
+static void try_disc(best_try *best, drogue_frame *f, const drogue_region *region)
+{
+    drogue_status status;
+    begin_try(f);
+    status = drogue_frame_about_disc(f, region);
+    if (status == DROGUE_OK) {
+        status = judge(f, DROGUE_TRIED_DISC);
+    }
+    note_room(f, status);
+    if (status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < DROGUE_CONTRADICTED_Q16 &&
+        !shows_less(f->out, best)) {
+        keep(best, f, status);
+    }
+}
+
+/* Is the inner disc too large for the best outline, by no more than one about it explains? */
+static int asks_beyond(const best_try *best)
+{
+    return best->result->status == DROGUE_OK && best->least_q16 > SURE_Q16 && best->larger_q16 > LEAST_Q16 &&
+           best->larger_q16 <= BEYOND_Q16;
+}
+
+/* The outline beyond the best one that the inner disc is of the size for, along rays. */
+static void try_beyond(best_try *best, drogue_frame *f)
+{
+    const drogue_result *was = best->result;
+    drogue_status status;
+    if (f->workspace->capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
+        note_room(f, DROGUE_E_EDGES_FULL);
+        return;
+    }
+    begin_try(f);
+    f->second_look = was->second_look;
+    status = drogue_frame_beyond(f, &best->held.region, &was->ellipse, best->larger_q16);
+    if (status == DROGUE_OK) {
+        f->outline.quality = was->quality; /* of the arcs that it was found from */
+        f->outline.cluster_members = was->cluster_members;
+        status = judge(f, DROGUE_TRIED_RAYS);
+    }
+    consider(best, f, status);
+}
+
+static int same_edges(const drogue_held *a, const drogue_held *b)
+{
+    return a->canny_high == b->canny_high && a->region.x_px == b->region.x_px && a->region.y_px == b->region.y_px &&
+           a->region.width_px == b->region.width_px && a->region.height_px == b->region.height_px;
+}
+
+/* What was best stands, and its edges are in the workspace again. Where there is no outline at all they are the region's
+ * by the thresholds tried last. */
+static void return_to(best_try *best, drogue_frame *f, const drogue_region *region)
+{
+    drogue_held *wanted = &best->held;
+    if (best->result->ellipse.a_px_q16 <= 0) { /* an outline without a pose has its arcs in the list, too */
+        *wanted = f->held;
+        wanted->region = *region;
+    }
+    if (!same_edges(wanted, &f->held)) {
+        f->canny_high = wanted->canny_high;
+        (void)drogue_frame_edges(f, &wanted->region);
+    }
+    *f->out = *best->result;
+    f->second_look = best->result->second_look;
+}
+
 /* Is the best outline without a disc, and does one say that it is another edge? One that is seen, but too large for it:
  * then it is an edge within the drogue, the canopy's or its wall's. Or one that was sought, whose rim is of quite
  * another size. */
@@ -207,122 +254,46 @@ static int is_another_edge(const best_try *best, const drogue_frame *f)
         return 0;
     }
     return best->larger_q16 > 0 ||
-           (f->ring_px_q16 > 0 && !about_one_size(best->result->ellipse.a_px_q16, f->ring_px_q16, 8));
-}
-
-/* Does less show of an outline about the disc than of the best one, about as large? Both are edges of one rim then, and
- * the disc, which is not too large for it, may be a little off its place. */
-static int shows_less(const drogue_result *about_disc, const best_try *best)
-{
-    return best->result->status == DROGUE_OK && best->larger_q16 == 0 &&
-           about_one_size(about_disc->ellipse.a_px_q16, best->result->ellipse.a_px_q16, 16) &&
-           about_disc->cover_q16 < best->result->cover_q16 / 8 * 7;
-}
-
-/* Look for the outline that the inner disc is of the size for. */
-static void try_beyond(best_try *best, drogue_frame *f)
-{
-    const drogue_ellipse was = best->result->ellipse;
-    const drogue_region region = best->region;
-    drogue_status status;
-    begin_try(f);
-    drogue_result_clear(f->out);
-    f->second_look = best->result->second_look;
-    status = drogue_frame_beyond(f, &region, &was, best->larger_q16);
-    if (status == DROGUE_OK) {
-        f->outline.quality = best->result->quality; /* of the arcs that it was found from */
-        f->outline.cluster_members = best->result->cluster_members;
-        status = judge(f, BEYOND);
-    }
-    if (status == DROGUE_OK && f->doubt_q16 < best->least_q16 - CLEARLY_Q16) {
-        keep_try(best, f, BEYOND, status);
-    }
-}
-
-/* Look for the disc itself, and for an outline about it. DROGUE_E_NO_INNER_PART: there is none, the edges are as they
- * were. */
-static drogue_status try_disc(best_try *best, drogue_frame *f, const drogue_region *region)
-{
-    drogue_status status;
-    begin_try(f);
-    drogue_result_clear(f->out);
-    status = drogue_frame_about_disc(f, region);
-    if (status == DROGUE_OK) {
-        status = judge(f, DISC);
-        if (status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < DROGUE_CONTRADICTED_Q16 &&
-            !shows_less(f->out, best)) {
-            keep_try(best, f, DISC, status);
-        }
-    }
-    return status;
+           (f->ring_px_q16 > 0 && !about_one_size(best->result->ellipse.a_px_q16, f->ring_px_q16, ANOTHER_SIZE));
 }
 
 /* Measure; while the inner disc is not seen or not of its size, try what else the outline may be. What has the disc
  * nearest to its size stands. */
 static drogue_status measure(drogue_frame *f, const drogue_region *region)
 {
-    drogue_status status = DROGUE_OK;
-    drogue_second_look room = DROGUE_SECOND_NONE;
     best_try best;
-    int last = -1;
-    int what;
-    best.least_q16 = DROGUE_Q16_MAX;
+    drogue_status status = try_edges(f, region, f->setup->config->canny_high, DROGUE_TRIED_FOUND);
+    if (!may_try_more(status)) {
+        return status;
+    }
     best.result = f->workspace->kept;
-    set_thresholds(f, f->setup->config->canny_high);
-    for (what = FIRST; what < BEYOND && best.least_q16 > SURE_Q16; what++) {
-        const int larger = what == FIRST_LARGER || what == OWN_LARGER;
-        if (larger && status != DROGUE_OK) {
-            continue;
-        }
-        if (what == OWN) {
-            const int full = is_full(best.result->status);
-            const int32_t high = own_threshold(f, full);
-            if (!is_other(high, f, full)) {
-                break;
-            }
-            status = try_own(&room, f, region, high, full);
-        } else {
-            status = try_out(f, region, what, larger);
-        }
-        last = what;
-        if (what == FIRST && status != DROGUE_OK && status != DROGUE_E_NO_ELLIPSE && status != DROGUE_E_NO_EDGES &&
-            status != DROGUE_E_NO_ARCS && !is_full(status)) {
-            return status;
-        }
-        if (what == FIRST || (f->doubt_q16 < best.least_q16 - CLEARLY_Q16 &&
-                              (status == DROGUE_OK || best.result->status != DROGUE_OK))) {
-            keep_try(&best, f, what, status);
-        }
-        if (room == DROGUE_SECOND_NONE) {
-            room = short_of_room(f, status);
-        }
+    keep(&best, f, status);
+    note_room(f, status);
+    if (status == DROGUE_OK && best.least_q16 > SURE_Q16) {
+        consider(&best, f, try_larger(f, DROGUE_TRIED_LARGER));
+    }
+    if (best.least_q16 > SURE_Q16) {
+        try_noise(&best, f, region);
     }
     if (asks_disc(&best, f)) {
-        const drogue_edge_list list = f->out->list;
-        status = try_disc(&best, f, region);
-        if (status == DROGUE_E_NO_INNER_PART) {
-            f->out->list = list;
-        } else {
-            last = DISC;
-            room = room == DROGUE_SECOND_NONE ? short_of_room(f, status) : room;
-        }
+        try_disc(&best, f, region);
     }
-    if (asks_beyond(&best) && f->workspace->capacity.edges >= DROGUE_INNER_BEYOND_POINTS) {
+    if (asks_beyond(&best)) {
         try_beyond(&best, f);
-        last = BEYOND;
-    } else if (asks_beyond(&best) && room == DROGUE_SECOND_NONE) {
-        room = DROGUE_SECOND_FULL;
     }
-    return_to(&best, f, region, last);
+    return_to(&best, f, region);
+    status = best.result->status;
     if (is_another_edge(&best, f)) {
-        refuse(f->out);
-        best.result->status = DROGUE_E_NO_ELLIPSE;
+        const int32_t tried = f->out->tried;
+        forget(f->out);
+        f->out->tried = tried;
+        status = DROGUE_E_NO_ELLIPSE;
     }
-    if (room != DROGUE_SECOND_NONE) {
-        const int whole = best.result->status == DROGUE_OK && f->second_look <= DROGUE_SECOND_BETTER;
-        f->second_look = whole ? DROGUE_SECOND_ROOM : room;
+    if (f->room != DROGUE_SECOND_NONE) {
+        const int whole = status == DROGUE_OK && f->second_look <= DROGUE_SECOND_BETTER;
+        f->second_look = whole ? DROGUE_SECOND_ROOM : f->room;
     }
-    return best.result->status;
+    return status;
 }
 
 drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
@@ -337,5 +308,6 @@ drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, co
     f.image = image;
     out->status = drogue_input_valid(image, setup) ? measure(&f, region) : DROGUE_E_ARGUMENT;
     out->second_look = f.second_look;
+    out->list = f.held.list;
     return out->status;
 }

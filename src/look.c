@@ -7,6 +7,10 @@
 #include "drogue/frontend.h"
 #include "drogue/inner.h"
 
+/* Parts of a semi-axis within which one ellipse is the other. */
+#define SAME_AGAIN 3  /* of a second look: the first one's arcs were cut, and tell its size roughly */
+#define AS_ALLOWED 16 /* of a disc's outline: the guess that was settled is good to some per cent */
+
 /* Clip the region to the image; the mask stays that of the region asked for, in the clipped one's coordinates. */
 static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, const drogue_image *image,
                                   const drogue_region *region)
@@ -30,34 +34,35 @@ static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, con
     return DROGUE_OK;
 }
 
-static drogue_status run_frontend(drogue_edge_list *list, drogue_workspace *workspace, const drogue_config *config,
-                                  int32_t canny_low, int32_t canny_high, const drogue_image *view,
-                                  const drogue_mask *mask)
+static drogue_status run_frontend(drogue_frame *f)
 {
+    const drogue_config *config = f->setup->config;
+    const drogue_image *view = &f->view;
     drogue_frontend_config front;
     drogue_frontend frontend;
     drogue_status status;
     int32_t y;
-    front.canny_low = canny_low;
-    front.canny_high = canny_high;
+    front.canny_high = f->canny_high;
+    front.canny_low =
+        config->canny_high > 0 ? (int32_t)((int64_t)f->canny_high * config->canny_low / config->canny_high) : 0;
     front.smooth = config->smooth;
     front.use_ring = 1;
-    front.ring = *mask;
-    front.min_arc_px = (uint32_t)drogue_shr_round_s64((int64_t)config->min_arc_share_q16 * mask->longest_px, 16);
+    front.ring = f->mask;
+    front.min_arc_px = (uint32_t)drogue_shr_round_s64((int64_t)config->min_arc_share_q16 * f->mask.longest_px, 16);
     if (front.min_arc_px < config->min_arc_px) {
         front.min_arc_px = config->min_arc_px;
     }
-    status = drogue_frontend_begin(&frontend, workspace, &front, view->width_px, view->height_px);
+    status = drogue_frontend_begin(&frontend, f->workspace, &front, view->width_px, view->height_px);
     if (status != DROGUE_OK) {
         return status;
     }
     for (y = 0; y < view->height_px; y++) {
         drogue_frontend_row(&frontend, drogue_image_row(view, y));
     }
-    return drogue_frontend_end(list, &frontend);
+    return drogue_frontend_end(&f->held.list, &frontend);
 }
 
-/* Does the ring mask hold the whole outline? */
+/* Does the ring mask, from a third to half of the longest side, hold the whole outline with a pixel to spare? */
 static int ring_holds(const drogue_ellipse *e, const drogue_mask *mask)
 {
     const drogue_q16 dx = drogue_sat_s32((int64_t)e->xc_px_q16 - (int64_t)mask->centre2_x * (DROGUE_Q16_ONE / 2));
@@ -97,18 +102,19 @@ static drogue_status place_view(drogue_frame *f, const drogue_region *region)
 drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region)
 {
     const drogue_status status = place_view(f, region);
-    f->asked = *region;
-    f->others = 0;
-    return status == DROGUE_OK ? run_frontend(&f->out->list, f->workspace, f->setup->config, f->canny_low,
-                                              f->canny_high, &f->view, &f->mask)
-                               : status;
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    f->held.region = *region;
+    f->held.canny_high = f->canny_high;
+    return run_frontend(f);
 }
 
 static drogue_status find_outline(drogue_frame *f, const drogue_region *region)
 {
     const drogue_status status = drogue_frame_edges(f, region);
     return status == DROGUE_OK
-               ? drogue_outline_find(&f->outline, f->workspace, &f->out->list, &f->mask, f->setup->config)
+               ? drogue_outline_find(&f->outline, f->workspace, &f->held.list, &f->mask, f->setup->config)
                : status;
 }
 
@@ -129,20 +135,19 @@ static drogue_second_look look_again(drogue_frame *f, const drogue_outline *was)
     const int32_t x_px = f->out->region.x_px;
     const int32_t y_px = f->out->region.y_px;
     const drogue_region better = region_about(&was->ellipse, &f->out->region);
+    drogue_status status;
     if (!drogue_workspace_spans(f->workspace, &better, f->image)) {
         return DROGUE_SECOND_TOO_WIDE;
     }
-    switch (find_outline(f, &better)) {
-    case DROGUE_OK: break;
-    case DROGUE_E_LABELS_FULL:
-    case DROGUE_E_EDGES_FULL:
-    case DROGUE_E_ARCS_FULL: return DROGUE_SECOND_FULL;
-    case DROGUE_E_REGION: return DROGUE_SECOND_REGION;
-    default: return DROGUE_SECOND_NO_MORE;
+    status = find_outline(f, &better);
+    if (status != DROGUE_OK) {
+        return drogue_status_full(status)  ? DROGUE_SECOND_FULL
+               : status == DROGUE_E_REGION ? DROGUE_SECOND_REGION
+                                           : DROGUE_SECOND_NO_MORE;
     }
     return f->outline.cover_q16 >= was->cover_q16 &&
                    about_the_same(&f->outline.ellipse, &was->ellipse, f->out->region.x_px - x_px,
-                                  f->out->region.y_px - y_px, 3)
+                                  f->out->region.y_px - y_px, SAME_AGAIN)
                ? DROGUE_SECOND_BETTER
                : DROGUE_SECOND_NO_MORE;
 }
@@ -168,7 +173,6 @@ drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region)
     if (first == DROGUE_OK) {
         return drogue_frame_edges(f, region);
     }
-    f->others = 1;
     (void)place_view(f, region);
     return first;
 }
@@ -185,20 +189,21 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
                                   drogue_q16 larger_q16)
 {
     drogue_outline *outline = &f->outline;
-    drogue_result *out = f->out;
+    drogue_held *held = &f->held;
     const drogue_q16 by_px_q16 = drogue_q16_mul(was->a_px_q16, larger_q16);
     drogue_ellipse about;
     (void)place_view(f, region); /* where the outline was found */
-    f->asked = *region;
-    f->others = 0;
     drogue_outline_clear(outline);
-    about = moved(was, -out->region.x_px, -out->region.y_px);
+    about = moved(was, -f->out->region.x_px, -f->out->region.y_px);
     outline->fitted = about;
     about.a_px_q16 = drogue_q16_add(about.a_px_q16, by_px_q16);
     about.b_px_q16 = drogue_q16_add(about.b_px_q16, by_px_q16);
-    out->list.edge_count = drogue_inner_beyond(f->workspace, &f->view, &about, by_px_q16);
-    return out->list.edge_count > 0 &&
-                   drogue_outline_enlarge(outline, f->workspace, &out->list, &f->mask, f->setup->config)
+    held->region = *region;
+    held->canny_high = DROGUE_BY_RAYS;
+    held->list.arc_count = 0;
+    held->list.edge_count = drogue_inner_beyond(f->workspace, &f->view, &about, by_px_q16);
+    return held->list.edge_count > 0 &&
+                   drogue_outline_enlarge(outline, f->workspace, &held->list, &f->mask, f->setup->config)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;
 }
@@ -220,7 +225,7 @@ static void best_ring(drogue_ellipse *best, drogue_q16 *most_q16, const drogue_f
             drogue_inner_rims(&rims, sight, yaw, pitch, f->setup, f->out->region.x_px, f->out->region.y_px);
             for (i = 0; i < rims.count; i++) {
                 const drogue_q16 cover =
-                    drogue_outline_covered(&rims.disc[i], f->workspace, &f->out->list, &f->mask, f->setup->config);
+                    drogue_outline_covered(&rims.disc[i], f->workspace, &f->held.list, &f->mask, f->setup->config);
                 if (cover > *most_q16) {
                     *most_q16 = cover;
                     *best = rims.disc[i];
@@ -230,11 +235,12 @@ static void best_ring(drogue_ellipse *best, drogue_q16 *most_q16, const drogue_f
     }
 }
 
-/* Is the ring mask made for an outline of that size: has it a twentieth to spare to either side? */
+/* Is the ring mask, from a third to half of the longest side, made for an outline of that size: has it a twentieth of
+ * the semi-axes to spare to either side? */
 static int of_size(const drogue_ellipse *e, const drogue_mask *mask)
 {
-    const int64_t longest = (int64_t)mask->longest_px * DROGUE_Q16_ONE;
-    return 21 * (int64_t)e->a_px_q16 <= 10 * longest && 57 * (int64_t)e->b_px_q16 >= 20 * longest;
+    const int64_t longest = 20 * (int64_t)mask->longest_px * DROGUE_Q16_ONE;
+    return 2 * (20 + 1) * (int64_t)e->a_px_q16 <= longest && 3 * (20 - 1) * (int64_t)e->b_px_q16 >= longest;
 }
 
 drogue_status drogue_frame_ring(drogue_ellipse *ring, drogue_frame *f, const drogue_region *region)
@@ -283,8 +289,8 @@ drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *regi
         return status;
     }
     f->ring_px_q16 = ring.a_px_q16;
-    return drogue_outline_settle(&f->outline, &ring, f->workspace, &f->out->list, &f->mask, f->setup->config) &&
-                   about_the_same(&f->outline.ellipse, &ring, 0, 0, 16)
+    return drogue_outline_settle(&f->outline, &ring, f->workspace, &f->held.list, &f->mask, f->setup->config) &&
+                   about_the_same(&f->outline.ellipse, &ring, 0, 0, AS_ALLOWED)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;
 }

@@ -6,6 +6,15 @@
 #include "drogue/drogue.h"
 #include "drogue/outline.h"
 
+#define DROGUE_BY_RAYS (-1) /* in place of a threshold */
+
+/* What the workspace's edge points are: whoever wants others looks for them again. */
+typedef struct drogue_held {
+    drogue_edge_list list; /* how many */
+    drogue_region region;  /* where they were looked for */
+    int32_t canny_high;    /* by which upper threshold, or DROGUE_BY_RAYS */
+} drogue_held;
+
 typedef struct drogue_frame {
     drogue_result *out;
     drogue_workspace *workspace;
@@ -14,19 +23,18 @@ typedef struct drogue_frame {
     drogue_image view; /* the region's pixels */
     drogue_mask mask;
     drogue_outline outline;
+    drogue_held held;
     drogue_second_look second_look;
-    uint8_t others; /* 1: the workspace holds edges of another region than the view */
-    int32_t canny_low;
-    int32_t canny_high;
-    drogue_region asked;    /* where edges were looked for last */
-    drogue_q16 larger_q16;  /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
-    drogue_q16 ring_px_q16; /* semi-axis of the outline that a disc allows which was sought; 0: there is none */
-    drogue_q16 doubt_q16;   /* in the inner disc's size, as in drogue_inner_evidence, a little more where disc and
-                              outline contradict each other; 1: not seen, or too large for the outline; more: no
-                              outline */
+    drogue_second_look room; /* TOO_WIDE or FULL: what a try had too little room in; else NONE */
+    int32_t canny_high;      /* to look by; the lower threshold is in proportion, as the configured ones are */
+    drogue_q16 larger_q16;   /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
+    drogue_q16 ring_px_q16;  /* semi-axis of the outline that a disc allows which was sought; 0: there is none */
+    drogue_q16 doubt_q16;    /* in the inner disc's size, as in drogue_inner_evidence, a little more where disc and
+                               outline contradict each other; 1: not seen, or too large for the outline; more: no
+                               outline */
 } drogue_frame;
 
-/* Find the edges of a region with the frame's thresholds; the view becomes the region's pixels. */
+/* Find the edges of a region by the frame's thresholds; the view becomes the region's pixels. */
 drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region);
 
 /* An outline that the ring mask cuts is looked for once more; unless that is better, what was found first stands, and

@@ -28,7 +28,10 @@ static drogue_status checked(const uint32_t refused[7])
                                                              : DROGUE_OK;
 }
 
-static uint16_t threshold(int32_t magnitude) { return (uint16_t)(magnitude < 2040 ? magnitude : 2040); }
+static uint16_t threshold(int32_t magnitude)
+{
+    return (uint16_t)(magnitude < DROGUE_L1_MAX ? magnitude : DROGUE_L1_MAX);
+}
 
 /* A centre of a mask that is valid takes 18 bits. */
 static int32_t narrow(int32_t centre2) { return (int32_t)((uint32_t)centre2 << 14) >> 14; }

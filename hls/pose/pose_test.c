@@ -150,13 +150,8 @@ static void detail_words(int32_t words[18], const frame *f)
 static int first_look(const frame *f, const conf_case *c)
 {
     const int32_t *region = bench_words32(bench_expected(c, "detail"));
-    return frame_tried(f) <= 0 && region[0] == f->region.x_px && region[1] == f->region.y_px &&
+    return frame_tried(f) <= DROGUE_TRIED_FOUND && region[0] == f->region.x_px && region[1] == f->region.y_px &&
            region[2] == f->region.width_px && region[3] == f->region.height_px;
-}
-
-static int table_full(drogue_status front)
-{
-    return front == DROGUE_E_EDGES_FULL || front == DROGUE_E_LABELS_FULL || front == DROGUE_E_ARCS_FULL;
 }
 
 /* An outline without an inner part may be refused for a disc elsewhere, after the pose: by the library alone. */
@@ -172,7 +167,7 @@ static int judge(bench *b, const frame *f, const conf_case *c)
     int32_t words[38];
     int32_t detail[18];
     const int refused = f->result.status == DROGUE_E_ARGUMENT;
-    if (table_full(f->front) || (!refused && !first_look(f, c)) || refused_after(f, c)) {
+    if (drogue_status_full(f->front) || (!refused && !first_look(f, c)) || refused_after(f, c)) {
         return 0;
     }
     frame_words(words, f);

@@ -15,9 +15,9 @@ extern "C" {
 /* All parameters' filters, the same from model to model but for their process noise. */
 typedef struct drogue_bank {
     drogue_kalman model[DROGUE_BANK_MODELS]; /* from calm to agile */
-    drogue_real error2[DROGUE_BANK_MODELS]
-                      [DROGUE_PARAMETERS]; /* mean squared error of prediction, fading over 16 frames */
-    int32_t chosen[DROGUE_PARAMETERS];     /* model of each parameter */
+    /* mean squared error of prediction, fading over 16 frames */
+    drogue_real error2[DROGUE_BANK_MODELS][DROGUE_PARAMETERS];
+    int32_t chosen[DROGUE_PARAMETERS]; /* model of each parameter */
 } drogue_bank;
 
 /* Start all models from one filter; the most agile one is chosen until their predictions tell them apart. */

@@ -29,7 +29,9 @@ static inline drogue_sector drogue_canny_sector_of(uint32_t ax, uint32_t ay, uin
     return flat ? DROGUE_SECTOR_HORIZONTAL : steep ? DROGUE_SECTOR_VERTICAL : DROGUE_SECTOR_DIAGONAL;
 }
 
-/* The same with the signs of gx and gy, which tell the diagonals apart. */
+/* The same with the signs of gx and gy, which tell the diagonals apart. This, drogue_canny_sector() and
+ * drogue_canny_neighbours() are the reference form, for tests and proofs: row loops and hardware write the same rule
+ * for what they have at hand. */
 static inline drogue_sector drogue_canny_sector_by(int16_t gx, int16_t gy, uint32_t ax, uint32_t tg22)
 {
     const drogue_sector sector = drogue_canny_sector_of(ax, (uint32_t)(gy < 0 ? -gy : gy), tg22);

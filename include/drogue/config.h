@@ -61,28 +61,27 @@ typedef struct drogue_config {
     uint32_t refit_rounds;         /* 4: times the band is applied; 0 keeps the fit of the arcs */
     drogue_q16 min_cover_q16;      /* 0.45: least number of edge points that belong to the outline, over its
                                       circumference; half an outline gives about 0.45 */
-    drogue_q16
-        recentre_cover_q16; /* 0.85: an outline covered less than this that the ring mask cuts is looked for again
-                                      in a region about it; 0: never */
-    drogue_q16 optics_blur_px_q16; /* 0.6 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
+    /* 0.85: an outline covered less that the ring mask cuts is looked for again in a region about it; 0: never */
+    drogue_q16 recentre_cover_q16;
+    drogue_q16 optics_blur_px_q16;  /* 0.6 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
                                       draws a curved edge inward, which is put back (outline.h) */
-    uint32_t min_inner_area_px;    /* 9 px: smaller inner parts are noise */
-    int32_t min_inner_contrast;    /* 6 grey levels, [0, 255]: less contrast with its surround is no inner part */
-    drogue_q16 inner_gate_px_q16;  /* 1.5 px, 0.05: the inner part is believed when it lies within so many pixels and */
-    drogue_q16 inner_gate_q16;     /* this share of the major semi-axis of where a pose expects it; twice as
-                                      far where it is sharp, of its size and seen nearly all about */
-    drogue_q16 min_inner_cover_q16; /* 0.5: and when this share of the rays across its edge agrees */
-    drogue_q16 inner_rms_px_q16;    /* 0.65 px: and these lie about it by no more, root mean square */
-    drogue_q16
-        inner_size_px_q16;     /* 1.25 px, 0.07: and its semi-axis is the expected one within so many pixels and this */
-    drogue_q16 inner_size_q16; /* share */
+    uint32_t min_inner_area_px;     /* 9 px: smaller inner parts are noise */
+    int32_t min_inner_contrast;     /* 6 grey levels, [0, 255]: less contrast with its surround is no inner part */
+    drogue_q16 inner_gate_px_q16;   /* 1.5 px: the inner part is believed within this and inner_gate of where a pose
+                                      expects it; twice as far where it is sharp, of its size and seen nearly all
+                                      about */
+    drogue_q16 inner_gate_q16;      /* 0.05: what a larger outline adds to that, as a share of its major semi-axis */
+    drogue_q16 min_inner_cover_q16; /* 0.5: least share of the rays across the inner part's edge that agrees */
+    drogue_q16 inner_rms_px_q16;    /* 0.65 px: most that these rays lie about the edge, root mean square */
+    drogue_q16 inner_size_px_q16;   /* 1.25 px: its semi-axis is the expected one within this and inner_size */
+    drogue_q16 inner_size_q16;      /* 0.07: what a larger inner part adds to that, as a share of its semi-axis */
     drogue_q16 outline_shading_q16; /* 1.6 px grey * 8: error of the outline that its own residuals cannot show, over
                                        the gradient along it (joint.h) */
     drogue_q16 optics_blur_std_px2_q16; /* 0.2 px^2: uncertainty of half the variance of the optics' blur */
-    drogue_q16 inner_std_px_q16;        /* 0.05 px: standard deviation of the inner disc's centre, */
-    drogue_q16 inner_std_share_q16;     /* 0.005: and what its size adds, as a share of the disc's semi-axis */
-    drogue_q16 max_chi2_q16;            /* 16: outline and inner part contradict each other above this */
-    drogue_q16 min_chi2_gap_q16;        /* 9: the orientation is resolved when the other pose is worse by so much, where
+    drogue_q16 inner_std_px_q16;        /* 0.05 px: standard deviation of the inner disc's centre, whatever its size */
+    drogue_q16 inner_std_share_q16; /* 0.005: what its size adds to that in quadrature, as a share of its semi-axis */
+    drogue_q16 max_chi2_q16;        /* 16: outline and inner part contradict each other above this */
+    drogue_q16 min_chi2_gap_q16;    /* 9: the orientation is resolved when the other pose is worse by so much, where
                                            they contradict each other by so many times chi2 */
 } drogue_config;
 

@@ -57,7 +57,7 @@ typedef struct drogue_arc_verdict {
  *
  *  out           verdict; quadrant is -1 when the arc is rejected
  *  mask          centre of the region
- *  min_short_q16 least short side of the rectangle, px Q16 (Th_minb)
+ *  min_short     least short side of the rectangle, px Q16 (Th_minb)
  */
 void drogue_judge_arc(drogue_arc_verdict *out, drogue_point *hull, const drogue_edge *edges, const drogue_arc *arc,
                       const drogue_mask *mask, drogue_q16 min_short_px_q16);

@@ -47,20 +47,27 @@ const char *drogue_version(void);
 
 #define DROGUE_MAX_REGION 8192 /* px, largest side of a region asked for, before it is clipped to the image */
 
+/* What of all that was tried stands, in the order in which it is tried, but RAYS last. */
+typedef enum drogue_tried {
+    DROGUE_TRIED_FOUND = 0,    /* the outline found by the configured thresholds of Canny */
+    DROGUE_TRIED_LARGER,       /* a larger one about it */
+    DROGUE_TRIED_NOISE,        /* one by thresholds that follow the region's noise, higher where a table filled */
+    DROGUE_TRIED_NOISE_LARGER, /* a larger one about that */
+    DROGUE_TRIED_RAYS,         /* one along rays, for which the inner disc is of its size: its points are the list's
+                                  edges, its quality that of the outline that it was found from */
+    DROGUE_TRIED_DISC          /* one that the inner disc led to, without arcs */
+} drogue_tried;
+
 /* What a frame gives. Coordinates are px of the whole image. */
 typedef struct drogue_result {
     drogue_status status;           /* what drogue_measure() returned */
     drogue_second_look second_look; /* from TOO_WIDE on, of any try, a larger workspace may give another result */
-    drogue_region region;           /* the region used: the one asked for, that of a better second look, or with tried 5
-                                       one that suits the disc; clipped to the image */
+    drogue_region region;           /* the region used: the one asked for, that of a better second look, or with
+                                 DROGUE_TRIED_DISC one that suits the disc; clipped to the image */
     drogue_edge_list list;    /* edges and arcs in the workspace, in coordinates of the region; where no try gave an
-                                       outline those of the last one */
+                                 outline those of the last one */
     uint32_t arcs[4];         /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
-    int32_t tried;            /* what stands: 0 the outline found, 1 a larger one about it; 2, 3 the same with
-                                       thresholds of Canny that follow the region's noise, or higher ones where the
-                                       configured fill a table; 4 one along rays, for which the inner disc is of
-                                       its size: its points are the list's edges, its quality that of the outline
-                                       that it was found from; 5 one that the inner disc led to, without arcs */
+    int32_t tried;            /* what stands, drogue_tried */
     drogue_ellipse ellipse;   /* outline of the end plane, as seen (distorted) */
     drogue_ellipse ideal;     /* the same without distortion: what the pose is computed from */
     drogue_quality quality;   /* of the fit of the arcs */
@@ -95,8 +102,8 @@ int drogue_input_valid(const drogue_image *image, const drogue_setup *setup);
  *             in a square region of its own, at most 5/2 of its semi-major axis a side: of an outline that fits into
  *             the region asked for, 5/4 of its longest side, of one as large as the default max_size takes, 15/8. A
  *             workspace for that width holds every second look; a smaller one keeps the first, and second_look says
- *             so. A region about a disc (tried 5) is as large as the outline that the disc allows asks for; with the
- *             lens and model of a real camera no larger
+ *             so. A region about a disc (DROGUE_TRIED_DISC) is as large as the outline that the disc allows asks for;
+ *             with the lens and model of a real camera no larger
  *  setup      camera, model, thresholds, each within its range; the model's inner_radius 0: inner part unknown, both
  *             poses are given and the orientation stays unresolved
  *  image      the caller's; not written

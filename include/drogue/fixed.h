@@ -59,7 +59,7 @@ static inline int32_t drogue_clamp_s32(int32_t v, int32_t least, int32_t most)
 }
 
 /* v within 2^30 of 0: two of them have a difference of 32 bits. */
-static inline int32_t drogue_clamp_s64(int64_t v)
+static inline int32_t drogue_clamp_2_30(int64_t v)
 {
     const int64_t most = 1 << 30;
     return (int32_t)(v > most ? most : v < -most ? -most : v);
@@ -80,7 +80,7 @@ static inline int64_t drogue_shr_round_s64(int64_t v, int n) { return n == 0 ? v
 /* |v|, defined for INT64_MIN too. */
 static inline uint64_t drogue_abs_u64(int64_t v) { return v < 0 ? (uint64_t)0 - (uint64_t)v : (uint64_t)v; }
 
-/* Leading zero bits of v; 32 (64) for 0. By the core's instruction where the compiler has a name for it. */
+/* Leading zero bits of v; 32 for 0. By the core's instruction where the compiler has a name for it. */
 #if defined __GNUC__ && !defined __BAMBU__ && !defined __SYNTHESIS__
 static inline int drogue_clz_u32(uint32_t v) { return v == 0 ? 32 : __builtin_clz(v); }
 #else
@@ -154,6 +154,12 @@ int32_t drogue_atan2_q29(int64_t y, int64_t x);
  *  error             <= 2^-29
  */
 void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29);
+
+/* The same of an angle within 4 rad. */
+static inline void drogue_sincos_of_q16(int32_t *sin_q30, int32_t *cos_q30, drogue_q16 angle_rad_q16)
+{
+    drogue_sincos_q30(sin_q30, cos_q30, (int32_t)drogue_shl_s64(angle_rad_q16, 13));
+}
 
 /* exp(-x).
  *

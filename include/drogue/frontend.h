@@ -176,9 +176,9 @@ void drogue_frontend_row(drogue_frontend *frontend, const uint8_t *row);
  */
 drogue_status drogue_frontend_end(drogue_edge_list *list, drogue_frontend *frontend);
 
-/* Upper threshold that noise alone hardly passes: ten standard deviations of white noise that means of 3 x 3 px show as
- * much of, whose second differences along every third row are summed by blocks; one in ten blocks shows less. Noise of
- * a codec or a sharpened image counts as what smoothing leaves of it.
+/* Upper threshold that noise alone hardly passes: ten standard deviations. Noise is measured by second differences of
+ * means of 3 x 3 px along every third row, summed over blocks of 9; the lowest tenth of the blocks counts, so that
+ * edges do not. It is taken for white: a codec's or a sharpened image's counts as what smoothing leaves of it.
  *
  *  histogram  work area, 256 counts
  *  return     L1 Sobel magnitude, grey levels * 8, below 700; 0 for less noise than 0.3 levels, and of an image

@@ -10,6 +10,7 @@
 extern "C" {
 #endif
 
+#define DROGUE_L1_MAX 1530      /* largest |gx| + |gy| of a 3x3 window: a corner's */
 #define DROGUE_SOBEL_BIAS 1024u /* keeps derivatives in lanes positive: they lie in [-1020, 1020] */
 
 /* The kernel's smoothing across the derivative: a + 2 b + c, of numbers or of 16-bit lanes (lanes.h). */
@@ -62,7 +63,7 @@ static inline int16_t drogue_sobel_gy(int32_t t0, int32_t t1, int32_t t2, int32_
                                                 drogue_sobel_step((uint32_t)t2, (uint32_t)b2)));
 }
 
-/* L1 magnitude, [0, 2040]. */
+/* L1 magnitude of any two derivatives, [0, 2040]; of a window's no more than DROGUE_L1_MAX. */
 static inline uint16_t drogue_magnitude_l1(int16_t gx, int16_t gy)
 {
     uint32_t dx = (uint32_t)(gx + (int32_t)DROGUE_SOBEL_BIAS);

@@ -40,15 +40,15 @@ typedef char drogue_assume_rays_fit[DROGUE_RAYS * sizeof(drogue_ray) <= DROGUE_S
 
 /* The inner disc as its own edge shows it. */
 typedef struct drogue_inner_edge {
-    drogue_q16 x_px_q16;     /* centre, region coordinates */
-    drogue_q16 y_px_q16;     /* downward */
-    drogue_q16 grown_px_q16; /* by how much its semi-axes are larger than expected */
-    drogue_q16 std_px_q16;   /* standard deviation of either coordinate, from the rays' residuals */
-    drogue_q16 rms_px_q16;   /* of the residuals */
-    uint32_t rays;    /* that agree, of 64; a disc under 10 px is measured by half of them, and each counts twice */
-    uint32_t which;   /* of the expected discs: the nearer one */
-    uint8_t level;    /* mean grey at the edge */
-    uint8_t contrast; /* mean step of grey across the edge */
+    drogue_q16 x_px_q16;      /* centre, region coordinates */
+    drogue_q16 y_px_q16;      /* downward */
+    drogue_q16 grown_px_q16;  /* by how much its semi-axes are larger than expected */
+    drogue_q16 std_px_q16;    /* standard deviation of either coordinate, from the rays' residuals */
+    drogue_q16 spread_px_q16; /* root mean square of the residuals */
+    uint32_t rays;     /* that agree, of 64; a disc under 10 px is measured by half of them, and each counts twice */
+    uint32_t which;    /* of the expected discs: the nearer one */
+    uint8_t threshold; /* mean grey at the edge */
+    uint8_t contrast;  /* mean step of grey across the edge */
 } drogue_inner_edge;
 
 /* Squared distance of its centre from an expected one, px^2 Q32. */
@@ -56,6 +56,18 @@ static inline uint64_t drogue_inner_away2_q32(const drogue_inner_edge *edge, con
 {
     return drogue_square_sum(drogue_q16_sub(edge->x_px_q16, expected->xc_px_q16),
                              drogue_q16_sub(edge->y_px_q16, expected->yc_px_q16));
+}
+
+/* How far from the expected centre the disc may be, by the configured gate. */
+static inline drogue_q16 drogue_inner_gate(const drogue_ellipse *outline, const drogue_config *config)
+{
+    return drogue_q16_add(config->inner_gate_px_q16, drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16));
+}
+
+/* By how much its semi-axes may be longer or shorter than expected. */
+static inline drogue_q16 drogue_inner_room(const drogue_ellipse *expected, const drogue_config *config)
+{
+    return drogue_q16_add(config->inner_size_px_q16, drogue_q16_mul(config->inner_size_q16, expected->a_px_q16));
 }
 
 /* Measure the disc by its edge along rays across the ellipse that a pose expects: where the grey rises fastest says
@@ -92,11 +104,11 @@ drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse 
 typedef struct drogue_inner_evidence {
     drogue_inner_part part;     /* px of the whole image; zero when it is not believed */
     drogue_joint_inner weighed; /* its centre without distortion; std 0 when it is not believed */
-    drogue_q16
-        ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 when not believed */
-    int32_t
-        too_large;   /* 1: a disc is seen that would be believed but for its size, which is too large for the outline */
-    uint32_t nearer; /* index of the pose whose projected inner centre is nearer, believed or not */
+    /* [0, 1]: nearer over farther distance of the projected inner centres; 1 when not believed */
+    drogue_q16 ambiguity_q16;
+    /* 1: a disc is seen that would be believed but for its size, which is too large for the outline */
+    int32_t too_large;
+    uint32_t nearer;      /* index of the pose whose projected inner centre is nearer, believed or not */
     drogue_q16 doubt_q16; /* share by which the disc's size puts the distance in doubt */
 } drogue_inner_evidence;
 
@@ -126,11 +138,11 @@ uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[DROGUE_RAYS], 
 
 /* A disc as seen from the camera. */
 typedef struct drogue_inner_sight {
-    drogue_q16 x_q16;         /* its middle's direction: tangent, */
-    drogue_q16 y_q16;         /* downward, */
-    drogue_q16 length_q16;    /* length of (x, y, 1), */
-    drogue_q16 yaw_rad_q16;   /* atan(x), */
-    drogue_q16 pitch_rad_q16; /* atan2(y, length of (x, 1)) */
+    drogue_q16 x_q16;         /* tangent of its middle's direction, to the right */
+    drogue_q16 y_q16;         /* the same downward */
+    drogue_q16 length_q16;    /* of (x, y, 1) */
+    drogue_q16 yaw_rad_q16;   /* of its middle's direction: atan(x) */
+    drogue_q16 pitch_rad_q16; /* the same: atan2(y, length of (x, 1)) */
     drogue_q16 radius_q16;    /* tangent of its radius, were it on the optical axis, about */
 } drogue_inner_sight;
 
@@ -150,7 +162,8 @@ int drogue_inner_sight_of(drogue_inner_sight *sight, const drogue_ellipse *disc,
 void drogue_inner_rims(drogue_inner_expected *rims, const drogue_inner_sight *sight, int32_t yaw, int32_t pitch,
                        const drogue_setup *setup, int32_t x_px, int32_t y_px);
 
-#define DROGUE_INNER_BEYOND_POINTS 511 /* at most: the outline looks at all of so many at once */
+/* Most edge points that drogue_inner_beyond() writes: drogue_outline_enlarge() still looks at every one of so many. */
+#define DROGUE_INNER_BEYOND_POINTS 511
 
 /* Look along rays for the outline that an inner disc is of the size for which is too large for the one found. It is an
  * edge of either sign in six of eight parts, within 3/4 px of one place and size: on 48 of 64 rays by DROGUE_RAY_LINES,

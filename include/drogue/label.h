@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-/* Union-find over labels 1..count; label 0 means none. The root of a component is its smallest label,
+/* Union-find over labels 1 .. count - 1; label 0 means none. The root of a component is its smallest label,
  * that is the one whose first pixel comes first in raster order. */
 typedef struct drogue_labels {
     uint32_t *parent;  /* capacity words; parent[i] <= i */

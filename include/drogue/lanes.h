@@ -46,9 +46,8 @@ static inline uint32_t drogue_first_lowest(uint32_t v)
 static inline uint32_t drogue_lanes_even(uint32_t bytes) { return bytes & 0x00FF00FFu; }
 static inline uint32_t drogue_lanes_odd(uint32_t bytes) { return (bytes >> 8) & 0x00FF00FFu; }
 
-/* The lower lanes of two words, and their upper lanes: of a the lower, of b the upper one. */
+/* The lower lanes of two words: that of a, and that of b as the upper one. */
 static inline uint32_t drogue_lanes_lower(uint32_t a, uint32_t b) { return (a & 0xFFFFu) | (b << 16); }
-static inline uint32_t drogue_lanes_upper(uint32_t a, uint32_t b) { return (a >> 16) | (b & 0xFFFF0000u); }
 
 /* Sum of lanes and the even lanes of four bytes; an instruction of its own where there are instructions for lanes. */
 static inline uint32_t drogue_lanes_add_even(uint32_t sum, uint32_t bytes)

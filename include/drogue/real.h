@@ -27,6 +27,12 @@ typedef struct drogue_real {
     int32_t exponent; /* of two */
 } drogue_real;
 
+/* Initialiser of 1. */
+#define DROGUE_REAL_ONE \
+    {                   \
+        1 << 30, -30    \
+    }
+
 /* v * 2^exponent, rounded to 31 bits */
 void drogue_real_set(drogue_real *out, int64_t v, int32_t exponent);
 /* The same of a Q16 number. */

@@ -28,6 +28,12 @@ typedef enum drogue_status {
     DROGUE_STATUS_COUNT
 } drogue_status;
 
+/* Did a table of the workspace fill? */
+static inline int drogue_status_full(drogue_status status)
+{
+    return status == DROGUE_E_LABELS_FULL || status == DROGUE_E_EDGES_FULL || status == DROGUE_E_ARCS_FULL;
+}
+
 /* Name of a status in lower case, such as "no_ellipse"; never NULL.
  *
  *  status  any value; one outside the enumeration gives "unknown"

@@ -32,7 +32,7 @@ typedef struct drogue_support {
                                  of twice its angle from +x; less what edges differ by without: 0 where none stands
                                  out */
     drogue_q16 axis_rad_q16;  /* from which the bins count, the angle of the ellipse that they are about */
-    uint32_t covered; /* bins that hold enough points, less the changes of polarity round the outline beyond none */
+    uint32_t covered;         /* covered bins, less one for each change of polarity round the outline; at least 0 */
 } drogue_support;
 
 /* From the counts, decide the polarity of each bin and how many bins are covered.

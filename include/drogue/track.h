@@ -48,17 +48,17 @@ typedef struct drogue_track_config {
                                         them not counted; at least 1 */
     uint32_t reconsider_frames; /* 50 frames: after so many in a row whose inner part, known to the model, does not
                                    decide, drogue_track_frame() searches the whole frame for one that does; 0: never */
-    drogue_q16 min_reliability_q16; /* 0, [0, 1]: a measurement of less reliability counts as missed */
-    drogue_q16 gate_q16;            /* 20.515: chi-square of 5 degrees of freedom at 0.1 % */
-    drogue_q16 position_gate_q16;   /* 16.266: the same of 3, where the angles are not compared */
-    drogue_q16 region_scale_q16;    /* 2.5: side of the next region in predicted major semi-axes */
-    drogue_q16 region_sigmas_q16;   /* 3: standard deviations that region and search allow for */
-    int32_t min_region_px;          /* 32 px */
-    int32_t max_region_px;          /* DROGUE_MAX_SIDE; see drogue_track_frame() for what the workspace holds */
-    drogue_q16 lateral_std_q16;     /* 0.0005: standard deviation of x and y, share of the distance; this and the */
-    drogue_q16 depth_std_q16;     /* 0.002: of z, share of the distance; next two where a result has no covariance; the
-                                     gate allows for it, too */
-    drogue_q16 angle_std_rad_q16; /* 0.02 rad: of pitch and yaw */
+    drogue_q16 min_reliability_q16;  /* 0, [0, 1]: a measurement of less reliability counts as missed */
+    drogue_q16 gate_q16;             /* 20.515: chi-square of 5 degrees of freedom at 0.1 % */
+    drogue_q16 position_gate_q16;    /* 16.266: the same of 3, where the angles are not compared */
+    drogue_q16 region_scale_q16;     /* 2.5: side of the next region in predicted major semi-axes */
+    drogue_q16 region_sigmas_q16;    /* 3: standard deviations that region and search allow for */
+    int32_t min_region_px;           /* 32 px */
+    int32_t max_region_px;           /* DROGUE_MAX_SIDE; see drogue_track_frame() for what the workspace holds */
+    drogue_q16 lateral_std_q16;      /* 0.0005: standard deviation of x and y, share of the distance, where a result has
+                                       no covariance; the gate allows for it, too */
+    drogue_q16 depth_std_q16;        /* 0.002: the same of z, share of the distance */
+    drogue_q16 angle_std_rad_q16;    /* 0.02 rad: the same of pitch and yaw */
     drogue_q16 position_floor_m_q16; /* 0.0001 m: added in quadrature to the measured standard deviations */
     drogue_q16 angle_floor_rad_q16;  /* 0.0005 rad */
     drogue_q16 process_std_q16[DROGUE_PARAMETERS]; /* change of acceleration per frame: x, y 0.2 m/s^2, z 0.02 m/s^2,
@@ -66,9 +66,9 @@ typedef struct drogue_track_config {
                                                       approach at constant speed, 25 to 50 frames a second */
     drogue_q16
         process_step_q16; /* 6: a model's process noise over that of the one before, for gusts of 3 g; at least 1 */
-    drogue_q16
-        lasting_share_q16; /* 0.75, [0, 1]: share of a measurement's variance that is the same from frame to frame
-                                     (shading, lens): the estimate's standard deviations keep it */
+    /* 0.75, [0, 1]: share of a measurement's variance that is the same from frame to frame (shading, lens): the
+     * estimate's standard deviations keep it */
+    drogue_q16 lasting_share_q16;
     uint32_t known_frames; /* 25: so many measurements in a row that do not decide, and the orientation is not known
                                      any more; 0: it stays known */
     drogue_q16 start_rate_std_q16;  /* 2 m/s and rad/s: of the unknown rate at the start */

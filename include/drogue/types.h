@@ -137,7 +137,7 @@ typedef struct drogue_arc {
 typedef enum drogue_polarity {
     DROGUE_POLARITY_DARK = 0,   /* darker inside: the gradient points outward */
     DROGUE_POLARITY_BRIGHT = 1, /* brighter inside: the gradient points inward */
-    DROGUE_POLARITY_BOTH = 2    /* configuration only: try both */
+    DROGUE_POLARITY_BOTH = 2    /* configured: either is tried; found: neither holds for all of it */
 } drogue_polarity;
 
 #ifdef __cplusplus

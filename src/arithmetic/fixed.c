@@ -198,9 +198,8 @@ int32_t drogue_atan2_q29(int64_t y, int64_t x)
         more = less;
         less = t;
     }
-    if (less >
-        upper(more,
-              TAN_PI_8_Q32)) { /* turned by pi / 4; half of sum and difference, and twice that where it is 30 bits */
+    if (less > upper(more, TAN_PI_8_Q32)) {
+        /* turned by pi / 4; half of sum and difference, and twice that where it is 30 bits */
         const int up = (more + less) >> 31 == 0;
         angle_q32 =
             QUARTER_PI_Q32 - atan_of_ratio(up ? more - less : (more - less) >> 1, (more + less) >> (up ? 0 : 1));

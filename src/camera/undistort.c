@@ -266,8 +266,7 @@ drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16,
 {
     int32_t u;
     int32_t v;
-    int64_t x =
-        0; /* from the axis, where the map is the identity: what is seen without a fold can be followed from there */
+    int64_t x = 0;
     int64_t y = 0;
     int64_t dx;
     int64_t dy;
@@ -280,6 +279,7 @@ drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16,
     dx = u;
     dy = v;
     nearest = abs_s64(dx) + abs_s64(dy);
+    /* From the axis, where the map is the identity: what is seen without a fold can be followed from there. */
     for (step = 0; step < MAX_STEPS; step++) {
         distorted d;
         drogue_real det;

@@ -156,7 +156,7 @@ static void ellipse_point(int64_t *x_q16, int64_t *y_q16, const drogue_ellipse *
     int32_t s, c, sin_e, cos_e;
     int64_t u, w;
     drogue_sincos_q30(&s, &c, (int32_t)angle_q29);
-    drogue_sincos_q30(&sin_e, &cos_e, (int32_t)((int64_t)e->angle_rad_q16 * 8192));
+    drogue_sincos_of_q16(&sin_e, &cos_e, e->angle_rad_q16);
     u = drogue_shr_round_s64((int64_t)e->a_px_q16 * c, 30);
     w = drogue_shr_round_s64((int64_t)e->b_px_q16 * s, 30);
     *x_q16 = e->xc_px_q16 + drogue_shr_round_s64(u * cos_e - w * sin_e, 30);

@@ -4,13 +4,13 @@
 
 #include "drogue/frontend.h"
 
-#define REACH 4      /* px to either side of a place that three boxes of three columns beside each other have */
-#define BLOCK 9      /* places whose differences are summed: by blocks noise is nearly the same, and edges are in few */
-#define SHIFT 3      /* of a block's sum, to the histogram's bins */
-#define EVERY 3      /* so many-th row is looked at */
-#define QUANTILE 10  /* one in so many blocks has less */
-#define PER_MIL 3830 /* bins of that quantile over the deviation of white noise, by simulation */
-#define DEVIATIONS 10
+#define REACH 4     /* px to either side of a place that three boxes of three columns beside each other have */
+#define BLOCK 9     /* places whose differences are summed: by blocks noise is nearly the same, and edges are in few */
+#define SHIFT 3     /* of a block's sum, to the histogram's bins */
+#define EVERY 3     /* so many-th row is looked at */
+#define QUANTILE 10 /* one in so many blocks has less */
+#define MILLIBINS_PER_LEVEL 3830 /* where that quantile of white noise lies, over its deviation, by simulation */
+#define DEVIATIONS 10            /* of noise, which hardly any edge of noise alone exceeds */
 #define BINS 256
 
 /* Sum of a column over three rows. */
@@ -62,5 +62,5 @@ int32_t drogue_noise_threshold(uint32_t *histogram, const drogue_image *image)
         below += histogram[level++];
     }
     quantile = (int64_t)level * histogram[level] + (int64_t)(count / QUANTILE) - (int64_t)below;
-    return (int32_t)drogue_div_round_s64(DEVIATIONS * 1000 * quantile, (int64_t)PER_MIL * histogram[level]);
+    return (int32_t)drogue_div_round_s64(DEVIATIONS * 1000 * quantile, (int64_t)MILLIBINS_PER_LEVEL * histogram[level]);
 }

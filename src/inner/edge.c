@@ -7,8 +7,8 @@
 #include "shade.h"
 
 #define APART DROGUE_Q16(3, 4)     /* px */
-#define EVERY 2                    /* so many-th ray will do to find the disc, */
-#define SMALL DROGUE_Q16(10, 1)    /* px: and to measure one of less */
+#define EVERY 2                    /* so many-th ray will do to find a disc, and to measure a small one */
+#define SMALL DROGUE_Q16(10, 1)    /* px: semi-axis below which a disc is small */
 #define INWARD DROGUE_Q16(45, 100) /* px: a quarter of a blurred step is this far within its middle */
 #define LARGER 64 /* so many-th part of its size: a disc that is larger by more may be something else */
 
@@ -88,7 +88,8 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     }
     out->contrast = (uint8_t)drogue_clamp_s32(
         (int32_t)drogue_div_round_s64(s.slopes_q8, (int64_t)s.rays * DROGUE_RAY_WEIGHT * 256), 0, 255);
-    out->level = (uint8_t)drogue_clamp_s32((int32_t)drogue_div_round_s64(s.levels_q8, (int64_t)s.rays * 256), 0, 255);
+    out->threshold =
+        (uint8_t)drogue_clamp_s32((int32_t)drogue_div_round_s64(s.levels_q8, (int64_t)s.rays * 256), 0, 255);
     drogue_inner_shade_cross(rays, image, config->transfer, &grey, v, every);
     within = DROGUE_Q16(3, 2);
     size = v[2];
@@ -108,7 +109,7 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     if (!drogue_ray_sums_place(v, &out->std_px_q16, &s, &bins)) {
         return DROGUE_E_NO_INNER_PART;
     }
-    out->rms_px_q16 = drogue_ray_sums_rms(&s);
+    out->spread_px_q16 = drogue_ray_sums_rms(&s);
     out->rays = ((uint32_t)every * s.rays + (uint32_t)phases / 2) / (uint32_t)phases;
     out->grown_px_q16 = drogue_q16_add(v[2], INWARD);
     out->x_px_q16 = drogue_q16_add(e->xc_px_q16, v[0]);
@@ -144,8 +145,7 @@ typedef struct first_place {
 static int look_about(first_place *out, drogue_ray rays[RAYS], const drogue_image *image, const drogue_ellipse *e,
                       drogue_q16 gate_px_q16, const drogue_config *config)
 {
-    const drogue_q16 room =
-        drogue_q16_add(config->inner_size_px_q16, drogue_q16_mul(config->inner_size_q16, e->a_px_q16));
+    const drogue_q16 room = drogue_inner_room(e, config);
     const drogue_q16 reach = drogue_q16_add(gate_px_q16, drogue_q16_add(e->a_px_q16 / 16, DROGUE_Q16(2, 1)));
     drogue_q16 *const v = out->v_px_q16;
     drogue_ray_sums s;
@@ -201,8 +201,7 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
                                      const drogue_inner_expected *expected, const drogue_ellipse *outline,
                                      const drogue_config *config)
 {
-    const drogue_q16 gate_px_q16 =
-        drogue_q16_add(config->inner_gate_px_q16, drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16));
+    const drogue_q16 gate_px_q16 = drogue_inner_gate(outline, config);
     first_place first[2];
     drogue_inner_edge other;
     drogue_status status;

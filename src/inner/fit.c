@@ -9,7 +9,7 @@
 drogue_q16 drogue_ray_along(const drogue_ray *r, const drogue_q16 v_px_q16[3])
 {
     const int64_t shift = drogue_product(r->nx_q14, v_px_q16[0]) + drogue_product(r->ny_q14, v_px_q16[1]);
-    return drogue_clamp_s64(v_px_q16[2] + drogue_shr_round_s64(shift, 14));
+    return drogue_clamp_2_30(v_px_q16[2] + drogue_shr_round_s64(shift, 14));
 }
 
 int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogue_q16 within_px_q16)

@@ -12,7 +12,7 @@
 
 /* Sums of least squares over rays, each weighted by its squared slope, as noise asks for. */
 typedef struct drogue_ray_sums {
-    int64_t normal[6];   /* of the normals' components Q28, of one and 1 Q14, of 1 and 1 whole */
+    int64_t normal[6];   /* equations of the offset, packed: entries 0-2 Q28, 3-4 Q14, 5 whole */
     int64_t right[3];    /* Q30, Q30, Q16 */
     int64_t squares_q16; /* of the residuals, not weighted */
     int32_t slopes_q8;   /* of 512 rays, each below 2^20 */

@@ -38,7 +38,7 @@ static drogue_status distort_ellipse(drogue_ellipse *e, const drogue_camera *cam
     if (!drogue_camera_distorts(camera)) {
         return DROGUE_OK;
     }
-    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
+    drogue_sincos_of_q16(&s_q30, &c_q30, e->angle_rad_q16);
     if (half_chord(half[0], e, drogue_shr_round_s64((int64_t)e->a_px_q16 * c_q30, 30),
                    drogue_shr_round_s64((int64_t)e->a_px_q16 * s_q30, 30), camera) != DROGUE_OK ||
         half_chord(half[1], e, -drogue_shr_round_s64((int64_t)e->b_px_q16 * s_q30, 30),
@@ -122,24 +122,22 @@ static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *
 static int evident(const drogue_inner_edge *edge, const drogue_ellipse *expected, const drogue_config *config)
 {
     const drogue_q16 off = edge->grown_px_q16 < 0 ? drogue_q16_sub(0, edge->grown_px_q16) : edge->grown_px_q16;
-    return 8 * edge->rays >= 7 * DROGUE_RAYS && 2 * (int64_t)edge->rms_px_q16 <= config->inner_rms_px_q16 &&
+    return 8 * edge->rays >= 7 * DROGUE_RAYS && 2 * (int64_t)edge->spread_px_q16 <= config->inner_rms_px_q16 &&
            off <= drogue_q16_add(EVIDENT_PX_Q16, drogue_q16_mul(LARGER_Q16, expected->a_px_q16));
 }
 
 drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse *expected,
                             const drogue_ellipse *outline, const drogue_config *config)
 {
-    const drogue_q16 near_px_q16 =
-        drogue_q16_add(config->inner_gate_px_q16, drogue_q16_mul(config->inner_gate_q16, outline->a_px_q16));
+    const drogue_q16 near_px_q16 = drogue_inner_gate(outline, config);
     const drogue_q16 gate = evident(edge, expected, config) ? drogue_q16_add(near_px_q16, near_px_q16) : near_px_q16;
-    const drogue_q16 room =
-        drogue_q16_add(config->inner_size_px_q16, drogue_q16_mul(config->inner_size_q16, expected->a_px_q16));
+    const drogue_q16 room = drogue_inner_room(expected, config);
     const drogue_q16 share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
     const drogue_q16 doubt = doubt_of(edge, expected);
     const drogue_q16 off = doubt > ELSEWHERE_Q16 ? drogue_q16_mul(doubt, expected->a_px_q16) : 0;
     if (edge->contrast < config->min_inner_contrast ||
         (int64_t)edge->rays * DROGUE_Q16_ONE < (int64_t)config->min_inner_cover_q16 * DROGUE_RAYS ||
-        edge->rms_px_q16 > config->inner_rms_px_q16 || edge->grown_px_q16 < -room ||
+        edge->spread_px_q16 > config->inner_rms_px_q16 || edge->grown_px_q16 < -room ||
         drogue_inner_away2_q32(edge, expected) > drogue_square_sum(gate, 0) ||
         !within_outline(edge, expected, outline)) {
         return 0;
@@ -168,8 +166,8 @@ static void describe(drogue_inner_part *part, const drogue_inner_edge *edge, con
     part->x_px_q16 = drogue_q16_add(edge->x_px_q16, drogue_q16_from_int(region->x_px));
     part->y_px_q16 = drogue_q16_add(edge->y_px_q16, drogue_q16_from_int(region->y_px));
     part->area_px = (uint32_t)drogue_shr_round_s64(drogue_shr_round_s64(a * b, 20) * DROGUE_Q16_PI, 28);
-    part->spread_px_q16 = edge->rms_px_q16;
-    part->threshold = edge->level;
+    part->spread_px_q16 = edge->spread_px_q16;
+    part->threshold = edge->threshold;
     part->contrast = edge->contrast;
 }
 

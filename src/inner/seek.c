@@ -12,11 +12,14 @@
 #define PHASE 4                       /* two evenly in each bin */
 #define ENOUGH (3 * RAYS / 4 / EVERY) /* rays that agree */
 #define LAST_PX DROGUE_Q16(3, 2)      /* they agree within this, or a sixteenth of the radius */
-#define SMALLEST_PX DROGUE_Q16(3, 1)  /* radius as the region suggests it, */
-#define LEAST_PX DROGUE_Q16(2, 1)     /* and as it is found */
-#define SOME 3                        /* rays from the middle see a disc a tenth large and a third off, */
-#define STEEPER 2                     /* of the outline; they do by a step so many times the least */
-#define FAR_PX DROGUE_Q16(512, 1)     /* an outline, of which rays from the middle reach all */
+#define SMALLEST_PX DROGUE_Q16(3, 1)  /* least radius, as the region suggests it */
+#define LEAST_PX DROGUE_Q16(2, 1)     /* least radius, as it is found */
+#define STEEPER 2                     /* least step of an edge seen from the middle, in least contrasts */
+#define FAR_PX DROGUE_Q16(512, 1)     /* of a larger outline rays from the middle do not reach all */
+
+/* Rays from the middle that must see an edge: so many do where a disc is a tenth of the outline's size and a third off
+ * the middle. */
+#define SOME 3
 
 /* The places, in sixths of the outline's semi-axis as the region suggests it. */
 static const int8_t places[PLACES][2] = {{0, 0}, {1, 0},  {-1, 0}, {0, 1},  {0, -1}, {2, 0},  {-2, 0},
@@ -153,16 +156,10 @@ static void turn(drogue_pose *pose, const drogue_inner_sight *sight, drogue_q16 
     const drogue_q16 facing_q16 = drogue_q16_mul(drogue_q16_add(DROGUE_Q16_ONE, sight->length_q16) / 2,
                                                  drogue_q16_sub(DROGUE_Q16_ONE, turn2_q16 / 4));
     const drogue_q16 z = drogue_q16_mul(drogue_q16_div(model->inner_radius_m_q16, sight->radius_q16), facing_q16);
-    int32_t s_q30[2];
-    int32_t c_q30[2];
     int k;
     pose->yaw_rad_q16 = sight->yaw_rad_q16 + yaw_rad_q16;
     pose->pitch_rad_q16 = sight->pitch_rad_q16 + pitch_rad_q16;
-    drogue_sincos_q30(&s_q30[0], &c_q30[0], pose->yaw_rad_q16 * (1 << 13));
-    drogue_sincos_q30(&s_q30[1], &c_q30[1], pose->pitch_rad_q16 * (1 << 13));
-    pose->axis_q16[0] = (drogue_q16)drogue_shr_round_s64(drogue_product(s_q30[0], c_q30[1]), 44);
-    pose->axis_q16[1] = (drogue_q16)drogue_shr_round_s64(s_q30[1], 14);
-    pose->axis_q16[2] = (drogue_q16)drogue_shr_round_s64(drogue_product(c_q30[0], c_q30[1]), 44);
+    drogue_pose_axis(pose->axis_q16, pose->yaw_rad_q16, pose->pitch_rad_q16);
     pose->position_m_q16[0] = drogue_q16_mul(sight->x_q16, z);
     pose->position_m_q16[1] = drogue_q16_mul(sight->y_q16, z);
     pose->position_m_q16[2] = z;

@@ -7,11 +7,11 @@
 
 #include <string.h>
 
-#define PROFILE 13               /* samples along a ray, half a pixel apart, */
-#define FROM DROGUE_Q16(-35, 10) /* px from the edge outwards */
+#define PROFILE 13               /* samples along a ray, half a pixel apart */
+#define FROM DROGUE_Q16(-35, 10) /* px from the edge outwards: the first of them */
 #define DARK 4                   /* of them within the disc */
-#define FIRST 3                  /* may be the last one below the level, */
-#define LAST 9                   /* up to this one; the last of all is beyond the edge */
+#define FIRST 3                  /* least place of the last one below the level */
+#define LAST 9                   /* its largest place; the last of all is beyond the edge */
 #define STILL DROGUE_Q16(2, 1)   /* grey levels by which the disc may differ from itself */
 #define GREYS DROGUE_Q16(256, 1) /* no grey changes by more */
 #define SIGNIFICANT 50           /* variances of a change of grey across the disc */

@@ -115,10 +115,8 @@ static void take(s96 s[21], int i, int k, int32_t multiple)
 static int32_t multiple_of(const drogue_real *num, const drogue_real *den, int32_t most)
 {
     drogue_real q;
-    int32_t v;
     drogue_real_quotient(&q, num, den);
-    v = drogue_real_to_s32(q, 0);
-    return v > most ? most : v < -most ? -most : v;
+    return drogue_clamp_s32(drogue_real_to_s32(q, 0), -most, most);
 }
 
 /* Take from x^2, xy and y^2 what whole multiples of 1, x and y explain of them: what cancels here, most of it on a

@@ -22,7 +22,7 @@ static void put_covariance(drogue_decision *out, const drogue_joint *joint)
         drogue_real_root(&t, &joint->covariance[DROGUE_PACKED(i, i)]);
         out->position_std_m_q32[i] = drogue_real_to_s64(t, 32);
     }
-    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(joint->pose.pitch_rad_q16, 13));
+    drogue_sincos_of_q16(&s_q30, &c_q30, joint->pose.pitch_rad_q16);
     drogue_real_set(&t, c_q30, -30);
     drogue_real_product(&t, &t, &t);
     drogue_real_product(&t, yaw, &t);
@@ -154,7 +154,7 @@ void drogue_doubt_add(drogue_real covariance[DROGUE_DOUBT_PACKED], const drogue_
 /* What outline and inner part disagree by, beyond what is usual, is in both: chi2 times their covariance. */
 static void widen(drogue_joint *joint)
 {
-    const drogue_real one = {1 << 30, -30};
+    const drogue_real one = DROGUE_REAL_ONE;
     int i;
     if (drogue_real_order(&joint->chi2, &one) <= 0) {
         return;

@@ -29,7 +29,7 @@ static int64_t products(const int32_t a[FIT], const int32_t b[FIT])
 static void normal_equations(drogue_real normal[CHI2 + 1], const drogue_joint_rows *rows, const drogue_joint_outline *w,
                              const drogue_real inner_weight[2])
 {
-    const drogue_real one = {1 << 30, -30};
+    const drogue_real one = DROGUE_REAL_ONE;
     int i;
     int p;
     int q;

@@ -6,7 +6,7 @@
 
 #include "drogue/ellipse.h"
 
-static const drogue_real one = {1 << 30, -30};
+static const drogue_real one = DROGUE_REAL_ONE;
 
 /* The inner disc as rays: lengths over the depth of its middle. */
 typedef struct disc {

@@ -14,7 +14,7 @@
 #define NEAREST (-8)                  /* finest scale of a position */
 #define LIFT_LIMIT (INT64_C(1) << 30) /* 4 radii, Q28 */
 
-static const drogue_real one = {1 << 30, -30};
+static const drogue_real one = DROGUE_REAL_ONE;
 
 static int32_t mul_q30(int32_t a, int32_t b) { return (int32_t)drogue_shr_round_s64(drogue_product(a, b), 30); }
 
@@ -116,11 +116,13 @@ static int put_ray(int32_t *out_q29, int64_t length_px_q16, int32_t factor_q30, 
     const int32_t limit = 1 << 30;
     drogue_real ray;
     drogue_real factor;
+    int32_t v;
     ratio_q16(&ray, length_px_q16, focal_px_q16);
     drogue_real_set(&factor, factor_q30, -30);
     drogue_real_product(&ray, &ray, &factor);
-    *out_q29 = drogue_real_to_s32(ray, 29);
-    return *out_q29<limit && * out_q29> - limit;
+    v = drogue_real_to_s32(ray, 29);
+    *out_q29 = v;
+    return v < limit && v > -limit;
 }
 
 drogue_status drogue_joint_begin(drogue_joint_state *state, drogue_joint_frame *frame, const drogue_pose *pose,
@@ -132,10 +134,12 @@ drogue_status drogue_joint_begin(drogue_joint_state *state, drogue_joint_frame *
     int32_t s_q30;
     int32_t c_q30;
     int near_axis;
-    drogue_sincos_q30(&s_q30, &c_q30, drogue_ellipse_angle_valid(e) ? e->angle_rad_q16 * 8192 : 0);
     memset(frame, 0, sizeof *frame);
-    near_axis = drogue_ellipse_angle_valid(e);
-    near_axis &= put_ray(&frame->ray_q29[0][0], e->a_px_q16, c_q30, fx);
+    if (!drogue_ellipse_angle_valid(e)) {
+        return DROGUE_E_DOMAIN;
+    }
+    drogue_sincos_of_q16(&s_q30, &c_q30, e->angle_rad_q16);
+    near_axis = put_ray(&frame->ray_q29[0][0], e->a_px_q16, c_q30, fx);
     near_axis &= put_ray(&frame->ray_q29[0][1], e->a_px_q16, s_q30, fy);
     near_axis &= put_ray(&frame->ray_q29[1][0], e->b_px_q16, -s_q30, fx);
     near_axis &= put_ray(&frame->ray_q29[1][1], e->b_px_q16, c_q30, fy);

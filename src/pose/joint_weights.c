@@ -5,8 +5,6 @@
 
 #include "joint_model.h"
 
-typedef drogue_real real;
-
 /* cos of j / 64 turns, Q30 */
 static int32_t cosine_q30(uint32_t j)
 {
@@ -23,7 +21,7 @@ static int32_t cosine_q30(uint32_t j)
 /* Normal equations of the fit, points times products of the basis functions 1, cos t, sin t, cos 2t, sin 2t: sums of
  * cos mt and sin mt, t from the axis that is turned by so many bins; 'scatter' is the squared residual of the bins'
  * means. Returns the number of bins that hold points. */
-static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, const drogue_support *support,
+static int32_t sum_bins(drogue_real information[DROGUE_PACKED_MAX], drogue_real *scatter, const drogue_support *support,
                         uint32_t turned)
 {
     int64_t c_q30[HARMONICS + 1] = {0};
@@ -36,13 +34,13 @@ static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, cons
         const uint32_t n = support->bin[k].count[(support->bright_bins >> k) & 1u];
         const int32_t sum_q16 = support->bin[k].sum_q16;
         uint32_t m;
-        real square;
-        real points;
+        drogue_real square;
+        drogue_real points;
         if (n == 0) {
             continue;
         }
         bins++;
-        DROGUE_NOTE("joint: squared sum of a bin's offsets, Q32", (int64_t)sum_q16 * sum_q16, 61); /* support.c: 2^30 */
+        DROGUE_NOTE("joint: squared sum of a bin's offsets, Q32", (int64_t)sum_q16 * sum_q16, 61); /* band.h: 2^30 */
         drogue_real_set(&square, drogue_product(sum_q16, sum_q16), -32);
         drogue_real_set(&points, n, 0);
         drogue_real_quotient(&square, &square, &points);
@@ -80,7 +78,7 @@ static int32_t sum_bins(real information[DROGUE_PACKED_MAX], real *scatter, cons
 }
 
 /* Variance of a standard deviation num / den. */
-static void square_ratio(real *out, const real *num, const real *den)
+static void square_ratio(drogue_real *out, const drogue_real *num, const drogue_real *den)
 {
     drogue_real_quotient(out, num, den);
     drogue_real_product(out, out, out);
@@ -91,7 +89,7 @@ static void square_ratio(real *out, const real *num, const real *den)
  * that each. As for an outline that is nearly round. */
 #define MOST_SMEAR_Q16 DROGUE_Q16(48, 1) /* px^2: more than drogue_outline_pull() finds */
 
-static void add_smear(real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *e, const drogue_support *support)
+static void add_smear(drogue_real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *e, const drogue_support *support)
 {
     static const uint8_t added[9][3] = {
         /* where, product of which */
@@ -102,8 +100,8 @@ static void add_smear(real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *
                        drogue_clamp_s32(support->smear_px2_q16[1], -MOST_SMEAR_Q16, MOST_SMEAR_Q16)};
     int32_t factor[6]; /* v, c, s, 2 (v + c), 2 (v - c), 2 s */
     uint64_t square;
-    real share;
-    real t;
+    drogue_real share;
+    drogue_real t;
     int i;
     drogue_turn_wave(wave, drogue_q16_sub(0, e->angle_rad_q16));
     square = drogue_square_sum(wave[0], wave[1]);
@@ -123,7 +121,7 @@ static void add_smear(real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *
     drogue_real_set_q16(&t, e->b_px_q16);
     drogue_real_quotient(&share, &share, &t);
     for (i = 0; i < 9; i++) {
-        real *own = &covariance[added[i][0]];
+        drogue_real *own = &covariance[added[i][0]];
         drogue_real_set(&t, drogue_product(factor[added[i][1]], factor[added[i][2]]), -32);
         drogue_real_product(&t, &t, &share);
         drogue_real_sum(own, own, &t);
@@ -133,13 +131,14 @@ static void add_smear(real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *
 drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
                                               drogue_q16 shading_q16, drogue_q16 blur_px2_q16)
 {
-    const real grid_px2 = {1288490189, -32}; /* 0.3 px^2 over the semi-axis: what the pixels' grid makes of all edges */
-    real *covariance = outline->covariance;
-    real information[DROGUE_PACKED_MAX];
-    real scatter;
-    real variance;
-    real a;
-    real t;
+    /* 0.3 px^2 over the semi-axis: what the pixels' grid makes of all edges */
+    const drogue_real grid_px2 = {1288490189, -32};
+    drogue_real *covariance = outline->covariance;
+    drogue_real information[DROGUE_PACKED_MAX];
+    drogue_real scatter;
+    drogue_real variance;
+    drogue_real a;
+    drogue_real t;
     int i;
     const int32_t bins =
         sum_bins(information, &scatter, support, drogue_support_bins_to(support, outline->ellipse.angle_rad_q16));
@@ -162,7 +161,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
     drogue_real_product(&t, &a, &t);
     square_ratio(&variance, &variance, &t);
     for (i = 0; i < DROGUE_JOINT_FIT; i++) {
-        real *own = &covariance[DROGUE_PACKED(i, i)];
+        drogue_real *own = &covariance[DROGUE_PACKED(i, i)];
         drogue_real_sum(own, own, &variance);
     }
     /* blur and grid over the product of the semi-axes */
@@ -173,7 +172,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
     drogue_real_sum(&covariance[0], &covariance[0], &variance);
     square_ratio(&a, &grid_px2, &a);
     for (i = 0; i < DROGUE_JOINT_FIT; i++) { /* of what lies beside it and was put back, half remains */
-        real *own = &covariance[DROGUE_PACKED(i, i)];
+        drogue_real *own = &covariance[DROGUE_PACKED(i, i)];
         drogue_real_set(&variance, support->pull_q24[i], -25);
         drogue_real_product(&variance, &variance, &variance);
         drogue_real_sum(&variance, &variance, &a);
@@ -185,8 +184,8 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
 
 drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline)
 {
-    real root[DROGUE_PACKED_MAX];
-    real information[DROGUE_PACKED_MAX];
+    drogue_real root[DROGUE_PACKED_MAX];
+    drogue_real information[DROGUE_PACKED_MAX];
     int32_t top = INT32_MIN;
     int i;
     memcpy(root, outline->covariance, sizeof outline->covariance);
@@ -195,7 +194,7 @@ drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline)
     }
     drogue_cholesky_invert(information, root, DROGUE_JOINT_FIT);
     for (i = 0; i < DROGUE_PACKED_MAX; i++) { /* one scale: what is 2^30 below the largest is 0 */
-        const real *w = &information[i];
+        const drogue_real *w = &information[i];
         top = w->mantissa != 0 && w->exponent > top ? w->exponent : top;
     }
     outline->weight_exponent = top + 1; /* the largest, below 2^31, comes to lie below 2^30 */
@@ -205,9 +204,9 @@ drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline)
     return DROGUE_OK;
 }
 
-void drogue_joint_weigh_inner(real out[2], const drogue_joint_inner *inner, const drogue_camera *camera)
+void drogue_joint_weigh_inner(drogue_real out[2], const drogue_joint_inner *inner, const drogue_camera *camera)
 {
-    real std;
+    drogue_real std;
     memset(out, 0, 2 * sizeof *out);
     if (inner->std_px_q16 > 0) { /* its rows are rays */
         drogue_real_set_q16(&std, inner->std_px_q16);

@@ -6,6 +6,19 @@
 
 #include "drogue/eigen.h"
 
+void drogue_pose_axis(drogue_q16 axis_q16[3], drogue_q16 yaw_rad_q16, drogue_q16 pitch_rad_q16)
+{
+    int32_t sin_yaw;
+    int32_t cos_yaw;
+    int32_t sin_pitch;
+    int32_t cos_pitch;
+    drogue_sincos_of_q16(&sin_yaw, &cos_yaw, yaw_rad_q16);
+    drogue_sincos_of_q16(&sin_pitch, &cos_pitch, pitch_rad_q16);
+    axis_q16[0] = (drogue_q16)drogue_shr_round_s64(drogue_product(sin_yaw, cos_pitch), 44);
+    axis_q16[1] = (drogue_q16)drogue_shr_round_s64(sin_pitch, 14);
+    axis_q16[2] = (drogue_q16)drogue_shr_round_s64(drogue_product(cos_yaw, cos_pitch), 44);
+}
+
 /* The cone through an ellipse in a frame of its own, whose z axis is the ray through the ellipse's centre. */
 typedef struct view {
     drogue_real axis[3][3]; /* the frame's axes, in camera coordinates */
@@ -54,7 +67,7 @@ static void ray_of(drogue_real *out, drogue_q16 px_q16, drogue_q16 centre_px_q16
 /* Axes (1, 0, -x) / w, (-xy, w^2, -y) / (w rho), (x, y, 1) / rho with w^2 = 1 + x^2, rho^2 = w^2 + y^2. */
 static void axes_of(drogue_real axis[3][3], drogue_real *rho2, const drogue_real *x, const drogue_real *y)
 {
-    const drogue_real one = {1 << 30, -30};
+    const drogue_real one = DROGUE_REAL_ONE;
     drogue_real w;
     drogue_real rho;
     drogue_real_products(&w, x, x, &one, &one);
@@ -115,7 +128,7 @@ static void root_of_ratio(drogue_real *out, const drogue_real *a, const drogue_r
 /* From the inverse's eigenvalues p >= q > 0 > -m: the cone's are 1 / q, 1 / p, -1 / m. */
 static void circles_on_cone(circle_pair *out, const drogue_real value[3], drogue_q16 radius_m_q16)
 {
-    const drogue_real one = {1 << 30, -30};
+    const drogue_real one = DROGUE_REAL_ONE;
     drogue_real m;
     drogue_real difference;
     drogue_real sum;

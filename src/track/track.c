@@ -82,20 +82,6 @@ drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *
     return DROGUE_OK;
 }
 
-/* Unit vector of yaw and pitch, Q16. */
-static void axis_of(drogue_q16 axis_q16[3], drogue_q16 yaw_rad_q16, drogue_q16 pitch_rad_q16)
-{
-    int32_t sin_yaw;
-    int32_t cos_yaw;
-    int32_t sin_pitch;
-    int32_t cos_pitch;
-    drogue_sincos_q30(&sin_yaw, &cos_yaw, (int32_t)drogue_shl_s64(yaw_rad_q16, 13));
-    drogue_sincos_q30(&sin_pitch, &cos_pitch, (int32_t)drogue_shl_s64(pitch_rad_q16, 13));
-    axis_q16[0] = (drogue_q16)drogue_shr_round_s64((int64_t)sin_yaw * cos_pitch, 44);
-    axis_q16[1] = (drogue_q16)drogue_shr_round_s64(sin_pitch, 14);
-    axis_q16[2] = (drogue_q16)drogue_shr_round_s64((int64_t)cos_yaw * cos_pitch, 44);
-}
-
 /* An angle within [-pi, pi), Q16: filtered angles may pass it. */
 static drogue_q16 wrap_q16(drogue_q16 angle)
 {
@@ -119,7 +105,7 @@ static int64_t axis_std(int64_t yaw_std_q32, int64_t pitch_std_q32, drogue_q16 p
     drogue_real pitch;
     int32_t s_q30;
     int32_t c_q30;
-    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(pitch_rad_q16, 13));
+    drogue_sincos_of_q16(&s_q30, &c_q30, pitch_rad_q16);
     drogue_real_set(&yaw, yaw_std_q32, -32);
     drogue_real_set(&pitch, c_q30, -30);
     drogue_real_product(&yaw, &yaw, &pitch);
@@ -168,7 +154,7 @@ void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
         out->position_std_m_q32[k] = std[k];
     }
     angles_of(&out->yaw_rad_q16, &out->pitch_rad_q16, value[DROGUE_YAW], value[DROGUE_PITCH]);
-    axis_of(out->axis_q16, out->yaw_rad_q16, out->pitch_rad_q16);
+    drogue_pose_axis(out->axis_q16, out->yaw_rad_q16, out->pitch_rad_q16);
     out->orientation_resolved = track->orientation_known && track->turned == 0;
     out->yaw_std_rad_q32 = std[DROGUE_YAW];
     out->pitch_std_rad_q32 = std[DROGUE_PITCH];

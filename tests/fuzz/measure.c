@@ -50,7 +50,8 @@ static void shifted(const fuzz_scene *s, fuzz_bytes *b, const drogue_capacity *c
     config.recentre_cover_q16 = 0; /* a second look may reach past the region */
     setup.config = &config;
     here = measured(s, image, &setup, &all, capacity, 1);
-    if (here.status != DROGUE_OK || !here.has_inner || here.doubt_q16 > DROGUE_Q16(1, 64) || here.tried > 3) {
+    if (here.status != DROGUE_OK || !here.has_inner || here.doubt_q16 > DROGUE_Q16(1, 64) ||
+        here.tried >= DROGUE_TRIED_RAYS) {
         model.inner_radius_m_q16 = 0; /* so may the region about a disc, which is looked for where none is believed */
         setup.model = &model;
         here = measured(s, image, &setup, &all, capacity, 1);

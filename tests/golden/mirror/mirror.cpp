@@ -444,7 +444,7 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     const bool follow = f.follow.library != nullptr;
     Ellipse was = best.seen;
     out.status = DROGUE_OK;
-    out.tried = 4;
+    out.tried = DROGUE_TRIED_RAYS;
     out.second_look = best.second_look;
     place(out.region, f.mask, task.image, region);
     f.view = task.image(out.region).clone();
@@ -473,7 +473,7 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
 {
     Seeker seeker(task, follow);
     std::array<int64_t, 4> region = task.region;
-    out.tried = 5;
+    out.tried = DROGUE_TRIED_DISC;
     out.status = DROGUE_E_NO_INNER_PART;
     if (!place(out.region, f.mask, task.image, region)) {
         return false;
@@ -661,7 +661,8 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    const bool another = best.tried != 4 && least == 1 && f.ring > 0 && !about_one_size(best.seen.a, f.ring, 8);
+    const bool another =
+        best.tried != DROGUE_TRIED_RAYS && least == 1 && f.ring > 0 && !about_one_size(best.seen.a, f.ring, 8);
     const bool whole =
         best.status == DROGUE_OK && !best.too_large && !another && best.second_look <= DROGUE_SECOND_BETTER;
     if (room != DROGUE_SECOND_NONE) {

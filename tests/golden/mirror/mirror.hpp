@@ -25,7 +25,7 @@ struct Task {
 struct Result {
     drogue_status status = DROGUE_OK;
     drogue_second_look second_look = DROGUE_SECOND_NONE;
-    int tried = 0; /* as drogue_result */
+    int tried = 0; /* drogue_tried */
     cv::Rect region;
     bool found = false; /* an outline, whatever came of it */
     Outline outline;    /* in coordinates of the region */

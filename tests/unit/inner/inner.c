@@ -191,9 +191,9 @@ START_TEST(reasons_not_to_believe)
     f.edge.rays = 31; /* of 64: less than a half */
     ck_assert(std_of(&f) == 0);
     f = usual_finding();
-    f.edge.rms_px_q16 = q16_of(0.649);
+    f.edge.spread_px_q16 = q16_of(0.649);
     ck_assert(std_of(&f) > 0);
-    f.edge.rms_px_q16 = q16_of(0.651); /* which what lies about at random has, too */
+    f.edge.spread_px_q16 = q16_of(0.651); /* which what lies about at random has, too */
     ck_assert(std_of(&f) == 0);
     f = usual_finding();
     f.edge.contrast = 6;
@@ -234,7 +234,7 @@ START_TEST(evident_elsewhere)
     finding f = usual_finding();
     int k;
     f.edge.rays = 56;
-    f.edge.rms_px_q16 = q16_of(0.324);
+    f.edge.spread_px_q16 = q16_of(0.324);
     for (k = -1; k <= 1; k += 2) {
         f.edge.grown_px_q16 = k * q16_of(0.76); /* 0.3 + 30 / 64 is 0.769 */
         f.edge.x_px_q16 = q16_of(210 + 12.9);
@@ -247,9 +247,9 @@ START_TEST(evident_elsewhere)
         ck_assert(std_of(&f) == 0);
     }
     f.edge.grown_px_q16 = 0;
-    f.edge.rms_px_q16 = q16_of(0.326);
+    f.edge.spread_px_q16 = q16_of(0.326);
     ck_assert(std_of(&f) == 0);
-    f.edge.rms_px_q16 = 0;
+    f.edge.spread_px_q16 = 0;
     f.edge.rays = 55;
     ck_assert(std_of(&f) == 0);
 }

@@ -168,7 +168,7 @@ START_TEST(raised_thresholds_do_not_hide_a_cut)
             }
         }
         (void)drogue_measure(&r, &t.workspace, &(drogue_setup){&camera, &bare, &config}, &image, &region);
-        if (r.status == DROGUE_OK && r.tried >= 2) {
+        if (r.status == DROGUE_OK && r.tried >= DROGUE_TRIED_NOISE) {
             whole += r.second_look == DROGUE_SECOND_ROOM;
             cut += r.second_look == DROGUE_SECOND_FULL || r.second_look == DROGUE_SECOND_TOO_WIDE;
             MUST((r.second_look == DROGUE_SECOND_ROOM) == (k % 2 == 0), "%d: %s, cover %g", k,
@@ -211,7 +211,7 @@ START_TEST(too_little_room_for_points_along_rays)
         ck_assert_int_eq(r[k].status, DROGUE_OK);
         MUST(r[k].second_look == (k == 0 ? DROGUE_SECOND_ROOM : DROGUE_SECOND_NONE), "%u edges: %d", (unsigned)edges[k],
              (int)r[k].second_look);
-        MUST((r[k].tried == 4) == (k > 0), "%u edges: %d stands", (unsigned)edges[k], (int)r[k].tried);
+        MUST((r[k].tried == DROGUE_TRIED_RAYS) == (k > 0), "%u edges: %d stands", (unsigned)edges[k], (int)r[k].tried);
         MUST(fabs(real_of_q16(r[k].ellipse.a_px_q16) - (k == 0 ? 41 : 45)) < 0.6, "%u edges: a %g", (unsigned)edges[k],
              real_of_q16(r[k].ellipse.a_px_q16));
         test_workspace_free(&t);
