@@ -36,7 +36,7 @@ static const char *const PARTS[] = {
     "  --min-reliability R        a reliability below R, 0 to 1, is no measurement but \"unreliable\"\n"
     "  --set NAME=VALUE           change a threshold; --help-config lists them\n"
     "  --raw W,H,FORMAT           track: frames of raw video, FORMAT gray8, nv12 or yuyv\n"
-    "  --fps N                    track: frames a second, 30 by default\n"
+    "  --fps N                    track: frames a second, 0.0005 to 1000000, 30 by default\n"
     "  --max-missed N             track: frames in a row without the drogue that a track survives, 10 by default\n"
     "  --low L, --high H          edges: Canny's thresholds on the L1 Sobel magnitude, 0 <= L <= H\n"
     "  --smooth                   edges: smooth 5x5 before the gradient\n"

@@ -86,6 +86,7 @@ static const command_use COMMANDS[] = {
 enum { MAX_NUMBERS = 5 };
 
 #define MOST_ASPECT 8            /* of a pixel; beyond it one of the two is no focal length */
+#define BILLION UINT64_C(1000000000)
 #define MAX_COORDINATE (1 << 20) /* px, of a region: far beyond any image, far from any overflow */
 
 static int parse_camera(drogue_camera *camera, const char *list)
@@ -195,19 +196,15 @@ static int parse_region(drogue_region *region, const char *list)
     return EXIT_MEASURED;
 }
 
-static int parse_rate(uint32_t *frame_us, const char *text)
+static int parse_rate(uint64_t *rate, const char *text)
 {
-    const uint64_t million_in_billionths = UINT64_C(1000000000000000);
-    uint64_t rate, us;
-    if (numbers_billionths(&rate, "--fps", text)) {
+    if (numbers_billionths(rate, "--fps", text)) {
         return EXIT_BAD;
     }
-    us = rate == 0 ? 0 : (2 * million_in_billionths + rate) / (2 * rate);
-    if (us == 0 || us > INT32_MAX) {
-        return complain("--fps", "'%s' is not a rate from 0.0005 to 2000000 frames a second", text);
-    }
-    *frame_us = (uint32_t)us;
-    return EXIT_MEASURED;
+    /* a microsecond a frame at least, and no more of them than the library counts */
+    return *rate >= BILLION / 2000 && *rate <= 1000000 * BILLION
+               ? EXIT_MEASURED
+               : complain("--fps", "'%s' is not a rate from 0.0005 to 1000000 frames a second", text);
 }
 
 #define MOST_MISSED 1000000
@@ -253,7 +250,7 @@ static int parse_option(options *out, uint64_t thresholds[2], int option, const 
     case OPTION_SET: return settings_set(&out->config, value);
     case OPTION_RAW: return raw_parse(&out->raw, value);
     case OPTION_OVERLAY: out->overlay = value; return EXIT_MEASURED;
-    case OPTION_FPS: return parse_rate(&out->frame_us, value);
+    case OPTION_FPS: return parse_rate(&out->rate, value);
     case OPTION_MAX_MISSED: out->max_missed_given = 1; return parse_max_missed(&out->max_missed, value);
     case OPTION_LOW: return numbers_billionths(&thresholds[0], "--low", value);
     case OPTION_HIGH: return numbers_billionths(&thresholds[1], "--high", value);
@@ -300,13 +297,12 @@ static int check_use(options *out, unsigned given, char **operands, int count)
 
 int options_parse(options *out, int argc, char **argv)
 {
-    const uint64_t billion = UINT64_C(1000000000);
     uint64_t thresholds[2] = {0, 0};
     unsigned given = 0;
     int option;
     memset(out, 0, sizeof *out);
     out->model.rim_radius_m_q16 = DROGUE_Q16_ONE;
-    out->frame_us = 33333;
+    out->rate = 30 * BILLION;
     opterr = 0;
     drogue_config_default(&out->config);
     while ((option = getopt_long(argc, argv, SHORT_OPTIONS, LONG_OPTIONS, NULL)) != -1) {
@@ -352,8 +348,8 @@ int options_parse(options *out, int argc, char **argv)
     if (thresholds[0] > thresholds[1]) {
         return complain("--low", "must not exceed --high");
     }
-    out->canny_low = (int32_t)(thresholds[0] / billion);
-    out->canny_high = (int32_t)(thresholds[1] / billion);
+    out->canny_low = (int32_t)(thresholds[0] / BILLION);
+    out->canny_high = (int32_t)(thresholds[1] / BILLION);
     return EXIT_MEASURED;
 }
 

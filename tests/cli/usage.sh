@@ -106,7 +106,7 @@ for list in 1,2,3 1,2,3,4,5 '' 0,0,0,10 0,0,10,0 0,0,-5,5 0,0,5,-5 0.5,0,10,10 0
     run 2 measure scene.png $camera --roi "$list"
     says '--roi'
 done
-for rate in 0 -1 nan '' 30,30 1e-9 0.0001 1e9 3000000 30fps 1e99; do
+for rate in 0 -1 nan '' 30,30 1e-9 0.0001 0.000499999 1e9 1000000.1 30fps 1e99; do
     run 2 track scene.png $camera --fps "$rate"
     says '--fps'
 done
