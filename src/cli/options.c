@@ -9,9 +9,8 @@
 
 #include "camera_file.h"
 #include "cli.h"
-#include "drogue/drogue.h"
-#include "drogue/undistort.h"
 #include "numbers.h"
+#include "ranges.h"
 #include "settings.h"
 
 /* What getopt_long answers; below every printable character. */
@@ -85,7 +84,6 @@ static const command_use COMMANDS[] = {
 
 enum { MAX_NUMBERS = 5 };
 
-#define MOST_ASPECT 8            /* of a pixel; beyond it one of the two is no focal length */
 #define BILLION UINT64_C(1000000000)
 #define MAX_COORDINATE (1 << 20) /* px, of a region: far beyond any image, far from any overflow */
 
@@ -97,12 +95,6 @@ static int parse_camera(drogue_camera *camera, const char *list)
     }
     if (numbers_check_count("--camera", list, 4) || numbers_q16(v, 4, "--camera", list)) {
         return EXIT_BAD;
-    }
-    if (v[0] <= 0 || v[1] <= 0) {
-        return complain("--camera", "FX and FY must be greater than 0 (at least 1/65536)");
-    }
-    if (v[0] / MOST_ASPECT > v[1] || v[1] / MOST_ASPECT > v[0]) {
-        return complain("--camera", "FX and FY are too unlike; decimals stand behind a point, not a comma");
     }
     camera->fx_px_q16 = v[0];
     camera->fy_px_q16 = v[1];
@@ -130,6 +122,18 @@ static int take_camera(options *out, int distortion_given)
     return camera_file_read(&out->camera, &out->camera_width_px, &out->camera_height_px, text);
 }
 
+/* The numbers of a camera, from wherever they are. */
+static int check_camera(const options *o)
+{
+    const char *focal = o->camera_text != NULL ? ranges_focal(&o->camera) : NULL;
+    const char *lens = ranges_lens(&o->camera);
+    if (focal != NULL) {
+        return complain(o->camera_file != NULL ? o->camera_file : "--camera", "%s", focal);
+    }
+    return lens == NULL ? EXIT_MEASURED
+                        : complain(o->camera_file != NULL ? o->camera_file : "--distortion", "%s", lens);
+}
+
 static int parse_distortion(drogue_camera *camera, const char *list)
 {
     drogue_q16 v[MAX_NUMBERS];
@@ -148,30 +152,27 @@ static int parse_model(drogue_model *model, const char *list)
 {
     drogue_q16 v[MAX_NUMBERS] = {0};
     const int count = numbers_count(list);
+    const char *wrong;
     if (count != 1 && count != 3) {
         return complain("--drogue", "1 or 3 numbers separated by commas are wanted, not %d", count);
     }
     if (numbers_q16(v, count, "--drogue", list)) {
         return EXIT_BAD;
     }
-    if (v[0] <= 0 || (count == 3 && v[1] <= 0)) {
-        return complain("--drogue", "a radius must be greater than 0 (at least 1/65536)");
-    }
-    if (v[2] < 0) {
-        return complain("--drogue", "INNER_DEPTH must not be negative");
-    }
-    if (v[1] > v[0]) {
-        return complain("--drogue", "INNER must not exceed RADIUS");
+    if (count == 3 && v[1] <= 0) {
+        return complain("--drogue", "INNER must be above 0 (at least 1/65536)");
     }
     model->rim_radius_m_q16 = v[0];
     model->inner_radius_m_q16 = v[1];
     model->inner_depth_m_q16 = v[2];
-    return EXIT_MEASURED;
+    wrong = ranges_model(model);
+    return wrong == NULL ? EXIT_MEASURED : complain("--drogue", "%s", wrong);
 }
 
 static int parse_region(drogue_region *region, const char *list)
 {
     int32_t v[4];
+    const char *wrong;
     int i;
     if (numbers_check_count("--roi", list, 4)) {
         return EXIT_BAD;
@@ -183,17 +184,12 @@ static int parse_region(drogue_region *region, const char *list)
         }
         list += length + 1;
     }
-    if (v[2] <= 0 || v[3] <= 0) {
-        return complain("--roi", "width and height must be greater than 0");
-    }
-    if (v[2] > DROGUE_MAX_REGION || v[3] > DROGUE_MAX_REGION) {
-        return complain("--roi", "width and height must not exceed %d", DROGUE_MAX_REGION);
-    }
     region->x_px = v[0];
     region->y_px = v[1];
     region->width_px = v[2];
     region->height_px = v[3];
-    return EXIT_MEASURED;
+    wrong = ranges_region(region);
+    return wrong == NULL ? EXIT_MEASURED : complain("--roi", "%s", wrong);
 }
 
 static int parse_rate(uint64_t *rate, const char *text)
@@ -336,8 +332,8 @@ int options_parse(options *out, int argc, char **argv)
         take_camera(out, (given & BIT(OPTION_DISTORTION)) != 0)) {
         return EXIT_BAD;
     }
-    if (!drogue_lens_valid(&out->camera)) {
-        return complain(out->camera_file != NULL ? out->camera_file : "--distortion", "a coefficient is beyond 256");
+    if (check_camera(out)) {
+        return EXIT_BAD;
     }
     if (out->command == COMMAND_TRACK && out->overlay != NULL && strcmp(out->overlay, "-") == 0) {
         return complain("--overlay", "track writes numbered files, not to standard output");
