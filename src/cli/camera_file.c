@@ -65,8 +65,7 @@ static int read_matrix(drogue_camera *out, const keys *k, const form *f, const c
     out->fy_px_q16 = f->is_matrix ? m[4] : m[1];
     out->cx_px_q16 = m[2];
     out->cy_px_q16 = f->is_matrix ? m[5] : m[3];
-    return out->fx_px_q16 > 0 && out->fy_px_q16 > 0 ? EXIT_MEASURED
-                                                    : complain(path, "%s: focal lengths must be above 0", f->matrix);
+    return EXIT_MEASURED;
 }
 
 /* Brown-Conrady of OpenCV's order; what follows the fifth is another model unless it is 0. */
@@ -80,6 +79,9 @@ static int read_distortion(drogue_camera *out, const keys *k, const form *f, con
             return EXIT_BAD;
         }
         count++;
+    }
+    if (place_value(k, f->distortion, count) != NULL && count == MOST_COEFFICIENTS) {
+        return complain(path, "%s: more than %d numbers; Brown-Conrady has five", f->distortion, MOST_COEFFICIENTS);
     }
     if (count < 4) {
         return complain(path, "has no %s with four or five numbers", f->distortion);
@@ -141,6 +143,18 @@ static int read_side(int32_t *out, const keys *k, const char *name, const char *
     return EXIT_MEASURED;
 }
 
+/* Both sides of the images, or neither. */
+static int read_size(int32_t *width_px, int32_t *height_px, const keys *k, const form *f, const char *path)
+{
+    if (read_side(width_px, k, f->width, path) || read_side(height_px, k, f->height, path)) {
+        return EXIT_BAD;
+    }
+    return (*width_px > 0) == (*height_px > 0)
+               ? EXIT_MEASURED
+               : complain(path, "has %s without %s", *width_px > 0 ? f->width : f->height,
+                          *width_px > 0 ? f->height : f->width);
+}
+
 static int interpret(drogue_camera *out, int32_t *width_px, int32_t *height_px, const keys *k, const char *path)
 {
     size_t i;
@@ -148,7 +162,7 @@ static int interpret(drogue_camera *out, int32_t *width_px, int32_t *height_px, 
         const form *f = &FORMS[i];
         if (place_value(k, f->matrix, 0) != NULL) {
             return check_model(k, path) || read_matrix(out, k, f, path) || read_distortion(out, k, f, path) ||
-                   read_side(width_px, k, f->width, path) || read_side(height_px, k, f->height, path);
+                   read_size(width_px, height_px, k, f, path);
         }
     }
     return complain(path, "has no camera_matrix (OpenCV, ROS), K (camera_info) or cam0 with intrinsics (Kalibr)");

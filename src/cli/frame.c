@@ -208,13 +208,13 @@ int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w,
 }
 
 int frame_track(drogue_result *out, drogue_region *region, drogue_track *track, frame_workspace *w, const options *o,
-                const char *path, const picture *grey)
+                const char *path, const picture *grey, uint32_t dt_us)
 {
     drogue_image image = frame_image(grey);
     if (fit_whole(w, o, path, grey)) {
         return EXIT_BAD;
     }
-    (void)drogue_track_frame(out, region, track, &w->workspace, &w->search, &o->config, &image, o->frame_us);
+    (void)drogue_track_frame(out, region, track, &w->workspace, &w->search, &o->config, &image, dt_us);
     if (region->width_px == 0) {
         *region = out->status == DROGUE_OK ? out->region : whole_image(grey);
     }

@@ -53,11 +53,12 @@ int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w,
 
 /* One frame of a track.
  *
+ *  dt_us   microseconds since the one before
  *  region  out, asked for; where it was measured when the whole image was searched
  *  return  EXIT_MEASURED, or EXIT_BAD after a complaint: no memory, or more than 32767 pixels a side and no --roi
  */
 int frame_track(drogue_result *out, drogue_region *region, drogue_track *track, frame_workspace *w, const options *o,
-                const char *path, const picture *grey);
+                const char *path, const picture *grey, uint32_t dt_us);
 
 /* Measure one frame; what the library found, or why it found nothing, is in the result. Where the region asked for has
  * edges but no outline of its own size, it is searched for a smaller one.

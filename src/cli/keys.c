@@ -62,8 +62,11 @@ int keys_has(const keys *k, const char *beginning)
 
 static int read_stream(keys *out, FILE *in, const char *path)
 {
-    const int first = getc(in);
+    int first = getc(in);
     const char *wrong;
+    if (first == 0xEF) { /* the mark of UTF-8, which editors of Windows put before a text */
+        first = getc(in) == 0xBB && getc(in) == 0xBF ? getc(in) : 0;
+    }
     if (first == EOF) {
         return complain(path, "%s", ferror(in) ? strerror(errno) : "the file is empty");
     }

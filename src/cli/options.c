@@ -9,9 +9,8 @@
 
 #include "camera_file.h"
 #include "cli.h"
-#include "drogue/drogue.h"
-#include "drogue/undistort.h"
 #include "numbers.h"
+#include "ranges.h"
 #include "settings.h"
 
 /* What getopt_long answers; below every printable character. */
@@ -85,7 +84,7 @@ static const command_use COMMANDS[] = {
 
 enum { MAX_NUMBERS = 5 };
 
-#define MOST_ASPECT 8            /* of a pixel; beyond it one of the two is no focal length */
+#define BILLION UINT64_C(1000000000)
 #define MAX_COORDINATE (1 << 20) /* px, of a region: far beyond any image, far from any overflow */
 
 static int parse_camera(drogue_camera *camera, const char *list)
@@ -96,12 +95,6 @@ static int parse_camera(drogue_camera *camera, const char *list)
     }
     if (numbers_check_count("--camera", list, 4) || numbers_q16(v, 4, "--camera", list)) {
         return EXIT_BAD;
-    }
-    if (v[0] <= 0 || v[1] <= 0) {
-        return complain("--camera", "FX and FY must be greater than 0 (at least 1/65536)");
-    }
-    if (v[0] / MOST_ASPECT > v[1] || v[1] / MOST_ASPECT > v[0]) {
-        return complain("--camera", "FX and FY are too unlike; decimals stand behind a point, not a comma");
     }
     camera->fx_px_q16 = v[0];
     camera->fy_px_q16 = v[1];
@@ -129,6 +122,18 @@ static int take_camera(options *out, int distortion_given)
     return camera_file_read(&out->camera, &out->camera_width_px, &out->camera_height_px, text);
 }
 
+/* The numbers of a camera, from wherever they are. */
+static int check_camera(const options *o)
+{
+    const char *focal = o->camera_text != NULL ? ranges_focal(&o->camera) : NULL;
+    const char *lens = ranges_lens(&o->camera);
+    if (focal != NULL) {
+        return complain(o->camera_file != NULL ? o->camera_file : "--camera", "%s", focal);
+    }
+    return lens == NULL ? EXIT_MEASURED
+                        : complain(o->camera_file != NULL ? o->camera_file : "--distortion", "%s", lens);
+}
+
 static int parse_distortion(drogue_camera *camera, const char *list)
 {
     drogue_q16 v[MAX_NUMBERS];
@@ -147,30 +152,27 @@ static int parse_model(drogue_model *model, const char *list)
 {
     drogue_q16 v[MAX_NUMBERS] = {0};
     const int count = numbers_count(list);
+    const char *wrong;
     if (count != 1 && count != 3) {
         return complain("--drogue", "1 or 3 numbers separated by commas are wanted, not %d", count);
     }
     if (numbers_q16(v, count, "--drogue", list)) {
         return EXIT_BAD;
     }
-    if (v[0] <= 0 || (count == 3 && v[1] <= 0)) {
-        return complain("--drogue", "a radius must be greater than 0 (at least 1/65536)");
-    }
-    if (v[2] < 0) {
-        return complain("--drogue", "INNER_DEPTH must not be negative");
-    }
-    if (v[1] > v[0]) {
-        return complain("--drogue", "INNER must not exceed RADIUS");
+    if (count == 3 && v[1] <= 0) {
+        return complain("--drogue", "INNER must be above 0 (at least 1/65536)");
     }
     model->rim_radius_m_q16 = v[0];
     model->inner_radius_m_q16 = v[1];
     model->inner_depth_m_q16 = v[2];
-    return EXIT_MEASURED;
+    wrong = ranges_model(model);
+    return wrong == NULL ? EXIT_MEASURED : complain("--drogue", "%s", wrong);
 }
 
 static int parse_region(drogue_region *region, const char *list)
 {
     int32_t v[4];
+    const char *wrong;
     int i;
     if (numbers_check_count("--roi", list, 4)) {
         return EXIT_BAD;
@@ -182,32 +184,23 @@ static int parse_region(drogue_region *region, const char *list)
         }
         list += length + 1;
     }
-    if (v[2] <= 0 || v[3] <= 0) {
-        return complain("--roi", "width and height must be greater than 0");
-    }
-    if (v[2] > DROGUE_MAX_REGION || v[3] > DROGUE_MAX_REGION) {
-        return complain("--roi", "width and height must not exceed %d", DROGUE_MAX_REGION);
-    }
     region->x_px = v[0];
     region->y_px = v[1];
     region->width_px = v[2];
     region->height_px = v[3];
-    return EXIT_MEASURED;
+    wrong = ranges_region(region);
+    return wrong == NULL ? EXIT_MEASURED : complain("--roi", "%s", wrong);
 }
 
-static int parse_rate(uint32_t *frame_us, const char *text)
+static int parse_rate(uint64_t *rate, const char *text)
 {
-    const uint64_t million_in_billionths = UINT64_C(1000000000000000);
-    uint64_t rate, us;
-    if (numbers_billionths(&rate, "--fps", text)) {
+    if (numbers_billionths(rate, "--fps", text)) {
         return EXIT_BAD;
     }
-    us = rate == 0 ? 0 : (2 * million_in_billionths + rate) / (2 * rate);
-    if (us == 0 || us > INT32_MAX) {
-        return complain("--fps", "'%s' is not a rate from 0.0005 to 2000000 frames a second", text);
-    }
-    *frame_us = (uint32_t)us;
-    return EXIT_MEASURED;
+    /* a microsecond a frame at least, and no more of them than the library counts */
+    return *rate >= BILLION / 2000 && *rate <= 1000000 * BILLION
+               ? EXIT_MEASURED
+               : complain("--fps", "'%s' is not a rate from 0.0005 to 1000000 frames a second", text);
 }
 
 #define MOST_MISSED 1000000
@@ -253,7 +246,7 @@ static int parse_option(options *out, uint64_t thresholds[2], int option, const 
     case OPTION_SET: return settings_set(&out->config, value);
     case OPTION_RAW: return raw_parse(&out->raw, value);
     case OPTION_OVERLAY: out->overlay = value; return EXIT_MEASURED;
-    case OPTION_FPS: return parse_rate(&out->frame_us, value);
+    case OPTION_FPS: return parse_rate(&out->rate, value);
     case OPTION_MAX_MISSED: out->max_missed_given = 1; return parse_max_missed(&out->max_missed, value);
     case OPTION_LOW: return numbers_billionths(&thresholds[0], "--low", value);
     case OPTION_HIGH: return numbers_billionths(&thresholds[1], "--high", value);
@@ -300,13 +293,12 @@ static int check_use(options *out, unsigned given, char **operands, int count)
 
 int options_parse(options *out, int argc, char **argv)
 {
-    const uint64_t billion = UINT64_C(1000000000);
     uint64_t thresholds[2] = {0, 0};
     unsigned given = 0;
     int option;
     memset(out, 0, sizeof *out);
     out->model.rim_radius_m_q16 = DROGUE_Q16_ONE;
-    out->frame_us = 33333;
+    out->rate = 30 * BILLION;
     opterr = 0;
     drogue_config_default(&out->config);
     while ((option = getopt_long(argc, argv, SHORT_OPTIONS, LONG_OPTIONS, NULL)) != -1) {
@@ -340,8 +332,8 @@ int options_parse(options *out, int argc, char **argv)
         take_camera(out, (given & BIT(OPTION_DISTORTION)) != 0)) {
         return EXIT_BAD;
     }
-    if (!drogue_lens_valid(&out->camera)) {
-        return complain(out->camera_file != NULL ? out->camera_file : "--distortion", "a coefficient is beyond 256");
+    if (check_camera(out)) {
+        return EXIT_BAD;
     }
     if (out->command == COMMAND_TRACK && out->overlay != NULL && strcmp(out->overlay, "-") == 0) {
         return complain("--overlay", "track writes numbered files, not to standard output");
@@ -352,8 +344,8 @@ int options_parse(options *out, int argc, char **argv)
     if (thresholds[0] > thresholds[1]) {
         return complain("--low", "must not exceed --high");
     }
-    out->canny_low = (int32_t)(thresholds[0] / billion);
-    out->canny_high = (int32_t)(thresholds[1] / billion);
+    out->canny_low = (int32_t)(thresholds[0] / BILLION);
+    out->canny_high = (int32_t)(thresholds[1] / BILLION);
     return EXIT_MEASURED;
 }
 

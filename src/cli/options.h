@@ -38,7 +38,7 @@ typedef struct options {
     drogue_config config;
     raw_format raw;
     const char *overlay; /* NULL: none */
-    uint32_t frame_us;   /* from one frame to the next */
+    uint64_t rate;       /* billionths of a frame a second */
     uint32_t max_missed; /* frames in a row that a track survives */
     int max_missed_given;
     int32_t canny_low;

@@ -23,6 +23,10 @@ int raw_parse(raw_format *out, const char *text)
         numbers_whole(&out->height_px, "--raw", text + width + 1, numbers_item(text + width + 1), 1, INT16_MAX)) {
         return EXIT_BAD;
     }
+    if ((uint64_t)out->width_px * (uint64_t)out->height_px > PICTURE_MAX_PIXELS) {
+        return complain("--raw", "%dx%d pixels are more than the %u that are read", out->width_px, out->height_px,
+                        PICTURE_MAX_PIXELS);
+    }
     for (kind = RAW_GRAY8; kind <= RAW_YUYV; kind++) {
         if (strcmp(name + 1, NAMES[kind]) == 0) {
             out->kind = (raw_kind)kind;

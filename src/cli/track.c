@@ -16,8 +16,16 @@
 #include "overlay.h"
 #include "sequence.h"
 
+/* When the frames are, without a rounded step that adds up. */
+typedef struct frame_clock {
+    uint64_t whole_us; /* exact time since the first: these, and */
+    uint64_t rest;     /* shares of a microsecond, in units of 1 / rate */
+    uint64_t us;       /* rounded */
+} frame_clock;
+
 typedef struct tracker {
     const options *o;
+    frame_clock clock;
     frame_workspace w;
     drogue_track track;
     int32_t width_px; /* of the first frame */
@@ -71,7 +79,7 @@ static void print_line(const tracker *s, const char *path, const drogue_result *
     line.raw.searched = -1; /* the tracker does not say */
     line.raw.unreliable = frame_unreliable(s->o, result);
     line.frame = s->frames;
-    line.time_us = (uint64_t)(s->frames - 1) * s->o->frame_us;
+    line.time_us = s->clock.us;
     line.track = &s->track;
     line.region = region;
     line.estimate = &estimate;
@@ -82,11 +90,27 @@ static void print_line(const tracker *s, const char *path, const drogue_result *
     }
 }
 
+/* On to the next frame; returns the microseconds between the two, as rounded. */
+static uint32_t advance(frame_clock *c, uint64_t rate)
+{
+    const uint64_t million = UINT64_C(1000000000000000); /* billionths */
+    const uint64_t before = c->us;
+    c->whole_us += million / rate;
+    c->rest += million % rate;
+    if (c->rest >= rate) {
+        c->rest -= rate;
+        c->whole_us++;
+    }
+    c->us = c->whole_us + (2 * c->rest >= rate);
+    return (uint32_t)(c->us - before);
+}
+
 static int track_frame(tracker *s, const char *path, const picture *grey)
 {
     drogue_region region;
     drogue_result result;
     drogue_track_state state;
+    uint32_t dt_us;
     if (s->frames == 0 && begin_track(s, path, grey)) {
         return EXIT_BAD;
     }
@@ -94,7 +118,8 @@ static int track_frame(tracker *s, const char *path, const picture *grey)
         return complain(path, "%dx%d pixels, unlike the first frame's %dx%d", grey->width_px, grey->height_px,
                         s->width_px, s->height_px);
     }
-    if (frame_track(&result, &region, &s->track, &s->w, s->o, path, grey)) {
+    dt_us = s->frames == 0 ? 0 : advance(&s->clock, s->o->rate);
+    if (frame_track(&result, &region, &s->track, &s->w, s->o, path, grey, dt_us)) {
         return EXIT_BAD;
     }
     state = s->track.state;

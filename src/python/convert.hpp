@@ -17,6 +17,9 @@ namespace py = pybind11;
 // Nearest Q16, ties upward. ValueError outside [-32768, 32768).
 drogue_q16 to_q16(double value, const char *what);
 
+// ValueError that says so, where something is wrong.
+void refuse(const char *wrong);
+
 // Grey image, rows adjacent: the array itself where it is so already.
 struct Grey {
     py::array_t<uint8_t> pixels;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string>
 
+#include "ranges.h"
 #include "thresholds.h"
 
 namespace drogue_python {
@@ -19,6 +20,13 @@ drogue_q16 to_q16(double value, const char *what)
         throw py::value_error(std::string(what) + " is outside [-32768, 32768)");
     }
     return static_cast<drogue_q16>(scaled);
+}
+
+void refuse(const char *wrong)
+{
+    if (wrong != nullptr) {
+        throw py::value_error(wrong);
+    }
 }
 
 static double q16(int64_t v) { return static_cast<double>(v) / 65536.0; }
@@ -48,6 +56,8 @@ drogue_camera to_camera(const py::sequence &v)
     for (size_t i = 0; i < 9; i++) {
         *members[i] = to_q16(v[i].cast<double>(), "a number of the camera");
     }
+    refuse(ranges_focal(&c));
+    refuse(ranges_lens(&c));
     return c;
 }
 
@@ -57,6 +67,7 @@ drogue_model to_model(const py::sequence &v)
     m.rim_radius_m_q16 = to_q16(v[0].cast<double>(), "the rim's radius");
     m.inner_radius_m_q16 = to_q16(v[1].cast<double>(), "the inner part's radius");
     m.inner_depth_m_q16 = to_q16(v[2].cast<double>(), "the inner part's depth");
+    refuse(ranges_model(&m));
     return m;
 }
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <string>
+
+#include "ranges.h"
 
 namespace drogue_python {
 
@@ -28,6 +31,7 @@ public:
         const drogue_region first = whole ? drogue_region() : to_region(region);
         const drogue_camera c = to_camera(camera);
         const drogue_model m = to_model(model);
+        refuse(whole ? nullptr : ranges_region(&first));
         drogue_track_config_default(&track_config);
         track_config.max_missed = max_missed;
         track_config.min_reliability_q16 = to_q16(min_reliability, "min_reliability");
@@ -36,25 +40,27 @@ public:
         }
     }
 
-    py::tuple frame(const py::array &array, uint32_t dt_us)
+    py::tuple frame(const py::array &array, double dt_s)
     {
         const Grey grey = to_image(array);
+        const double dt_us = std::floor(dt_s * 1e6 + 0.5);
         drogue_result result;
         drogue_region region;
         drogue_track_estimate e;
         drogue_track_state state;
         bool gated;
-        if (dt_us < 1 || dt_us > 2147483647u) {
+        if (!(dt_us >= 1 && dt_us <= 2147483647)) {
             throw py::value_error("the time between frames is from 1 us to 2147 s");
         }
         {
             py::gil_scoped_release release;
             const std::lock_guard<std::mutex> one_at_a_time(mutex);
+            take_size(grey.image);
             memory.fit(std::min<int32_t>(grey.image.width_px, DROGUE_MAX_SIDE),
                        std::min<int32_t>(grey.image.height_px, DROGUE_MAX_SIDE), config.min_arc_px);
             memory.fit_search(grey.image.width_px);
             state = drogue_track_frame(&result, &region, &track, &memory.workspace, &memory.search, &config,
-                                       &grey.image, dt_us);
+                                       &grey.image, static_cast<uint32_t>(dt_us));
             gated = track.gated != 0;
             drogue_track_get(&e, &track);
         }
@@ -72,6 +78,22 @@ public:
     }
 
 private:
+    // One camera takes frames of one size.
+    void take_size(const drogue_image &image)
+    {
+        if (width_px == 0) {
+            width_px = image.width_px;
+            height_px = image.height_px;
+        }
+        if (image.width_px != width_px || image.height_px != height_px) {
+            throw py::value_error(std::to_string(image.width_px) + "x" + std::to_string(image.height_px) +
+                                  " pixels, unlike the first frame's " + std::to_string(width_px) + "x" +
+                                  std::to_string(height_px));
+        }
+    }
+
+    int32_t width_px = 0; // of the first frame
+    int32_t height_px = 0;
     std::mutex mutex;
     drogue_config config;
     drogue_track track;

@@ -116,17 +116,38 @@ refused kalibr.yaml '$a cam1: {camera_model: pinhole}' 'more than one'
 refused kalibr.yaml '/intrinsics/d' 'has no camera_matrix'
 refused opencv.yaml 's/^flags: 0/fisheye_model: 1/' fisheye_model
 refused opencv.yaml '/distortion_coefficients/,/data/d' 'has no distortion_coefficients'
-refused opencv.yaml 's/-1.0000000000000001e-01/-2.561e+02/' 'a coefficient is beyond 256'
+refused opencv.yaml 's/-1.0000000000000001e-01/-2.561e+02/' 'a coefficient of distortion is beyond 256'
 run 2 measure scene.png --camera 800,805,159.5,119.5 --distortion 0,0,0,0,257
-says 'drogue: --distortion: a coefficient is beyond 256'
+says 'drogue: --distortion: a coefficient of distortion is beyond 256'
 refused opencv.yaml 's/805/x&/;s/8.0500000000000000e+02/eight/' 'no number'
 refused opencv.yaml 's/data: \[ 8.0/data: [ -8.0/' 'above 0'
 refused opencv.yaml 's/+02, 0., 1.595/+02, 1., 1.595/' skew
 refused opencv.yaml 's/3.0e-03 \]/3.0e-03, 1. ]/' rational
 refused opencv.yaml 's/image_width: 320/image_width: 3.5/' 'no number of pixels'
+refused opencv.yaml '/image_width/d' 'has image_height without image_width'
+refused message.yaml '/^height/d' 'has width without height'
+refused kalibr.yaml 's/\[320, 240\]/[320]/' 'has cam0.resolution.0 without cam0.resolution.1'
+refused opencv.yaml 's/8.0500000000000000e+02/8.05/' 'too unlike'
+refused message.yaml 's/805.0/8050.0/' 'too unlike'
+refused message.yaml 's/0.003\]/0.003, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1]/' 'more than 14'
 refused opencv.xml 's,</data>,,' 'no sound XML'
 refused ros.yaml 's/data: \[800.0/data: [800.0, [/' 'no YAML'
 : >bad
+run 2 measure scene.png --camera bad
+says 'empty'
+
+# The mark of UTF-8 before it changes nothing; half of one is no file, and neither is the mark alone.
+run 0 measure scene.png --camera opencv.yaml $roi --json
+cp out first
+for file in opencv.yaml opencv.xml ros.yaml; do
+    { printf '\357\273\277' && cat $file; } >bad
+    run 0 measure scene.png --camera bad $roi --json
+    cmp -s out first || fail "$file behind a mark: another answer"
+    { printf '\357\273' && cat $file; } >bad
+    run 2 measure scene.png --camera bad
+    says 'no YAML'
+done
+printf '\357\273\277' >bad
 run 2 measure scene.png --camera bad
 says 'empty'
 run 2 measure scene.png --camera .

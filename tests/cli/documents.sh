@@ -31,4 +31,13 @@ while read -r option; do
     grep -qF -e "$option" "$work/help" || fail "docs/program.md names $option, which --help does not"
 done <"$work/options"
 
+# The sentences of docs/program.md are those that the program prints.
+tr -d '\n' <src/cli/explain.c | sed 's/" *"//g' >"$work/sentences"
+sed -nE 's/^\| `[a-z_]+` \| (.*) \|$/\1/p' docs/program.md | sed '1,/^measured$/{/^measured$/!d}' >"$work/documented"
+[ "$(wc -l <"$work/documented")" -ge 17 ] || fail 'docs/program.md has too few sentences for statuses'
+while read -r sentence; do
+    checks=$((checks + 1))
+    grep -qF -e "\"$sentence\"" "$work/sentences" "$root/src/cli/explain.h" || fail "no sentence of the program: $sentence"
+done <"$work/documented"
+
 finish

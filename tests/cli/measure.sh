@@ -86,6 +86,10 @@ near "$(json position_m.2)" 3.5 0.005
 run 0 measure scene.png $camera $roi --json
 near "$(json position_m.2)" 10 0.015
 
+# The smallest rim that is taken: rounded to a multiple of 1/65536, 0.05 % less than given.
+run 0 measure scene.png $camera $roi --drogue 0.01 --json
+near "$(json position_m.2)" 0.1 0.0002
+
 # The lens: distortion moves the ideal outline, not the one seen.
 run 0 measure scene.png $camera $roi --json --distortion 0.5,0,0,0,0
 near "$(json ellipse.a)" 80 0.05

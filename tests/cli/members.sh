@@ -55,6 +55,11 @@ leaves <out | sed -E 's/ .*//;s/(\.[0-9]+)+$//' | tr . '\n' | sort -u >names
 while read -r name; do
     grep -qF -- "\`$name\`" "$root/docs/program.md" || fail "docs/program.md does not name $name"
 done <names
+sed -n '/^A line of `track`/,/^## /p' "$root/docs/program.md" >line_of_track
+python3 -c 'import json, sys; print(*json.loads(sys.stdin.read()), sep="\n")' <out >names
+while read -r name; do
+    grep -qE "^\|.*\`$name\`.*\|.*\|" line_of_track || fail "docs/program.md does not have $name in a line of track"
+done <names
 sed -nE 's/.*case DROGUE_E_[A-Z_]+: return "([a-z_]+)";/\1/p' "$root/src/status.c" >statuses
 [ "$(wc -l <statuses)" -ge 14 ] || fail 'no statuses found'
 echo unreliable >>statuses

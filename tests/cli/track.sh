@@ -17,7 +17,7 @@ same "$(json state | words)" '"lost" "tracking" "tracking" "tracking" "tracking"
 same "$(json image | words)" "$(for f in frame04.png $seen $gone frame00.png; do printf '"%s"\n' "$f"; done | words)"
 same "$(json raw.image)" "$(json image)"
 same "$(json frame | words)" "$(seq 18 | words)"
-same "$(json time_s | sed -n '1p;2p;4p;18p' | words)" '0.0 0.033333 0.099999 0.566661'
+same "$(json time_s | sed -n '1p;2p;4p;18p' | words)" '0.0 0.033333 0.1 0.566667'
 says '13 of 18 frames: no_edges: '
 same "$(json raw.status | sed -n '1p;2p;6p' | words)" '"no_edges" "ok" "no_edges"'
 same "$(json filtered | grep -c null)" 3
@@ -83,6 +83,18 @@ cmp -s out first || fail '--fps 30 is not the default'
 # shellcheck disable=SC2086
 run 0 track $seen $camera $roi $model --fps 29.97
 cmp -s out first && fail '29.97 frames a second are taken as 30'
+
+# Times are of the frames, and not of a rounded step: whole seconds at any rate, the last frame's exact.
+head -c $((16 * 16 * 145)) /dev/zero >frames.raw
+# shellcheck disable=SC2086
+for rate in 144 144.000 48 12 7; do
+    run 1 track frames.raw --raw 16,16,gray8 $camera --fps $rate
+    same "$(json time_s | sed -n 145p)" "$(awk "BEGIN { s = sprintf(\"%.6f\", 144 / $rate); sub(/0+\$/, \"\", s); sub(/\\.\$/, \".0\", s); print s }")"
+done
+for rate in 700000 1e6; do
+    run 1 track frames.raw --raw 16,16,gray8 $camera --fps $rate
+    near "$(json time_s | sed -n 145p)" "144 / $rate" 0.0000005
+done
 
 # Nothing measured in any frame.
 run 1 track black.png black.png white.png $camera

@@ -97,18 +97,22 @@ for list in 1,2,3,4 1,2,3,4,5,6 0 '' 0,0,0,0,nan 0,0,0,0, 0,0,0,0,99999; do
     run 2 measure scene.png $camera --distortion "$list"
     says '--distortion'
 done
-for list in 1,2 1,2,3,4 '' 0 -1 0,1,1 0.35,0.36,0.1 0,35 1,0,1 1,-1,1 1,1,-0.1 x 1e-7 1,1e-7,1 40000 1,2,nan; do
+for list in 1,2 1,2,3,4 '' 0 -1 0,1,1 0.35,0.36,0.1 0,35 1,0,1 1,-1,1 1,1,-0.1 x 1e-7 0.00998 0.005,0.002,0 1,1e-7,1 40000 1,2,nan; do
     run 2 measure scene.png $camera --drogue "$list"
     says '--drogue'
 done
 for list in 1,2,3 1,2,3,4,5 '' 0,0,0,10 0,0,10,0 0,0,-5,5 0,0,5,-5 0.5,0,10,10 0,0,1e-1,10 0,0,1e9,10 0,0,10000,10 \
-    -2000000,0,10,10 99999999999999999999,0,1,1 a,0,1,1 0,0,0x8,8; do
+    0,0,8193,10 -2000000,0,10,10 99999999999999999999,0,1,1 a,0,1,1 0,0,0x8,8; do
     run 2 measure scene.png $camera --roi "$list"
     says '--roi'
 done
-for rate in 0 -1 nan '' 30,30 1e-9 0.0001 1e9 3000000 30fps 1e99; do
+for rate in 0 -1 nan '' 30,30 1e-9 0.0001 0.000499999 1e9 1000000.1 30fps 1e99; do
     run 2 track scene.png $camera --fps "$rate"
     says '--fps'
+done
+for raw in 16384,16384,gray8 32767,2049,yuyv 0,1,gray8 1,1,gray9 1,1 3,2,yuyv; do
+    run 2 track scene.png $camera --raw $raw
+    says 'drogue: --raw: '
 done
 for count in -1 1.5 nan '' 1,2 1000001 1e9 x 3f; do
     run 2 track scene.png $camera --max-missed "$count"

@@ -15,6 +15,9 @@ KEEP(drogue_config_, sizeof(drogue_config))
 KEEP(drogue_result_, sizeof(drogue_result))
 KEEP(drogue_frontend_, sizeof(drogue_frontend))
 KEEP(drogue_track_, sizeof(drogue_track))
+KEEP(drogue_search_, sizeof(drogue_search))
+KEEP(search_640, DROGUE_SEARCH_BYTES(640))
+KEEP(search_1280, DROGUE_SEARCH_BYTES(1280))
 
 /* what passes from stage to stage */
 KEEP(drogue_edge_, sizeof(drogue_edge))

@@ -14,6 +14,8 @@ from functools import lru_cache
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = {'sizes': ROOT / 'docs/sizes.md', 'ram': ROOT / 'docs/sizes.md', 'data': ROOT / 'docs/architecture.md'}
 
+HARNESS = 128  # bytes of stack that run() and peak_stack() of measure.c may use themselves
+
 
 def tool(name, *arguments):
     return subprocess.run(['arm-none-eabi-' + name, *map(str, arguments)], check=True, text=True,
@@ -173,7 +175,9 @@ def tables(library, ram):
     lines += [f'| {what} | {ram[name]} |' for what, name in (
         ('workspace for 256 x 256', 'workspace_256x256'), ('workspace for 160 x 120', 'workspace_160x120'),
         ('`drogue_workspace`', 'drogue_workspace'), ('`drogue_config`', 'drogue_config'),
-        ('`drogue_result`', 'drogue_result'), ('`drogue_track`', 'drogue_track'))]
+        ('`drogue_result`', 'drogue_result'), ('`drogue_track`', 'drogue_track'),
+        ('`drogue_search`', 'drogue_search'), ('its memory for frames 640 px wide', 'search_640'),
+        ('its memory for frames 1280 px wide', 'search_1280'))]
     lines += ['', '<details><summary>Every public function</summary>', '',
               '"With what it calls" is what one call links; helpers of the compiler come on top.', '',
               '| function | flash, bytes | with what it calls | worst-case stack, bytes |', '| --- | --- | --- | --- |']
@@ -222,8 +226,9 @@ def check_budgets(library, ram, folder):
         print(f'{name:20} {value:8d}, budget {int(limits[name]):8d}  {"ok" if within else "EXCEEDED"}')
     painted = max(map(int, re.findall(r' stack=(\d+)', (folder / 'images' / 'measure.out').read_text())))
     bound = library.stack(library.exported['drogue_measure'])
-    print(f'stack of drogue_measure: bound {bound}, painted in QEMU {painted}')
-    if painted > bound + 128:  # what run() and peak_stack() of measure.c use themselves
+    print(f'stack of drogue_measure: bound {bound}, with {HARNESS} more of the test itself {bound + HARNESS}; '
+          f'painted in QEMU {painted}')
+    if painted > bound + HARNESS:
         good = False
         print('sizes: the bound is wrong')
     for stage, static in library.stage_ram.items():

@@ -23,7 +23,7 @@ awk '/^```python/ { inside = 1; next } /^```/ { inside = 0 } inside' docs/python
 [ "$(wc -l <"$work/three_lines.py")" -eq 3 ]
 "$python" "$work/three_lines.py" | grep 'position_m=array'
 
-"${pip[@]}" install "$wheel[report]" pytest mypy cocotb
+"${pip[@]}" install "$wheel[report]" pytest mypy cocotb opencv-python-headless
 
 if ! { cmake --preset release && cmake --build --preset release; } >"$work/log"; then
     tail -n 20 "$work/log"

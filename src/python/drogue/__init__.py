@@ -43,7 +43,7 @@ def measure(image: npt.NDArray[np.uint8], camera: Camera, model: Optional[Model]
 
 
 def search(image: npt.NDArray[np.uint8]) -> List[Sighting]:
-    """Places where a dark disc inside a ring may be, by falling score; at most eight.
+    """Places where a dark disc inside a ring may be, by falling score; at most 12.
 
     image  uint8, shape (rows, columns)
     """
@@ -66,7 +66,7 @@ def thresholds() -> Mapping[str, Threshold]:
 
 
 class Tracker:
-    """The drogue over the frames of one camera: prediction, gate, coasting, re-acquisition.
+    """The drogue over the frames of one camera, all of one size: prediction, gate, coasting, re-acquisition.
 
     region      of the first frame, as of measure(); None: the whole image is searched
     max_missed  frames in a row without the drogue that a track survives
@@ -80,6 +80,6 @@ class Tracker:
                                        max_missed, min_reliability)
 
     def frame(self, image: npt.NDArray[np.uint8], dt_s: float = 1 / 30) -> Frame:
-        """Track one frame, dt_s seconds after the one before (rounded down to microseconds)."""
-        state, gated, region, raw, estimate = self._native.frame(image, int(dt_s * 1e6))
+        """Track one frame, dt_s seconds after the one before (rounded to microseconds)."""
+        state, gated, region, raw, estimate = self._native.frame(image, dt_s)
         return Frame(state, gated, region, result_from(raw), estimate_from(estimate))

@@ -19,6 +19,13 @@ def numbers(*counts: int) -> Callable[[str], List[float]]:
     return parse_list
 
 
+def region(text: str) -> List[int]:
+    values = numbers(4)(text)
+    if not all(value.is_integer() for value in values):
+        raise argparse.ArgumentTypeError(f"'{text}' are not whole numbers")
+    return [int(value) for value in values]
+
+
 def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog='python -m drogue', description='Pose of a refuelling drogue from images.')
     parser.add_argument('--version', action='version', version=f'drogue {__version__}')
@@ -29,14 +36,14 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     page.add_argument('--camera', required=True, type=numbers(4), metavar='FX,FY,CX,CY')
     page.add_argument('--distortion', type=numbers(5), default=[], metavar='K1,K2,P1,P2,K3')
     page.add_argument('--drogue', type=numbers(1, 3), metavar='RADIUS[,INNER,DEPTH]')
-    page.add_argument('--roi', type=numbers(4), metavar='X,Y,W,H')
+    page.add_argument('--roi', type=region, metavar='X,Y,W,H')
     page.add_argument('--fps', type=float, default=30.0)
     return parser.parse_args(arguments)
 
 
 def check_output(names: List[str], output: pathlib.Path) -> None:
-    for name in names:
-        if output.exists() and pathlib.Path(name).exists() and pathlib.Path(name).samefile(output):
+    for path in images.files(names) if output.exists() else ():
+        if path.exists() and path.samefile(output):
             raise ValueError(f'{output}: is read as input and would be overwritten')
 
 
@@ -46,7 +53,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     try:
         check_output(a.frames, output)
         camera = Camera(*a.camera, *a.distortion)
-        tracker = Tracker(camera, Model(*(a.drogue or [1.0])), None if a.roi is None else [int(v) for v in a.roi])
+        tracker = Tracker(camera, Model(*(a.drogue or [1.0])), a.roi)
         page = report.build(images.frames(a.frames), tracker, camera, a.fps, 'rim radii' if a.drogue is None else 'm')
         output.write_text(page, encoding='utf-8')
     except (OSError, ValueError, ImportError) as error:

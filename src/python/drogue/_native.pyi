@@ -14,5 +14,5 @@ def canny(image: npt.NDArray[np.uint8], low: int, high: int, smooth: bool) -> np
 class Tracker:
     def __init__(self, camera: Sequence[float], model: Sequence[float], region: Optional[Sequence[int]],
                  config: Dict[str, float], max_missed: int, min_reliability: float) -> None: ...
-    def frame(self, image: npt.NDArray[np.uint8], dt_us: int) -> Tuple[
+    def frame(self, image: npt.NDArray[np.uint8], dt_s: float) -> Tuple[
         str, bool, Tuple[int, int, int, int], Dict[str, Any], Optional[Tuple[Any, ...]]]: ...

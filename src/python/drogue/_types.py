@@ -28,22 +28,18 @@ class Camera:
     k3: float = 0.0
 
     def numbers(self) -> Tuple[float, ...]:
-        if not (self.fx > 0 and self.fy > 0):
-            raise ValueError('focal lengths must be greater than 0')
         return (self.fx, self.fy, self.cx, self.cy, self.k1, self.k2, self.p1, self.p2, self.k3)
 
 
 @dataclass(frozen=True)
 class Model:
-    """The drogue: radius of the rim, radius of the inner part and its depth behind the rim, metres. An inner radius of 0:
-    unknown, and the orientation stays unresolved."""
+    """The drogue: radius of the rim, at least 0.01, radius of the inner part and its depth behind the rim; metres, rounded
+    to multiples of 2^-16. An inner radius of 0: unknown, and the orientation stays unresolved."""
     radius: float
     inner_radius: float = 0.0
     inner_depth: float = 0.0
 
     def numbers(self) -> Tuple[float, float, float]:
-        if not (self.radius > 0 and 0 <= self.inner_radius <= self.radius and self.inner_depth >= 0):
-            raise ValueError('radius > 0, 0 <= inner_radius <= radius, inner_depth >= 0')
         return (self.radius, self.inner_radius, self.inner_depth)
 
 

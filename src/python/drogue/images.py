@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pathlib
-from typing import Iterable, Iterator, Sequence, Tuple, Union
+from typing import Iterable, Iterator, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -21,25 +21,29 @@ def to_grey(rgb: npt.NDArray[np.uint8]) -> Grey:
 
 
 def read(path: Path) -> Grey:
-    """An image file as uint8 of shape (rows, columns): 16 bits are rounded to 8, alpha is ignored."""
+    """An image file as uint8 of shape (rows, columns): 16 bits are rounded to 8, alpha is ignored. Pillow cuts
+    16 bits of colour or with alpha down: those need OpenCV."""
     try:
         from PIL import Image
     except ImportError:
-        return _read_by_opencv(path)
+        return _read_by_opencv(path, 'images need Pillow or OpenCV: pip install pillow')
     with Image.open(path) as image:
         if image.mode in ('I', 'I;16', 'I;16B', 'I;16L'):
             wide = np.asarray(image, np.uint32)
             return ((wide * 255 + 32767) // 65535).astype(np.uint8)
+        if ';16' in str(image.tile):
+            return _read_by_opencv(path, f'{path}: 16 bits of colour or with alpha need OpenCV: pip install '
+                                         'opencv-python-headless')
         if image.mode in ('L', 'LA', '1'):
             return np.asarray(image.convert('RGBA'), np.uint8)[..., 0].copy()
         return to_grey(np.asarray(image.convert('RGBA'), np.uint8)[..., :3])
 
 
-def _read_by_opencv(path: Path) -> Grey:
+def _read_by_opencv(path: Path, needed: str) -> Grey:
     try:
         import cv2
     except ImportError:
-        raise ImportError('images need Pillow or OpenCV: pip install pillow') from None
+        raise ImportError(needed) from None
     image = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
     if image is None:
         raise OSError(f'{path}: cannot be read as an image')
@@ -65,17 +69,23 @@ def _video(path: Path) -> Iterator[Tuple[str, Grey]]:
         if not good:
             return
         number += 1
-        yield f'{path}#{number}', to_grey(image[..., ::-1])
+        yield f'{path}#{number}', to_grey(np.asarray(image, np.uint8)[..., ::-1])
 
 
-def frames(paths: Union[Path, Sequence[Path], Iterable[Path]]) -> Iterator[Tuple[str, Grey]]:
-    """Name and picture of each frame of image files, folders of images by name, and videos."""
+def files(paths: Union[Path, Iterable[Path]]) -> Iterator[pathlib.Path]:
+    """The paths, but for a folder the images in it, by name."""
     for path in [paths] if isinstance(paths, (str, pathlib.Path)) else paths:
         path = pathlib.Path(path)
         if path.is_dir():
-            for item in sorted(p for p in path.iterdir() if p.suffix.lower() in IMAGES):
-                yield str(item), read(item)
-        elif path.suffix.lower() in VIDEOS:
+            yield from sorted(p for p in path.iterdir() if p.suffix.lower() in IMAGES)
+        else:
+            yield path
+
+
+def frames(paths: Union[Path, Iterable[Path]]) -> Iterator[Tuple[str, Grey]]:
+    """Name and picture of each frame of image files, folders of images by name, and videos."""
+    for path in files(paths):
+        if path.suffix.lower() in VIDEOS:
             yield from _video(path)
         else:
             yield str(path), read(path)

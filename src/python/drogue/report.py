@@ -9,6 +9,7 @@ import json
 import math
 import pathlib
 import string
+from decimal import Decimal
 from typing import Any, Dict, Iterable, List, Tuple
 
 import numpy as np
@@ -142,16 +143,26 @@ def script(value: Any) -> str:
     return json.dumps(value).replace('<', '\\u003c')
 
 
+def time_us(frame: int, fps: float) -> int:
+    """Time of a frame, counted from 0, to the microsecond, as the program has it: the rate in billionths."""
+    rate = int(Decimal(str(fps)) * 10**9)
+    return (2 * frame * 10**15 + rate) // (2 * rate)
+
+
 def build(frames: Iterable[Tuple[str, npt.NDArray[np.uint8]]], tracker: Tracker, camera: Camera, fps: float,
           unit: str) -> str:
     """The page of a track over frames, pairs of name and picture; fps frames a second; unit of lengths."""
-    if not fps > 0:
-        raise ValueError('--fps must be greater than 0')
+    if not 0.0005 <= fps <= 1000000:
+        raise ValueError(f"--fps: '{fps:g}' is not a rate from 0.0005 to 1000000 frames a second")
     rows: List[Dict[str, Any]] = []
     pictures: List[str] = []
     for number, (name, image) in enumerate(frames, 1):
-        frame = tracker.frame(image, 1 / fps)
-        rows.append(row(name, number, (number - 1) / fps, frame))
+        now_us = time_us(number - 1, fps)
+        try:
+            frame = tracker.frame(image, (now_us - time_us(number - 2, fps)) / 1e6)
+        except ValueError as error:
+            raise ValueError(f'{name}: {error}') from None
+        rows.append(row(name, number, now_us / 1e6, frame))
         pictures.append(draw(image, frame, camera))
     if not rows:
         raise ValueError('no frame was found')
