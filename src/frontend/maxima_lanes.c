@@ -80,7 +80,6 @@ static inline drogue_slope *take_maximum(drogue_slope *next, uint8_t *code, cons
 uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part)
 {
     const drogue_columns *columns = &f->columns[y & 7];
-    const int32_t left = drogue_row_left(f);
     const int32_t half = drogue_row_half(f);
     const lanes_record *const first = record_row(f, y);
     const lanes_record *const end = first + f->slope_count[y & 1];
@@ -94,8 +93,8 @@ uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part)
     }
     for (k = 0; k < 2; k++) {
         /* The columns' words in this lane, and their records, which ascend. */
-        const int32_t from = part == 0 ? left + columns->begin[k] : 2 * half - left - columns->end[k];
-        const int32_t to = part == 0 ? left + columns->end[k] : 2 * half - left - columns->begin[k];
+        const int32_t from = part == 0 ? rows.first + columns->begin[k] : rows.last + 1 - columns->end[k];
+        const int32_t to = part == 0 ? rows.first + columns->end[k] : rows.last + 1 - columns->begin[k];
         const lanes_record *r = first;
         const lanes_record *last = end;
         if (from >= to || from >= half) {
