@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Inside the row kernels on lanes, rows_lanes.c and maxima_lanes.c: a word of two 16-bit lanes has in the lower one a pixel
- * of the left half of the row, in the upper one the pixel as far from the row's end, so that neighbours are in
- * neighbouring words and both sides of a ring in the same. */
+/* Inside rows_lanes.c and maxima_lanes.c: words of two 16-bit lanes. The lower lane has a pixel of the left half of the
+ * row, the upper one the pixel as far from the row's end: neighbours are in neighbouring words, both sides of a ring in
+ * the same. */
 #ifndef DROGUE_ROWS_LANES_H
 #define DROGUE_ROWS_LANES_H
 

@@ -92,8 +92,8 @@ static drogue_status take_points(drogue_outline *outline, drogue_refit_context *
     return status;
 }
 
-/* Fit an outline to its points, all or those looked at, and narrow the band. 1: that was the last fit, it has settled or
- * all points give no good one. */
+/* Fit an outline to its points, all or those looked at, and narrow the band. 1: no more fits, it has settled or all
+ * points give no good one. */
 static int fit_once(drogue_outline *outline, drogue_refit_context *c, drogue_band *band, int all)
 {
     drogue_ellipse ellipse;

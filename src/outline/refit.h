@@ -26,8 +26,8 @@ void drogue_refit_begin(drogue_refit_context *c, const drogue_workspace *workspa
 /* Can an ellipse be the end plane's, by its shape and by its size in the region? */
 int drogue_refit_plausible(const drogue_refit_context *c, const drogue_ellipse *e);
 
-/* Look at every so many of the edge points about an ellipse, as the first round of its refit takes them: into the room's
- * support and its own points.
+/* Look at every so many of the edge points about an ellipse, for its score and the first round of its refit: into the
+ * room's support and its own points.
  *
  *  bright_bins  polarities of the bins, until they are judged by the counts
  */

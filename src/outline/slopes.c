@@ -72,8 +72,8 @@ static int32_t as_seen_q20(const int32_t seen[SLOPES], int32_t best, int32_t at_
 }
 
 /* Standard deviation by noise of a sharpened peak's place, px Q24, from its bend and how slopes differ outside. White
- * noise gives 0.9 px of the root of their squares over the bend. Three times that variance is taken, since most outlines
- * are moved by less than noise would. */
+ * noise gives 0.9 px of the root of their squares over the bend. Three times that variance is taken: most outlines are
+ * moved by less than noise would. */
 static int32_t noise_q24(const int32_t slope[SLOPES], int32_t bend)
 {
     uint64_t squares = 0;

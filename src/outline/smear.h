@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Inside the outline stage: motion blur, from how wide the outline's edge is on which side, and where such an edge is. */
+/* Inside the outline stage: motion blur, from how wide the outline's edge is on which side, and where such edges
+ * are. */
 #ifndef DROGUE_SMEAR_H
 #define DROGUE_SMEAR_H
 

@@ -5,8 +5,8 @@
 
 #include "drogue/fixed.h"
 
-/* Where a curve is highest by the parabola through three values a step apart, the middle one above the one before and no
- * lower than the one after.
+/* Where a curve is highest, by the parabola through three values a step apart: the middle one is above the one before
+ * and no lower than the one after.
  *
  *  half    half a step, in the unit of the result
  *  return  from the middle one towards the one after, at most half a step either way
