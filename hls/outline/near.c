@@ -167,12 +167,12 @@ uint32_t drogue_collect_undistorted(drogue_collection *c, drogue_support *suppor
                                     const drogue_region_lens *lens)
 {
     const uint32_t before = support->points;
-    drogue_moments distorted;
+    drogue_moments as_seen; /* of no use here */
     uint32_t i;
-    drogue_moments_clear(&distorted);
-    for (i = 0; i < count; i++) { /* bound: edge points; the lens undone takes longer than all else */
+    drogue_moments_clear(&as_seen);
+    for (i = 0; i < count; i++) { /* bound: edge points, each alone; the lens undone takes longer than all else */
         const uint32_t points = support->points;
-        drogue_collect_edges(&distorted, support, frame, band, &edges[i], 1, 1, 0);
+        drogue_collect_edges(&as_seen, support, frame, band, &edges[i], 1, 1, 0);
         if (support->points > points) {
             drogue_q16 x = drogue_edge_x_q16(&edges[i]);
             drogue_q16 y = drogue_edge_y_q16(&edges[i]);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The front end's row kernels: smoothing, gradient, suppression, in two forms of the same bits. rows_lanes.c keeps two
- * pixels in a word, for cores without vector registers; rows_plain.c has loops over 8- and 16-bit rows that compilers
- * vectorise. Each lays out the line buffers of a workspace as it likes. */
+/* The front end's row kernels: smoothing, gradient, suppression, in two forms of the same bits. rows_lanes.c and
+ * maxima_lanes.c keep two pixels in a word, for cores without vector registers; rows_plain.c has loops over 8- and
+ * 16-bit rows that compilers vectorise. Each lays out the line buffers of a workspace as it likes. */
 #ifndef DROGUE_ROWS_H
 #define DROGUE_ROWS_H
 

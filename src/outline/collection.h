@@ -29,9 +29,6 @@ int drogue_ellipse_settled(const drogue_ellipse *p, const drogue_ellipse *q);
 void drogue_band_narrow(drogue_band *band, const drogue_support *support, const drogue_ellipse *e,
                         const drogue_config *config);
 
-/* Put back what drogue_outline_pull() found. */
-void drogue_outline_put_back(drogue_ellipse *e, const int32_t pull_q24[5]);
-
 /* Is an ellipse round enough to be the drogue's? */
 static inline int drogue_round_enough(const drogue_ellipse *e, const drogue_config *config)
 {

@@ -2,8 +2,8 @@
 /* Edges along rays. */
 #include "drogue/rays.h"
 
-#include "drogue/fixed.h"
 #include "light.h"
+#include "vertex.h"
 
 #define REACH 4    /* samples on either side that a slope is made of, and between the sums */
 #define SAMPLES 65 /* most slopes along a ray */
@@ -82,22 +82,43 @@ static int within(const drogue_image *image, int32_t x_px_q16, int32_t y_px_q16)
            y_px_q16 >> 16 < image->height_px - 1;
 }
 
+/* Along a ray: a sample's place, and the step to the next, px Q16. */
+typedef struct ray_way {
+    int32_t x;
+    int32_t y;
+    int32_t dx;
+    int32_t dy;
+} ray_way;
+
+static ray_way way_along(const drogue_ray *r, drogue_q16 from_px_q16)
+{
+    ray_way way;
+    way.x = r->x_px_q16 + drogue_ray_part(r->nx_q14, from_px_q16);
+    way.y = r->y_px_q16 + drogue_ray_part(r->ny_q14, from_px_q16);
+    way.dx = drogue_ray_part(r->nx_q14, r->step_px_q16);
+    way.dy = drogue_ray_part(r->ny_q14, r->step_px_q16);
+    return way;
+}
+
+static inline void step(ray_way *way)
+{
+    way->x += way->dx;
+    way->y += way->dy;
+}
+
 void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_image *image, drogue_q16 from_px_q16,
                      int32_t count)
 {
-    const int32_t dx = drogue_ray_part(r->nx_q14, r->step_px_q16);
-    const int32_t dy = drogue_ray_part(r->ny_q14, r->step_px_q16);
-    int32_t x = r->x_px_q16 + drogue_ray_part(r->nx_q14, from_px_q16);
-    int32_t y = r->y_px_q16 + drogue_ray_part(r->ny_q14, from_px_q16);
+    ray_way at = way_along(r, from_px_q16);
     const drogue_image own = *image; /* which what is written cannot alias */
     int32_t *const end = grey_q8_out + count;
-    if (within(&own, x, y) && within(&own, x + (count - 1) * dx, y + (count - 1) * dy)) {
-        for (; grey_q8_out < end; grey_q8_out++, x += dx, y += dy) { /* bound: SAMPLES + 2 REACH, 73 */
-            *grey_q8_out = between_q8(pixel(&own, x, y), 1, own.stride, x, y);
+    if (within(&own, at.x, at.y) && within(&own, at.x + (count - 1) * at.dx, at.y + (count - 1) * at.dy)) {
+        for (; grey_q8_out < end; grey_q8_out++, step(&at)) { /* bound: SAMPLES + 2 REACH, 73 */
+            *grey_q8_out = between_q8(pixel(&own, at.x, at.y), 1, own.stride, at.x, at.y);
         }
     } else {
-        for (; grey_q8_out < end; grey_q8_out++, x += dx, y += dy) { /* bound: the same */
-            *grey_q8_out = inside_q8(&own, x, y, 0);
+        for (; grey_q8_out < end; grey_q8_out++, step(&at)) { /* bound: the same */
+            *grey_q8_out = inside_q8(&own, at.x, at.y, 0);
         }
     }
 }
@@ -105,22 +126,11 @@ void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_ima
 void drogue_ray_read_light(int32_t *light_q8, const drogue_ray *r, const drogue_image *image, drogue_q16 from_px_q16,
                            int32_t count)
 {
-    const int32_t dx = drogue_ray_part(r->nx_q14, r->step_px_q16);
-    const int32_t dy = drogue_ray_part(r->ny_q14, r->step_px_q16);
-    int32_t x = r->x_px_q16 + drogue_ray_part(r->nx_q14, from_px_q16);
-    int32_t y = r->y_px_q16 + drogue_ray_part(r->ny_q14, from_px_q16);
+    ray_way at = way_along(r, from_px_q16);
     int32_t i;
-    for (i = 0; i < count; i++, x += dx, y += dy) { /* bound: as above */
-        light_q8[i] = inside_q8(image, x, y, 1);
+    for (i = 0; i < count; i++, step(&at)) { /* bound: as above */
+        light_q8[i] = inside_q8(image, at.x, at.y, 1);
     }
-}
-
-/* Where between samples a curve is highest, from a sample that is higher than the one before and no lower than the one
- * after: by the parabola through the three, samples Q16, within half a sample. */
-static int32_t peak_q16(int32_t before, int32_t at, int32_t after)
-{
-    const int64_t bend = 2 * (int64_t)at - before - after; /* > 0 */
-    return (int32_t)drogue_div_round_s64(((int64_t)after - before) * HALF, bend);
 }
 
 /* Slopes along a ray by a derivative of Gaussian of two samples, 'out' samples to either side, and their peaks. Its
@@ -153,7 +163,7 @@ static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, in
             at = after;
             after = sum[i + 1 + REACH] - sum[i + 1];
             if (at >= least_q8 && at > before && at >= after) {
-                const int64_t part_q16 = peak_q16(before, at, after);
+                const int64_t part_q16 = drogue_vertex(before, at, after, HALF);
                 drogue_ray_edge e;
                 e.at_px_q16 = (i - out) * r->step_px_q16 + (int32_t)drogue_shr_round_s64(part_q16 * r->step_px_q16, 16);
                 e.slope_q8 = at;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Inside the outline stage: slopes across an edge, the sum of those of some rays, half a pixel apart. */
+/* Inside the outline stage: slopes across an edge, the sum of those of some rays, half a pixel apart; its place as the
+ * front end sees it and sharpened, and its width. */
 #ifndef DROGUE_SLOPES_H
 #define DROGUE_SLOPES_H
 
@@ -10,13 +11,23 @@
 #define DROGUE_SLOPE_NEAR 2                                              /* so near the ellipse lies its edge */
 #define DROGUE_SLOPE_FIRST (DROGUE_SLOPE_MIDDLE - DROGUE_SLOPE_NEAR - 2) /* looked at, blurred */
 #define DROGUE_SLOPE_LAST (DROGUE_SLOPE_MIDDLE + DROGUE_SLOPE_NEAR + 2)
-#define DROGUE_SLOPE_GAIN 738 /* of the front end's blur of them */
+#define DROGUE_SLOPE_GAIN 738 /* of the front end's blur of them: the sum of its weights, 128 + 2 * 305 */
 
 #define DROGUE_EDGE_GROUPS 8 /* equal parts of the outline whose rays are taken together */
 
-/* Of an outline that motion blurs, farther inwards: */
-#define DROGUE_SMEARED_MIDDLE 48 /* the slope on the ellipse */
-#define DROGUE_SMEARED_SLOPES 64
+/* An edge as the front end sees it. */
+typedef struct drogue_seen_edge {
+    int32_t at_q20;           /* its steepest place, slopes; 0: there is none */
+    int32_t seen_q20;         /* where the front end finds that */
+    int32_t variance_px2_q16; /* drogue_edge_variance() */
+} drogue_seen_edge;
+
+/* The edge of some rays near the ellipse. */
+void drogue_see_edge(drogue_seen_edge *edge, const int32_t slope[DROGUE_SLOPES]);
+
+/* How far outwards of the sharpened edge the one seen lies, slopes Q20; 0 when there are not both. And what noise makes
+ * of it, px Q24, one standard deviation. */
+int32_t drogue_edge_moved(int32_t *noise_px_q24, const int32_t slope[DROGUE_SLOPES], const drogue_seen_edge *edge);
 
 /* Variance of an edge's blur, px^2 Q16, from its width: rise over steepest slope, squared, over 8. That is between a
  * Gaussian's, 2 pi, and a box's, 12. At most 32 px^2; 0 without an edge.
@@ -25,39 +36,5 @@
  *  seen   from DROGUE_SLOPE_FIRST to _LAST the same with the front end's blur
  */
 int32_t drogue_edge_variance(const int32_t slope[DROGUE_SLOPES], const int32_t seen[DROGUE_SLOPES]);
-
-/* Motion blur, from the variances round the outline: what they have of a wave of twice the angle, less
- * half a px^2 and what one of four times the angle shows in eight groups.
- *
- *  smear     variance along the motion less that across it, px^2 Q16, times cosine and sine of twice the angle from the
- *            major axis; 0 where it is less than what is no motion's, or where two opposite groups have no edge
- *  variance  px^2 Q16, of equal parts of the outline from the major axis's end towards +v
- */
-void drogue_find_smear(int32_t smear_px2_q16[2], const int32_t variance_px2_q16[DROGUE_EDGE_GROUPS]);
-
-/* An edge that motion blurs, as its slopes: as wide as the motion across it, or as the bright band that it ends where
- * that is narrower. All in half pixels, Q16. */
-typedef struct drogue_lobe {
-    int32_t at_q16;      /* its middle, from the ellipse outwards */
-    int32_t width_q16;   /* at half its height; 0: there is none */
-    int32_t farther_q16; /* so far inwards is the middle of the band's other edge; 0: none is seen within 15 px */
-} drogue_lobe;
-
-/* The lobe of the steepest slope within 3 px of the ellipse, from where slopes are half of that to where they are
- * again, and of the steepest opposite slope within 18 px inwards of it, if a third as steep.
- *
- *  slope  an edge's own positive, each at most 2^20
- */
-void drogue_find_lobe(drogue_lobe *lobe, const int32_t slope[DROGUE_SMEARED_SLOPES]);
-
-/* How far outwards of the true outline the ellipse is by its lobes, half pixels Q16; 0 for a group without one.
- *
- * Motion over a length l across a band of width w makes lobes min(l, w) wide whose middles are max(l, w) apart: of a
- * band that is narrower both edges are seen (l - w) / 2 too far out. Which it is, opposite groups tell, which the same
- * motion blurs, and the width of the band where it is sharpest.
- *
- *  lobe  of equal parts of the outline, in order
- */
-void drogue_find_smeared(int32_t moved_q16[DROGUE_EDGE_GROUPS], const drogue_lobe lobe[DROGUE_EDGE_GROUPS]);
 
 #endif

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "collection.h"
-#include "near.h"
+#include "harmonics.h"
 
 /* The pull as waves over the eccentric angle of an ellipse whose major axis is turned against that it was found on, as
  * by half a turn where the angle passes the vertical. */

@@ -9,6 +9,7 @@
 #if DROGUE_ROWS_PLAIN
 #include "frontend/rows_plain.c"
 #else
+#include "frontend/maxima_lanes.c"
 #include "frontend/rows_lanes.c"
 #endif
 

@@ -4,23 +4,19 @@
 
 #define drogue_outline_clear decisions_outline_clear
 #define drogue_outline_find decisions_outline_find
-#define drogue_outline_enlarge decisions_outline_enlarge
-#define drogue_outline_covered decisions_outline_covered
-#define drogue_outline_settle decisions_outline_settle
+#define drogue_refit_begin decisions_refit_begin
+#define drogue_refit_plausible decisions_refit_plausible
+#define drogue_refit_look decisions_refit_look
+#define drogue_refit decisions_refit
 drogue_status decisions_outline_find(drogue_outline *, const drogue_workspace *, const drogue_edge_list *,
                                      const drogue_mask *, const drogue_config *);
-int decisions_outline_enlarge(drogue_outline *, const drogue_workspace *, const drogue_edge_list *, const drogue_mask *,
-                              const drogue_config *);
-drogue_q16 decisions_outline_covered(const drogue_ellipse *, const drogue_workspace *, const drogue_edge_list *,
-                                     const drogue_mask *, const drogue_config *);
-int decisions_outline_settle(drogue_outline *, const drogue_ellipse *, const drogue_workspace *,
-                             const drogue_edge_list *, const drogue_mask *, const drogue_config *);
 #include "../../../src/outline/outline.c"
+#include "../../../src/outline/refit.c"
 
-/* As refit() in outline.c, written down on the way. */
-static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, context *x)
+/* As drogue_refit(), written down on the way. */
+static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, drogue_refit_context *x)
 {
-    drogue_band band = band_about(&o->ellipse, x->config->search_band_q16, x->config);
+    drogue_band band = band_about(&o->ellipse, x->config);
     uint32_t stride = x->config->refit_rounds > 0 ? stride_of(x) : 1;
     uint32_t n;
     int done = 0;
@@ -36,8 +32,7 @@ static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, cont
         }
         o->support = x->room->support;
         if (o->support.bright_bins == bright_bins) {
-            if (drogue_collection_fit(&ellipse, &x->room->own) == DROGUE_OK &&
-                plausible(&ellipse, x->mask, x->config)) {
+            if (drogue_collection_fit(&ellipse, &x->room->own) == DROGUE_OK && drogue_refit_plausible(x, &ellipse)) {
                 drogue_band_narrow(&band, &o->support, &ellipse, x->config);
                 done = band.half_width_px_q16 == width && stride == 1 && drogue_ellipse_settled(&ellipse, &o->ellipse);
                 o->ellipse = ellipse;
@@ -56,14 +51,10 @@ int decisions_of_refit(decisions_round rounds[DECISIONS_MAX], const drogue_works
 {
     drogue_candidate candidate;
     drogue_outline outline;
-    context x;
+    drogue_refit_context x;
     uint32_t chosen = 0;
     int k;
-    x.workspace = workspace;
-    x.room = workspace->outline;
-    x.list = list;
-    x.mask = mask;
-    x.config = config;
+    drogue_refit_begin(&x, workspace, list, mask, config);
     for (k = 0; k < 4; k++) {
         x.choices.arc[k][0] = arcs[k];
         x.choices.arc[k][1] = DROGUE_NO_ARC;
@@ -81,14 +72,8 @@ int decisions_of_ring(decisions_round rounds[DECISIONS_MAX], const drogue_worksp
                       const drogue_ellipse *ring, uint32_t bright_bins)
 {
     drogue_outline outline;
-    context x;
-    memset(&x, 0, sizeof x);
-    x.workspace = workspace;
-    x.room = workspace->outline;
-    x.list = list;
-    x.mask = mask;
-    x.config = config;
-    drogue_collection_of_region(&x.room->sum);
+    drogue_refit_context x;
+    drogue_refit_begin(&x, workspace, list, mask, config);
     memset(&outline, 0, sizeof outline);
     outline.ellipse = *ring;
     outline.support.bright_bins = bright_bins;

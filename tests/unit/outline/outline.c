@@ -2,7 +2,7 @@
 /* The outline from edge lists made by hand: found, filtered by polarity and thresholds, and freed of distortion. */
 #include "suite.h"
 
-#include "../../../src/outline/collection.h"
+#include "../../../src/outline/harmonics.h"
 
 #include "drogue/outline.h"
 #include "drogue/undistort.h"

@@ -345,78 +345,6 @@ START_TEST(waves_of_a_pixel)
 }
 END_TEST
 
-/* A unit that holds the reach, down to whole pixels; a band is as wide as what lies in it is scattered, and where nothing
- * does as narrow as it may be. */
-START_TEST(units_and_bands)
-{
-    static const struct {
-        int64_t reach;
-        int bits;
-    } cases[] = {{32768, 10},
-                 {INT64_C(32) << 16, 9},
-                 {INT64_C(2047) << 16, 4},
-                 {INT64_C(32767) << 16, 0},
-                 {INT64_C(40000) << 16, 0}};
-    const drogue_ellipse e = circle(40, 41, 20);
-    drogue_config config;
-    drogue_collection c;
-    drogue_support s;
-    drogue_band band;
-    size_t i;
-    for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        drogue_collection_begin(&c, &e, cases[i].reach);
-        MUST((int)c.frac_bits == cases[i].bits, "case %d: %d bits", (int)i, (int)c.frac_bits);
-    }
-    drogue_config_default(&config);
-    memset(&s, 0, sizeof s);
-    band = drogue_band_of(DROGUE_Q16(4, 1), config.refit_cos_q16);
-    s.points = 100; /* 0.04 semi-axes of scatter each, 0.8 px: three of them */
-    s.squares_q32 = (int64_t)(100 * 0.04 * 0.04 * 4294967296.0);
-    drogue_band_narrow(&band, &s, &e, &config);
-    ck_assert_int_lt(abs(band.half_width_px_q16 - DROGUE_Q16(24, 10)), 100);
-    s.points = 0;
-    s.squares_q32 = 0;
-    drogue_band_narrow(&band, &s, &e, &config);
-    ck_assert_int_eq(band.half_width_px_q16, config.refit_band_px_q16 / 3 + 1);
-}
-END_TEST
-
-START_TEST(harmonics_of_any_ellipse)
-{
-    uint64_t rng = 4;
-    int i;
-    for (i = 0; i < 2000; i++) {
-        const double a = rng_real(&rng, 10, 200), b = i % 7 == 0 ? a : a * rng_real(&rng, 0.4, 1),
-                     turn = rng_real(&rng, -1.57, 1.57);
-        drogue_ellipse e = circle(rng_real(&rng, 0, 500), rng_real(&rng, 0, 500), a);
-        int32_t pull_q24[5];
-        double m[5];
-        int k;
-        const double xc = real_of_q16(e.xc_px_q16), yc = real_of_q16(e.yc_px_q16);
-        drogue_ellipse_frame frame;
-        e.b_px_q16 = q16_of(b);
-        e.angle_rad_q16 = q16_of(turn);
-        for (k = 0; k < 5; k++) {
-            m[k] = i % 12 < 5 && i % 12 != k ? 0 : rng_real(&rng, -0.004, 0.004); /* one alone, or all */
-            pull_q24[k] = (int32_t)lround(ldexp(m[k], 24));
-        }
-        drogue_outline_put_back(&e, pull_q24);
-        ck_assert_int_eq(drogue_ellipse_frame_of(&frame, &e), DROGUE_OK);
-        for (k = 0; k < 12; k++) { /* points that lie that far within the old ellipse lie on the new one */
-            const double t = k * TEST_PI / 6,
-                         r = 1 - (m[0] + m[1] * cos(t) + m[2] * sin(t) + m[3] * cos(2 * t) + m[4] * sin(2 * t));
-            const double u = a * cos(t) * r, v = b * sin(t) * r;
-            int32_t u_q24;
-            int32_t v_q24;
-            drogue_ellipse_frame_point(&u_q24, &v_q24, &frame, q16_of(xc + u * cos(turn) - v * sin(turn)),
-                                       q16_of(yc + u * sin(turn) + v * cos(turn)));
-            MUST(fabs(hypot(ldexp(u_q24, -24), ldexp(v_q24, -24)) - 1) < 3e-4, "case %d, point %d: %g", i, k,
-                 hypot(ldexp(u_q24, -24), ldexp(v_q24, -24)) - 1);
-        }
-    }
-}
-END_TEST
-
 /* --- levels that are encoded --- */
 
 static double encoded(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055; }
@@ -527,4 +455,4 @@ END_TEST
 
 SUITE_MAIN("pull", encoded_levels_are_light, light_along_a_ray, a_band_is_as_wide_as_it_is, shading_goes_back,
            half_a_band_moves_the_centre, no_more_than_noise, even_grey_moves_nothing, only_where_the_outline_has_points,
-           the_smallest, across_the_border, waves_of_a_pixel, units_and_bands, harmonics_of_any_ellipse)
+           the_smallest, across_the_border, waves_of_a_pixel)

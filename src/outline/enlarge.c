@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Outlines about an ellipse that is known: a larger one than was found, or one about a disc. */
+#include "refit.h"
+
+#define RINGS 14 /* about the outline, each larger than the one before by a fortieth: to 1.4 times its size */
+
+/* Look for an outline on a ring: is enough of it covered? Negative when it is no plausible ellipse. */
+static int ring_covered(const drogue_ellipse *ring, drogue_refit_context *c)
+{
+    uint32_t bright_bins = 0;
+    if (!drogue_refit_plausible(c, ring) || drogue_refit_look(c, ring, bright_bins) != DROGUE_OK) {
+        return -1;
+    }
+    if (drogue_support_cover(&c->room->support) < c->config->min_cover_q16) {
+        return 0;
+    }
+    bright_bins = c->room->support.bright_bins;
+    return c->looked_as == bright_bins || drogue_refit_look(c, ring, bright_bins) == DROGUE_OK;
+}
+
+drogue_q16 drogue_outline_covered(const drogue_ellipse *ring, const drogue_workspace *workspace,
+                                  const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config)
+{
+    drogue_refit_context c;
+    drogue_refit_begin(&c, workspace, list, mask, config);
+    if (!drogue_refit_plausible(&c, ring) || drogue_refit_look(&c, ring, 0) != DROGUE_OK) {
+        return 0;
+    }
+    return drogue_support_cover(&c.room->support);
+}
+
+/* As fitted and with what blur took put back. */
+static void finish_ring(drogue_outline *out, const drogue_config *config)
+{
+    out->fitted = out->ellipse;
+    drogue_undo_blur(&out->ellipse, config);
+}
+
+int drogue_outline_settle(drogue_outline *out, const drogue_ellipse *ring, const drogue_workspace *workspace,
+                          const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config)
+{
+    drogue_refit_context c;
+    drogue_refit_begin(&c, workspace, list, mask, config);
+    drogue_outline_clear(out);
+    if (ring_covered(ring, &c) <= 0) {
+        return 0;
+    }
+    out->ellipse = *ring;
+    drogue_refit(out, &c);
+    if (out->cover_q16 < config->min_cover_q16) {
+        drogue_outline_clear(out);
+        return 0;
+    }
+    drogue_quality_of_cover(&out->quality, &out->ellipse, DROGUE_Q16_ONE, out->cover_q16, &config->quality);
+    out->cluster_members = 1;
+    finish_ring(out, config);
+    return 1;
+}
+
+int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspace, const drogue_edge_list *list,
+                           const drogue_mask *mask, const drogue_config *config)
+{
+    drogue_ellipse ring = out->fitted;
+    drogue_outline *best;
+    drogue_outline *trial;
+    drogue_refit_context c;
+    int k;
+    drogue_refit_begin(&c, workspace, list, mask, config);
+    trial = &c.room->trial;
+    best = &c.room->best;
+    *best = *out;
+    best->cover_q16 = 0;
+    for (k = 0; k < RINGS; k++) {
+        int covered;
+        ring.a_px_q16 = drogue_q16_add(ring.a_px_q16, ring.a_px_q16 / 40);
+        ring.b_px_q16 = drogue_q16_add(ring.b_px_q16, ring.b_px_q16 / 40);
+        covered = ring_covered(&ring, &c);
+        if (covered < 0) {
+            break;
+        }
+        if (!covered) {
+            continue;
+        }
+        *trial = *out;
+        trial->ellipse = ring;
+        drogue_refit(trial, &c);
+        if (trial->cover_q16 >= best->cover_q16 && trial->cover_q16 >= config->min_cover_q16 &&
+            (int64_t)trial->ellipse.b_px_q16 * 50 > (int64_t)out->fitted.b_px_q16 * 51) { /* else the one found */
+            *best = *trial;
+        }
+    }
+    if (best->cover_q16 == 0) {
+        return 0;
+    }
+    *out = *best;
+    finish_ring(out, config);
+    return 1;
+}
