@@ -145,8 +145,8 @@ void drogue_outline_put_back(drogue_ellipse *e, const int32_t pull_q24[5])
     e->a_px_q16 = (drogue_q16)((a + b) / 2 + apart);
     e->b_px_q16 = (drogue_q16)((a + b) / 2 - apart);
     angle = e->angle_rad_q16 + drogue_shr_round_s64(drogue_atan2_q29(cross, half), 14);
-    angle = angle > DROGUE_Q16_PI / 2     ? angle - DROGUE_Q16_PI
-            : angle <= -DROGUE_Q16_PI / 2 ? angle + DROGUE_Q16_PI
-                                          : angle;
+    angle = angle > DROGUE_Q16_HALF_PI     ? angle - DROGUE_Q16_PI
+            : angle <= -DROGUE_Q16_HALF_PI ? angle + DROGUE_Q16_PI
+                                           : angle;
     e->angle_rad_q16 = (drogue_q16)angle;
 }

@@ -97,6 +97,7 @@ static uint32_t all_candidates(drogue_refit_context *c)
 {
     drogue_candidate *candidates = c->room->candidates;
     uint32_t arcs = 0;
+    uint32_t all;
     uint32_t count;
     int k;
     int l;
@@ -104,7 +105,8 @@ static uint32_t all_candidates(drogue_refit_context *c)
     for (k = 0; k < 4; k++) {
         arcs |= (uint32_t)usable(c, k, 0) << (4 * k);
     }
-    count = (uint32_t)try_arcs(&candidates[0], arcs, c);
+    all = arcs;
+    count = (uint32_t)try_arcs(&candidates[0], all, c);
     if (count == 1 && candidates[0].cover_q16 >= ENOUGH_COVER_Q16) {
         return 1;
     }
@@ -115,7 +117,9 @@ static uint32_t all_candidates(drogue_refit_context *c)
                 const int second = i % DROGUE_ARC_CHOICES;
                 if (usable(c, k, first) && usable(c, l, second)) {
                     arcs = (uint32_t)(first + 1) << (4 * k) | (uint32_t)(second + 1) << (4 * l);
-                    count += (uint32_t)try_arcs(&candidates[count], arcs, c);
+                    if (arcs != all) { /* of two quadrants it was the first */
+                        count += (uint32_t)try_arcs(&candidates[count], arcs, c);
+                    }
                 }
             }
         }
@@ -170,7 +174,7 @@ static drogue_status best_outline(drogue_outline *out, uint32_t count, drogue_re
             out->cluster_members = members;
         }
         for (i = 0; i < count; i++) {
-            if (!drogue_same_ellipse(&candidates[i], &chosen, &c->config->cluster)) {
+            if (i != (uint32_t)best && !drogue_same_ellipse(&candidates[i], &chosen, &c->config->cluster)) {
                 candidates[kept++] = candidates[i];
             }
         }

@@ -218,7 +218,8 @@ std::vector<Finder::Candidate> Finder::candidates() const
 {
     std::vector<Candidate> all;
     Candidate c;
-    if (rate(c, {choices_[0][0], choices_[1][0], choices_[2][0], choices_[3][0]})) {
+    const Arcs firsts = {choices_[0][0], choices_[1][0], choices_[2][0], choices_[3][0]};
+    if (rate(c, firsts)) {
         all.push_back(c);
         if (c.quality.length_ratio >= 0.9L) {
             return all;
@@ -231,7 +232,7 @@ std::vector<Finder::Candidate> Finder::candidates() const
                     Arcs arcs = {NONE, NONE, NONE, NONE};
                     arcs[k] = first;
                     arcs[l] = second;
-                    if (first != NONE && second != NONE && rate(c, arcs)) {
+                    if (first != NONE && second != NONE && arcs != firsts && rate(c, arcs)) {
                         all.push_back(c);
                     }
                 }
