@@ -129,7 +129,8 @@ void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge
  *  out     region coordinates, semi-axes alike
  *  rays    work area; the workspace has one
  *  view    the region's pixels
- *  mask    of the region asked for, as if made for a drogue in its middle: 2.4 times the outline's semi-axis
+ *  mask    of the region asked for, at most DROGUE_MAX_REGION a side, as if made for a drogue in its middle: 2.4 times
+ *          the outline's semi-axis
  *  return  how many there are; none where the disc would be under 3 px, the model has none, or of 32 rays from the
  *          region's middle fewer than 3 see grey rise by twice the least contrast (of an outline up to 512 px)
  */

@@ -35,7 +35,7 @@ void drogue_pose_axis(drogue_q16 axis_q16[3], drogue_q16 yaw_rad_q16, drogue_q16
  *  camera   fx, fy, cx, cy; distortion is ignored
  *  radius   rim radius, > 0
  *  return   DROGUE_OK, DROGUE_E_DOMAIN (ellipse flat or empty, its angle beyond pi / 2, camera without focal length,
- *           position beyond Q16)
+ *           position beyond Q16, or so near that its z rounds to 0)
  *  scaling  31-bit mantissas; the cone in a frame about its own axis, where its matrix is graded; no overflow
  *  error    position, axis and angles <= 4 LSB against double from the same ellipse, for a focal length of 300 px and
  *           more and a centre within 2 focal lengths of the principal point

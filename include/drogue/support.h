@@ -65,7 +65,8 @@ uint32_t drogue_support_bins_to(const drogue_support *support, drogue_q16 axis_r
  * begin anew. */
 void drogue_support_turn(drogue_support *support, drogue_q16 axis_rad_q16);
 
-/* A wave of twice the angle, by its cosine's and its sine's part, with all angles larger by so much; saturates. */
+/* A wave of twice the angle, by its cosine's and its sine's part, with all angles larger by so much, (-4, 4) rad;
+ * saturates. */
 void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16);
 
 #ifdef __cplusplus

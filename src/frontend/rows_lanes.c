@@ -205,7 +205,8 @@ static inline lanes_record *gradient_word(lanes_record *next, uint32_t *magnitud
 
 void drogue_rows_gradient(drogue_frontend *f, int32_t y, drogue_stretch stretch)
 {
-    const uint32_t low = DROGUE_LANES((uint32_t)(f->config.canny_low < 2040 ? f->config.canny_low : 2040));
+    const uint32_t low =
+        DROGUE_LANES((uint32_t)(f->config.canny_low < DROGUE_L1_MAX ? f->config.canny_low : DROGUE_L1_MAX));
     const int32_t below = y + 1 < f->height_px ? y + 1 : y;
     const int32_t begin = stretch.begin / 2 * 2;
     const uint32_t *t = smooth_row(f, y > 0 ? y - 1 : 0) + begin + 1;

@@ -232,7 +232,7 @@ uint32_t drogue_rows_maxima(drogue_frontend *f, int32_t y, int32_t part)
     const drogue_columns *columns = &f->columns[y & 7];
     const int16_t *gx = derivative_row(f, y);
     const int16_t *gy = gx + padded(f);
-    const int32_t low = f->config.canny_low < 2040 ? f->config.canny_low : 2040;
+    const int32_t low = f->config.canny_low < DROGUE_L1_MAX ? f->config.canny_low : DROGUE_L1_MAX;
     uint8_t *code = drogue_code_row(f, y);
     drogue_slope *points = drogue_rows_points(f);
     const uint16_t *magnitude[3];

@@ -138,7 +138,7 @@ void drogue_outline_put_back(drogue_ellipse *e, const int32_t pull_q24[5])
     if (pull_q24[0] == 0 && pull_q24[1] == 0 && pull_q24[2] == 0 && pull_q24[3] == 0 && pull_q24[4] == 0) {
         return;
     }
-    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
+    drogue_sincos_of_q16(&s_q30, &c_q30, e->angle_rad_q16);
     drogue_rotate_q30(moved_px_q16, drogue_sat_s32(u), drogue_sat_s32(v), c_q30, s_q30);
     e->xc_px_q16 = drogue_sat_s32(e->xc_px_q16 + moved_px_q16[0]);
     e->yc_px_q16 = drogue_sat_s32(e->yc_px_q16 + moved_px_q16[1]);

@@ -9,7 +9,7 @@
 /* 1 / v; v > 0 */
 static void inverse_of(drogue_real *out, drogue_q16 v_q16)
 {
-    const drogue_real one = {1 << 30, -30};
+    const drogue_real one = DROGUE_REAL_ONE;
     drogue_real_set_q16(out, v_q16);
     drogue_real_quotient(out, &one, out);
 }
@@ -46,7 +46,7 @@ drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_el
         far(ellipse->yc_px_q16) || !drogue_ellipse_angle_valid(ellipse)) {
         return DROGUE_E_DOMAIN;
     }
-    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(ellipse->angle_rad_q16, 13));
+    drogue_sincos_of_q16(&s_q30, &c_q30, ellipse->angle_rad_q16);
     out->xc_px_q16 = ellipse->xc_px_q16;
     out->yc_px_q16 = ellipse->yc_px_q16;
     out->b_px_q16 = ellipse->b_px_q16;

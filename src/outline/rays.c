@@ -199,7 +199,7 @@ static void aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t p
     int32_t sin_q30;
     int32_t cos_q30;
     int32_t k;
-    drogue_sincos_q30(&sin_q30, &cos_q30, (int32_t)drogue_shl_s64(e->angle_rad_q16, 13));
+    drogue_sincos_of_q16(&sin_q30, &cos_q30, e->angle_rad_q16);
     for (k = from; k < to; k += every) { /* bound: 32 */
         int32_t s_q30;
         int32_t c_q30;

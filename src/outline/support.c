@@ -125,7 +125,7 @@ void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16)
     if (wave[0] == 0 && wave[1] == 0) {
         return; /* as the smear of most frames */
     }
-    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(by_rad_q16, 13));
+    drogue_sincos_of_q16(&s_q30, &c_q30, by_rad_q16);
     drogue_rotate_q30(twice_q30, c_q30, s_q30, c_q30, s_q30);
     drogue_rotate_q30(turned, wave[0], wave[1], (int32_t)twice_q30[0], (int32_t)twice_q30[1]);
     wave[0] = drogue_sat_s32(turned[0]);

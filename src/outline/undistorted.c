@@ -14,7 +14,7 @@ static void turned(int32_t out_q24[5], const int32_t pull_q24[5], drogue_q16 tur
     int32_t s_q30;
     int32_t c_q30;
     int64_t wave_q24[2];
-    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shl_s64(turn_rad_q16, 13));
+    drogue_sincos_of_q16(&s_q30, &c_q30, turn_rad_q16);
     memcpy(out_q24, pull_q24, 5 * sizeof *out_q24);
     drogue_rotate_q30(wave_q24, pull_q24[1], pull_q24[2], c_q30, -s_q30);
     out_q24[1] = (int32_t)wave_q24[0];

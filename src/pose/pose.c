@@ -188,6 +188,9 @@ static drogue_status finish_pose(drogue_pose *out, const drogue_real position[3]
             return DROGUE_E_DOMAIN;
         }
     }
+    if (out->position_m_q16[2] <= 0) { /* nearer than numbers go */
+        return DROGUE_E_DOMAIN;
+    }
     out->yaw_rad_q16 = (drogue_q16)drogue_shr_round_s64(drogue_real_atan2_q29(axis[0], axis[2]), 13);
     out->pitch_rad_q16 = (drogue_q16)drogue_shr_round_s64(drogue_real_atan2_q29(axis[1], across), 13);
     return DROGUE_OK;

@@ -152,6 +152,14 @@ START_TEST(outside_the_domain)
         turned.angle_rad_q16 = INT32_MIN;
         ck_assert_int_eq(drogue_pose_from_ellipse(p, &turned, &camera, 65536), DROGUE_E_DOMAIN);
     }
+    {
+        const drogue_camera wide = pinhole(10, 10, 258, 240);
+        const drogue_ellipse near = {258 * 65536, 240 * 65536, 85 * 65536, 79 * 65536, 0};
+        ck_assert_int_eq(drogue_pose_from_ellipse(p, &near, &wide, 3), DROGUE_E_DOMAIN); /* z is a third of an LSB */
+        ck_assert_int_eq(p[0].axis_q16[2], 0);
+        ck_assert_int_eq(drogue_pose_from_ellipse(p, &near, &wide, 30), DROGUE_OK);
+        ck_assert_int_gt(p[0].position_m_q16[2], 0);
+    }
     ck_assert_int_eq(drogue_pose_from_ellipse(p, &ellipse, &camera, 0), DROGUE_E_DOMAIN);
     ck_assert_int_eq(drogue_pose_from_ellipse(p, &ellipse, &camera, -1), DROGUE_E_DOMAIN);
     e.b_px_q16 = 0;
