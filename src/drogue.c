@@ -228,8 +228,8 @@ static int same_edges(const drogue_held *a, const drogue_held *b)
            a->region.width_px == b->region.width_px && a->region.height_px == b->region.height_px;
 }
 
-/* What was best stands, and its edges are in the workspace again. Where there is no outline at all they are the region's
- * by the thresholds tried last. */
+/* What was best stands, and its edges are in the workspace again. Where there is no outline at all they are the
+ * region's by the thresholds tried last. */
 static void return_to(best_try *best, drogue_frame *f, const drogue_region *region)
 {
     drogue_held *wanted = &best->held;
