@@ -6,6 +6,7 @@
 
 #include "drogue/decide.h"
 #include "drogue/inner.h"
+#include "drogue/noise.h"
 #include "look.h"
 
 #define TEXT(x) #x

@@ -2,7 +2,7 @@
 /* Noise of an image. */
 #include <string.h>
 
-#include "drogue/frontend.h"
+#include "drogue/noise.h"
 
 #define REACH 4     /* px to either side of a place that three boxes of three columns beside each other have */
 #define BLOCK 9     /* places whose differences are summed: by blocks noise is nearly the same, and edges are in few */

@@ -3,6 +3,7 @@
  * whose step is too low, which so many pixels together show. */
 #include "drogue/frontend.h"
 #include "drogue/inner.h"
+#include "drogue/noise.h"
 
 #include "fit.h"
 

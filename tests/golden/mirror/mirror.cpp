@@ -3,6 +3,7 @@
 #include "mirror.hpp"
 
 #include "drogue/inner.h"
+#include "drogue/noise.h"
 #include "drogue/undistort.h"
 
 #include <algorithm>

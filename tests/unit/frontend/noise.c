@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "drogue/frontend.h"
+#include "drogue/noise.h"
 
 #define SIDE 200
 
