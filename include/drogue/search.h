@@ -36,14 +36,14 @@ typedef struct drogue_sighting {
 
 /* What drogue_acquire() weighs of a measurement. */
 typedef struct drogue_weighed {
-    int32_t worth; /* 0: there is no pose */
-    int32_t where; /* it was measured: a number that drogue_acquire() gives the place */
-    drogue_q16 a_px_q16;
-    drogue_q16 xc_px_q16;
-    drogue_q16 yc_px_q16;
-    drogue_q16 inner_x_px_q16;
-    drogue_q16 inner_y_px_q16;
-    drogue_q16 inner_px_q16; /* its radius where it decides and the outline is sure; else 0 */
+    int32_t worth;             /* 0: there is no pose */
+    int32_t where;             /* it was measured: a number that drogue_acquire() gives the place */
+    drogue_q16 a_px_q16;       /* of the outline: its semi-major axis */
+    drogue_q16 xc_px_q16;      /* its centre */
+    drogue_q16 yc_px_q16;      /* its centre, downward */
+    drogue_q16 inner_x_px_q16; /* of the inner part: its centre */
+    drogue_q16 inner_y_px_q16; /* its centre, downward */
+    drogue_q16 inner_px_q16;   /* its radius where it decides and the outline is sure; else 0 */
 } drogue_weighed;
 
 /* A search in progress; set by drogue_search_init(). */
