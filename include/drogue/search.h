@@ -31,7 +31,7 @@ typedef struct drogue_sighting {
     int32_t x_px;         /* middle of the outline, about */
     int32_t y_px;         /* downward */
     int32_t radius_px;    /* of the outline, about */
-    uint32_t score;       /* by evenness and contrast of disc and rim; compares sightings of one frame */
+    uint32_t score;       /* by evenness and contrast of disc and rim; compares those of one list of one frame */
 } drogue_sighting;
 
 /* What drogue_acquire() weighs of a measurement. */
@@ -56,14 +56,16 @@ typedef struct drogue_search {
     int32_t rows_in;    /* fed so far */
     int32_t count;      /* of sightings */
     int32_t dark_count; /* of dark discs */
-    int32_t darkest;    /* grey of the darkest 4 x 4 px; 255 before the first. Haze and glare lift it */
+    int32_t darkest;    /* grey of the darkest whole 4 x 4 px, 255 where there are none. Haze and glare lift it */
     drogue_search_level levels[DROGUE_SEARCH_LEVELS]; /* from 2 to 64 px a cell */
     drogue_sighting best[DROGUE_SEARCH_MAX];          /* by falling score */
-    drogue_sighting dark[DROGUE_SEARCH_DARK]; /* dark discs, by falling score; radius and region are the disc's */
-    drogue_region asked;                      /* drogue_acquire()'s work area: what is to be measured, */
-    drogue_weighed last;                      /* what was measured last, */
-    drogue_weighed stands;                    /* and the best so far */
-    drogue_result found; /* drogue_track_frame()'s work area: what it acquired beside what it measured */
+    /* Dark discs, by falling score; radius and region are the disc's until drogue_acquire() makes them the rim's. Of a
+     * model without an inner part it keeps none. */
+    drogue_sighting dark[DROGUE_SEARCH_DARK];
+    drogue_region asked;   /* drogue_acquire()'s work area: what is to be measured, */
+    drogue_weighed last;   /* what was measured last, */
+    drogue_weighed stands; /* and the best so far */
+    drogue_result found;   /* drogue_track_frame()'s work area: what it acquired beside what it measured */
 } drogue_search;
 
 /* Lay a search out in the caller's memory, which must live as long as the search.
@@ -111,7 +113,7 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
  *    Without an inner part in the model only the last, of any size.
  *
  * What is sure is what drogue_result_sure() says, and where haze or glare lifts every grey, what has its contrast
- * above the darkest 4 x 4 px of the part: it must be resolved with a doubt < 1/64, r >= 5 px, a radius off by at most
+ * above the darkest 4 x 4 px of the part, as any disc has that is the darkest there itself: it must be resolved with a doubt < 1/64, r >= 5 px, a radius off by at most
  * 0.3 px + r / 25 and a cover of 0.9.
  *
  * The result is the one of most cover, less the share that the inner part's radius is off, among those that are sure
@@ -121,10 +123,12 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
  * lies about the inner part of a sure outline that decides, to half its radius, and has less than twice its radius and
  * four fifths of that outline's semi-axis, is a part of that, whatever it is worth.
  *
- *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured
+ *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured. Where nothing could be, or nothing
+ *          sure, second_look says of any place that was tried or too large to be that there was too little room
  *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not
  *          measured itself
- *  return  DROGUE_OK when drogue_result_sure() of what was measured; DROGUE_E_UNSURE: something was measured, but less
+ *  return  DROGUE_OK when what was measured is sure as above, which drogue_result_sure() may deny of a drogue in haze,
+ *          since it knows no darkest grey; DROGUE_E_UNSURE: something was measured, but less
  *          than that; DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else, of what was
  *          measured, the status that comes last in drogue_status: how far the best attempt got; and
  *          DROGUE_E_NO_INNER_PART where nothing was sighted

@@ -293,12 +293,22 @@ static int is_wanted(const drogue_search *search, int32_t where, int32_t settled
     return model->inner_radius_m_q16 == 0 || (search->width_px <= MOST_WHOLE_PX && search->rows_in <= MOST_WHOLE_PX);
 }
 
+/* What a measurement had too little room for: with more there might be another. */
+static drogue_second_look room_of(const drogue_result *r)
+{
+    return drogue_status_full(r->status)              ? DROGUE_SECOND_FULL
+           : r->status == DROGUE_E_WORKSPACE          ? DROGUE_SECOND_TOO_WIDE
+           : r->second_look >= DROGUE_SECOND_TOO_WIDE ? (drogue_second_look)r->second_look
+                                                      : DROGUE_SECOND_NONE;
+}
+
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region)
 {
-    drogue_status furthest = DROGUE_OK; /* of what could not be measured */
-    int32_t settled = -1;               /* the sighting after which only larger ones about it are looked at */
-    int current = 0;                    /* was the best measured last? */
+    drogue_status furthest = DROGUE_OK;           /* of what could not be measured */
+    int32_t settled = -1;                         /* the sighting after which only larger ones about it are looked at */
+    int current = 0;                              /* was the best measured last? */
+    drogue_second_look room = DROGUE_SECOND_NONE; /* the first want of it */
     int32_t i;
     drogue_result_clear(out);
     out->status =
@@ -313,9 +323,11 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         }
         place(search, i, region, image);
         if (i >= WIDE && i < WHOLE && !drogue_workspace_spans(workspace, &search->asked, image)) {
+            room = room == DROGUE_SECOND_NONE ? DROGUE_SECOND_TOO_WIDE : room;
             continue;
         }
         (void)drogue_measure(out, workspace, setup, image, &search->asked);
+        room = room == DROGUE_SECOND_NONE ? room_of(out) : room;
         furthest = out->status > furthest ? out->status : furthest;
         current = keep_better(search, out, i, setup->model);
         if (current && i < DARK && (settled >= 0 || settles(out, setup->model, search->darkest))) {
@@ -325,12 +337,16 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     if (search->stands.worth == 0) {
         drogue_result_clear(out);
         out->status = furthest > DROGUE_OK ? furthest : DROGUE_E_NO_INNER_PART;
+        out->second_look = room;
     } else if (!current) { /* again, so that the workspace holds its points */
         place(search, search->stands.where, region, image);
         (void)drogue_measure(out, workspace, setup, image, &search->asked);
     }
     if (out->status == DROGUE_OK && !is_sure(out, setup->model, search->darkest)) {
         out->status = DROGUE_E_UNSURE;
+        if (room != DROGUE_SECOND_NONE && out->second_look <= DROGUE_SECOND_BETTER) {
+            out->second_look = DROGUE_SECOND_ROOM;
+        }
     }
     return out->status;
 }

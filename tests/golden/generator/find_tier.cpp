@@ -182,6 +182,8 @@ public:
     {
         const Real z = r.pose.position[2], end = z + m.inner_depth;
         reliable_ = ok_ && r.outline.quality.reliability >= 0.9L;
+        evident_ = ok_ && r.outline.quality.reliability >= 0.99L;
+        oriented_ = r.resolved;
         seen_ = ok_ && r.has_inner && z > 0 && end > 0;
         if (seen_) { /* radii of the inner part, px: as expected, and of its area */
             expected_ = std::sqrt(r.seen.a * r.seen.b) * m.inner_radius / m.rim_radius * z / end;
@@ -203,9 +205,11 @@ public:
             return decides && expected_ >= 5 && cover_ >= 0.9L;
         }
         return seen_ && agrees_ && dark_ &&
-               (witness   ? cover_ >= 0.5L
-                : decides ? cover_ >= (sharp_ ? 0.6L : 0.9L)
-                          : sharp_ && cover_ >= 0.75L && off_ <= 0.6L + expected_ / 10);
+               (witness                        ? cover_ >= 0.5L
+                : decides                      ? cover_ >= (sharp_ ? 0.6L : 0.9L)
+                : off_ > 0.6L + expected_ / 10 ? false
+                : sharp_                       ? cover_ >= 0.75L
+                                               : oriented_ && expected_ >= 5 && cover_ >= 31 / 32.0L && evident_);
     }
     bool settles() const
     {
@@ -231,8 +235,8 @@ private:
                          : (resolved_ ? 5 : 3) + cover_ - std::min<Real>(off_ / expected_, 1);
     }
 
-    bool ok_, has_inner_, reliable_ = false, seen_ = false, sharp_ = false, dark_ = false, hazy_ = false,
-                          agrees_ = false;
+    bool ok_, has_inner_, reliable_ = false, evident_ = false, oriented_ = false, seen_ = false, sharp_ = false,
+                          dark_ = false, hazy_ = false, agrees_ = false;
     Real cover_;
     bool resolved_;
     reference::Model model_;

@@ -444,9 +444,11 @@ drogue_status Finder::find(Outline &out)
         if (trial.cover > out.cover) {
             out = trial;
         }
-        all.erase(std::remove_if(
-                      all.begin(), all.end(),
-                      [&](const Candidate &c) { return reference::same_ellipse(c.rated, chosen.rated, cluster()); }),
+        all.erase(std::remove_if(all.begin(), all.end(),
+                                 [&](const Candidate &c) {
+                                     return c.arcs == chosen.arcs ||
+                                            reference::same_ellipse(c.rated, chosen.rated, cluster());
+                                 }),
                   all.end());
     }
     return out.cover >= real(config_.min_cover_q16) ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
