@@ -113,8 +113,8 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
  *    Without an inner part in the model only the last, of any size.
  *
  * What is sure is what drogue_result_sure() says, and where haze or glare lifts every grey, what has its contrast
- * above the darkest 4 x 4 px of the part, as any disc has that is the darkest there itself: it must be resolved with a doubt < 1/64, r >= 5 px, a radius off by at most
- * 0.3 px + r / 25 and a cover of 0.9.
+ * above the darkest 4 x 4 px of the part, as any disc has that is the darkest there itself: it must be resolved with a
+ * doubt < 1/64, r >= 5 px, a radius off by at most 0.3 px + r / 25 and a cover of 0.9.
  *
  * The result is the one of most cover, less the share that the inner part's radius is off, among those that are sure
  * and whose inner part decides; or else that are sure; or else of all, an inner part counting as a quarter of cover,
@@ -123,8 +123,8 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
  * lies about the inner part of a sure outline that decides, to half its radius, and has less than twice its radius and
  * four fifths of that outline's semi-axis, is a part of that, whatever it is worth.
  *
- *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured. Where nothing could be, or nothing
- *          sure, second_look says of any place that was tried or too large to be that there was too little room
+ *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured. Where nothing is measured or
+ *          sure, second_look says of any place tried, or too large to be, that there was too little room for it
  *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not
  *          measured itself
  *  return  DROGUE_OK when what was measured is sure as above, which drogue_result_sure() may deny of a drogue in haze,

@@ -7,9 +7,9 @@
 
 #include "drogue/rim.h"
 
-/* The circle about a disc's middle where grey is above its middle cell's by half of its contrast: the median of 16 rays, when at least
- * 12 of them end within a quarter of it and a cell. Its score is the share of the contrast in the brighter grey, Q8,
- * times the square of the number of those rays.
+/* The circle about a disc's middle where grey is above its middle cell's by half of its contrast: the median of 16
+ * rays, when at least 12 of them end within a quarter of it and a cell. Its score is the share of the contrast in the
+ * brighter grey, Q8, times the square of the number of those rays.
  *
  *  out    centre (0, 0)
  *  least  what its score must exceed
