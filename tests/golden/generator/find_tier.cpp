@@ -303,8 +303,8 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
         best = tried.size() - 1;
         return w.settles();
     };
-    const auto about = [&](const cv::Rect &r) {
-        return std::array<int64_t, 4>{r.x + left, r.y + top, r.width, r.height};
+    const auto about = [x = left, y = top](const cv::Rect &r) {
+        return std::array<int64_t, 4>{r.x + x, r.y + y, r.width, r.height};
     };
     std::vector<mirror::Sighting> measured_ones;
     bool settled = false;
