@@ -2,8 +2,8 @@
 /* Arcs: the edge points of candidates in the ring, their partition by direction class into connected components, and the
  * order of those. */
 #include "golden.hpp"
+#include "own_workspace.h"
 #include "reference.hpp"
-#include "workspace.h"
 
 namespace {
 

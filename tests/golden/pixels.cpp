@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Smoothing, gradient, Canny and masks: equal to OpenCV in every pixel. */
 #include "golden.hpp"
+#include "own_workspace.h"
 #include "reference.hpp"
-#include "workspace.h"
 
 #include "drogue/gradient.h"
 #include "drogue/smooth.h"

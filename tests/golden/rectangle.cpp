@@ -3,8 +3,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "golden.hpp"
+#include "own_workspace.h"
 #include "reference.hpp"
-#include "workspace.h"
 
 #include "drogue/constraints.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The driver against a register bank of C: what a block that works gives, and each way in which one can fail. */
+#include "own_workspace.h"
 #include "suite.h"
-#include "workspace.h"
 
 #include "driver/block.h"
 #include "driver/registers.h"

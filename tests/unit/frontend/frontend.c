@@ -4,7 +4,7 @@
 
 #include "frontend_model.h"
 #include "images.h"
-#include "workspace.h"
+#include "own_workspace.h"
 
 #ifdef EXPECTED_ROW_PARTS
 #include "rows.h"

@@ -5,7 +5,7 @@
 
 #include "drogue/drogue.h"
 #include "geometry.h"
-#include "workspace.h"
+#include "own_workspace.h"
 
 enum { SIDE = 192 };
 

@@ -7,7 +7,7 @@
 #include "drogue/undistort.h"
 #include "geometry.h"
 #include "images.h"
-#include "workspace.h"
+#include "own_workspace.h"
 
 enum { MOST_SIDE = 96, RUNS = 12000 };
 

@@ -5,7 +5,7 @@
 #include "drogue/drogue.h"
 #include "drogue/undistort.h"
 #include "geometry.h"
-#include "workspace.h"
+#include "own_workspace.h"
 
 enum { WIDTH = 320, HEIGHT = 280, FINE = 4 };
 

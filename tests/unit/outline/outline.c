@@ -7,8 +7,8 @@
 #include "drogue/outline.h"
 #include "drogue/undistort.h"
 #include "geometry.h"
+#include "own_workspace.h"
 #include "rectangle.h"
-#include "workspace.h"
 
 enum { SIDE = 256, MOST = 8192 };
 

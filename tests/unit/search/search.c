@@ -3,8 +3,8 @@
 #include "suite.h"
 
 #include "drogue/track.h"
+#include "own_workspace.h"
 #include "results.h"
-#include "workspace.h"
 
 static const drogue_model model = {22938, 7864, 16384}; /* 0.35, 0.12, 0.25 m */
 

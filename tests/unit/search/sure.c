@@ -3,7 +3,7 @@
 #include "suite.h"
 
 #include "drogue/search.h"
-#include "workspace.h"
+#include "own_workspace.h"
 
 static const drogue_model model = {22938, 7864, 16384}; /* 0.35, 0.12, 0.25 m */
 static const drogue_model no_inner = {22938, 0, 0};
