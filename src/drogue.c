@@ -54,23 +54,10 @@ static void keep(best_try *best, const drogue_frame *f, drogue_status status)
     best->result->second_look = f->second_look;
 }
 
-/* Note where a try had too little room: with more another might stand. What was first in want of it is told. */
-static void note_room(drogue_frame *f, drogue_status status)
-{
-    if (f->room != DROGUE_SECOND_NONE) {
-        return;
-    }
-    if (drogue_status_full(status)) {
-        f->room = DROGUE_SECOND_FULL;
-    } else if (f->second_look >= DROGUE_SECOND_TOO_WIDE) {
-        f->room = f->second_look;
-    }
-}
-
 /* A try has ended: it is the best one where its doubt is clearly less, but never without a pose where that has one. */
 static void consider(best_try *best, drogue_frame *f, drogue_status status)
 {
-    note_room(f, status);
+    drogue_note_room(&f->room, status, f->second_look);
     if (f->doubt_q16 < best->least_q16 - CLEARLY_Q16 && (status == DROGUE_OK || best->result->status != DROGUE_OK)) {
         keep(best, f, status);
     }
@@ -189,7 +176,7 @@ static void try_disc(best_try *best, drogue_frame *f, const drogue_region *regio
     if (status == DROGUE_OK) {
         status = judge(f, DROGUE_TRIED_DISC);
     }
-    note_room(f, status);
+    drogue_note_room(&f->room, status, f->second_look);
     if (status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < DROGUE_CONTRADICTED_Q16 &&
         !shows_less(f->out, best)) {
         keep(best, f, status);
@@ -209,7 +196,7 @@ static void try_beyond(best_try *best, drogue_frame *f)
     const drogue_result *was = best->result;
     drogue_status status;
     if (f->workspace->capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
-        note_room(f, DROGUE_E_EDGES_FULL);
+        drogue_note_room(&f->room, DROGUE_E_EDGES_FULL, f->second_look);
         return;
     }
     begin_try(f);
@@ -269,7 +256,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     }
     best.result = f->workspace->kept;
     keep(&best, f, status);
-    note_room(f, status);
+    drogue_note_room(&f->room, status, f->second_look);
     if (status == DROGUE_OK && best.least_q16 > SURE_Q16) {
         consider(&best, f, try_larger(f, DROGUE_TRIED_LARGER));
     }

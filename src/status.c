@@ -40,3 +40,17 @@ const char *drogue_second_look_name(drogue_second_look look)
     }
     return "unknown";
 }
+
+void drogue_note_room(drogue_second_look *room, drogue_status status, drogue_second_look look)
+{
+    if (*room != DROGUE_SECOND_NONE) {
+        return;
+    }
+    if (drogue_status_full(status)) {
+        *room = DROGUE_SECOND_FULL;
+    } else if (status == DROGUE_E_WORKSPACE) {
+        *room = DROGUE_SECOND_TOO_WIDE;
+    } else if (look >= DROGUE_SECOND_TOO_WIDE) {
+        *room = look;
+    }
+}

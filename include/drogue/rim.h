@@ -44,7 +44,8 @@ typedef struct drogue_rim {
     int32_t x_q4;      /* centre */
     int32_t y_q4;      /* centre, downward */
     int32_t radius_q4; /* of the circle */
-    uint32_t score;    /* the square of the number of rays that meet it, times the mean contrast of disc and rim */
+    uint32_t score;    /* the square of the number of rays that meet it, times the sum of its mean step and the disc's
+                          contrast */
 } drogue_rim;
 
 /* The score that no circle about a disc exceeds. */

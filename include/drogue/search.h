@@ -128,10 +128,10 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
  *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not
  *          measured itself
  *  return  DROGUE_OK when what was measured is sure as above, which drogue_result_sure() may deny of a drogue in haze,
- *          since it knows no darkest grey; DROGUE_E_UNSURE: something was measured, but less
- *          than that; DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else, of what was
- *          measured, the status that comes last in drogue_status: how far the best attempt got; and
- *          DROGUE_E_NO_INNER_PART where nothing was sighted
+ *          since it knows no darkest grey; DROGUE_E_UNSURE: something was measured, but less than that;
+ *          DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else, of what was measured, the
+ *          status that comes last in drogue_status: how far the best attempt got; and DROGUE_E_NO_INNER_PART where
+ *          nothing was sighted
  */
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region);

@@ -58,6 +58,13 @@ typedef enum drogue_second_look {
 /* Name of it in lower case, such as "too_wide"; never NULL; any other value gives "unknown". */
 const char *drogue_second_look_name(drogue_second_look look);
 
+/* Note where an attempt had too little room, by its status or its second look: with more another result might stand.
+ * What was first in want of it stays noted.
+ *
+ *  room  in and out: DROGUE_SECOND_NONE until there was too little
+ */
+void drogue_note_room(drogue_second_look *room, drogue_status status, drogue_second_look look);
+
 #ifdef __cplusplus
 }
 #endif

@@ -293,15 +293,6 @@ static int is_wanted(const drogue_search *search, int32_t where, int32_t settled
     return model->inner_radius_m_q16 == 0 || (search->width_px <= MOST_WHOLE_PX && search->rows_in <= MOST_WHOLE_PX);
 }
 
-/* What a measurement had too little room for: with more there might be another. */
-static drogue_second_look room_of(const drogue_result *r)
-{
-    return drogue_status_full(r->status)              ? DROGUE_SECOND_FULL
-           : r->status == DROGUE_E_WORKSPACE          ? DROGUE_SECOND_TOO_WIDE
-           : r->second_look >= DROGUE_SECOND_TOO_WIDE ? (drogue_second_look)r->second_look
-                                                      : DROGUE_SECOND_NONE;
-}
-
 drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region)
 {
@@ -323,11 +314,11 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         }
         place(search, i, region, image);
         if (i >= WIDE && i < WHOLE && !drogue_workspace_spans(workspace, &search->asked, image)) {
-            room = room == DROGUE_SECOND_NONE ? DROGUE_SECOND_TOO_WIDE : room;
+            drogue_note_room(&room, DROGUE_E_WORKSPACE, DROGUE_SECOND_NONE);
             continue;
         }
         (void)drogue_measure(out, workspace, setup, image, &search->asked);
-        room = room == DROGUE_SECOND_NONE ? room_of(out) : room;
+        drogue_note_room(&room, out->status, out->second_look);
         furthest = out->status > furthest ? out->status : furthest;
         current = keep_better(search, out, i, setup->model);
         if (current && i < DARK && (settled >= 0 || settles(out, setup->model, search->darkest))) {

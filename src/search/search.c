@@ -11,8 +11,8 @@
 #define SCALES DROGUE_SEARCH_SCALES
 #define REACH DROGUE_SEARCH_REACH
 #define RING DROGUE_SEARCH_RING
-#define PLACES 128 /* looked at together */
-#define DARKEST_LEVEL 1
+#define PLACES 128      /* looked at together */
+#define DARKEST_LEVEL 1 /* cells of 4 px: noise is averaged, and the smallest disc still fills one */
 
 static const int32_t ring_q4[SCALES] = {36, 51, 72, 86}; /* radius of the circle, 16ths of a cell */
 
