@@ -10,7 +10,7 @@ int __clzsi2(unsigned v);
         UNIT((out)->exponent, UNIT_EXPONENT, 0, 0, 0);                        \
     } while (0)
 
-void drogue_real_set(drogue_real *out, int64_t v, int32_t exponent)
+void drogue_real_put(drogue_real *out, int32_t exponent, int64_t v)
 {
     const drogue_real words = {(int32_t)((uint64_t)v >> 32), (int32_t)(uint32_t)v};
     const drogue_real by = {0, exponent};

@@ -29,7 +29,7 @@ void real_unit_linear(const real_asked *restrict asked, drogue_real *restrict ou
         first_exponent = x.d.exponent;
         second = 0;
     }
-    put_sum(&result, first, first_exponent, second, second_exponent);
+    put_sum(&result, first_exponent, first, second, second_exponent);
     *out = result;
 }
 

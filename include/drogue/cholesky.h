@@ -31,7 +31,7 @@ void drogue_cholesky_solve(drogue_real *b, const drogue_real *l, int n);
 /* b' (L L')^-1 b: the squared Mahalanobis distance when L L' is b's covariance. */
 void drogue_cholesky_square(drogue_real *out, const drogue_real *b, const drogue_real *l, int n);
 
-/* Inverse of L L', packed. */
+/* Inverse of L L', packed; it may take the place of l. */
 void drogue_cholesky_invert(drogue_real *inverse, const drogue_real *l, int n);
 
 #ifdef __cplusplus

@@ -75,7 +75,11 @@ static inline int32_t drogue_sat_s32(int64_t v)
 static inline int64_t drogue_shl_s64(int64_t v, int n) { return (int64_t)((uint64_t)v << n); }
 
 /* v / 2^n rounded to nearest, ties toward +infinity, for 0 <= n <= 63; cannot overflow. */
-static inline int64_t drogue_shr_round_s64(int64_t v, int n) { return n == 0 ? v : (v >> n) + ((v >> (n - 1)) & 1); }
+static inline int64_t drogue_shr_round_s64(int64_t v, int n)
+{
+    const int64_t twice = n == 0 ? v : v >> (n - 1);
+    return n == 0 ? v : (twice >> 1) + (twice & 1);
+}
 
 /* |v|, defined for INT64_MIN too. */
 static inline uint64_t drogue_abs_u64(int64_t v) { return v < 0 ? (uint64_t)0 - (uint64_t)v : (uint64_t)v; }

@@ -33,8 +33,9 @@ typedef struct drogue_real {
         1 << 30, -30    \
     }
 
-/* v * 2^exponent, rounded to 31 bits */
-void drogue_real_set(drogue_real *out, int64_t v, int32_t exponent);
+/* v * 2^exponent, rounded to 31 bits; in this order Arm and RISC-V pass all of it in registers */
+void drogue_real_put(drogue_real *out, int32_t exponent, int64_t v);
+static inline void drogue_real_set(drogue_real *out, int64_t v, int32_t exponent) { drogue_real_put(out, exponent, v); }
 /* The same of a Q16 number. */
 void drogue_real_set_q16(drogue_real *out, drogue_q16 v);
 
@@ -44,6 +45,8 @@ void drogue_real_difference(drogue_real *out, const drogue_real *a, const drogue
 void drogue_real_product(drogue_real *out, const drogue_real *a, const drogue_real *b);
 /* a / b; b = 0 gives 0, and callers test b first. */
 void drogue_real_quotient(drogue_real *out, const drogue_real *a, const drogue_real *b);
+/* a / b of whole numbers; b = 0 gives 0. */
+void drogue_real_ratio(drogue_real *out, int64_t a, int64_t b);
 /* Square root; 0 for v <= 0. */
 void drogue_real_root(drogue_real *out, const drogue_real *v);
 

@@ -55,8 +55,11 @@ static inline drogue_q16 drogue_support_cover(const drogue_support *support)
     return (drogue_q16)(support->covered * (DROGUE_Q16_ONE / DROGUE_SUPPORT_BINS));
 }
 
+/* cos of j / 64 turns, Q30; the middle of bin k is 2 k + 1 of them. */
+int32_t drogue_support_cosine(uint32_t j);
+
 /* 1, cos t, sin t, cos 2t, sin 2t in the middle of a bin. */
-void drogue_support_basis(int64_t basis_q30[5], uint32_t k);
+void drogue_support_basis(int32_t basis_q30[5], uint32_t k);
 
 /* By how many bins an axis is turned against that from which a support counts them, [0, 31]. */
 uint32_t drogue_support_bins_to(const drogue_support *support, drogue_q16 axis_rad_q16);

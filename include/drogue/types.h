@@ -47,15 +47,7 @@ typedef struct drogue_region {
 
 /* Clip one side [*at, *at + *length) of a region to [0, limit), for any three numbers: 0 <= *at and 0 <= *length after,
  * and *at + *length <= limit where limit >= 0. *length is 0 when nothing is left. */
-static inline void drogue_clip(int32_t *at, int32_t *length, int32_t limit)
-{
-    const int64_t end = (int64_t)*at + *length;
-    const int32_t most = limit > 0 ? limit : 0;
-    const int32_t from = *at < 0 ? 0 : *at > most ? most : *at;
-    const int32_t to = end < from ? from : end > most ? most : (int32_t)end;
-    *at = from;
-    *length = to - from;
-}
+void drogue_clip(int32_t *at, int32_t *length, int32_t limit);
 
 /* Pinhole camera with Brown-Conrady distortion, in OpenCV's order and sense. */
 typedef struct drogue_camera {

@@ -3,7 +3,7 @@
 #include "drogue/real.h"
 
 /* v * 2^exponent, normalised and rounded: the upper of two words that begin with it. */
-static void put(drogue_real *out, int64_t v, int32_t exponent)
+void drogue_real_put(drogue_real *out, int32_t exponent, int64_t v)
 {
     uint32_t high = (uint32_t)((uint64_t)v >> 32);
     uint32_t low = (uint32_t)v;
@@ -39,12 +39,10 @@ static void put(drogue_real *out, int64_t v, int32_t exponent)
     out->exponent = exponent;
 }
 
-void drogue_real_set(drogue_real *out, int64_t v, int32_t exponent) { put(out, v, exponent); }
-
-void drogue_real_set_q16(drogue_real *out, drogue_q16 v) { put(out, drogue_shl_s64(v, 31), -47); }
+void drogue_real_set_q16(drogue_real *out, drogue_q16 v) { drogue_real_put(out, -47, drogue_shl_s64(v, 31)); }
 
 /* a 2^a_exponent + b 2^b_exponent for |a|, |b| < 2^62; neither is small beside 2^62 unless it is 0. */
-static void put_sum(drogue_real *out, int64_t a, int32_t a_exponent, int64_t b, int32_t b_exponent)
+static void put_sum(drogue_real *out, int32_t a_exponent, int64_t a, int64_t b, int32_t b_exponent)
 {
     int shift = a_exponent - b_exponent;
     if (a == 0 || (b != 0 && shift < 0)) {
@@ -57,41 +55,41 @@ static void put_sum(drogue_real *out, int64_t a, int32_t a_exponent, int64_t b, 
     if (b != 0) {
         a += shift > 63 ? 0 : b >> shift; /* beyond 63 it lies below a quarter of the last place */
     }
-    put(out, a, a_exponent);
+    drogue_real_put(out, a_exponent, a);
 }
 
 void drogue_real_sum(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
-    put_sum(out, drogue_shl_s64(a->mantissa, 31), a->exponent - 31, drogue_shl_s64(b->mantissa, 31), b->exponent - 31);
+    put_sum(out, a->exponent - 31, drogue_shl_s64(a->mantissa, 31), drogue_shl_s64(b->mantissa, 31), b->exponent - 31);
 }
 
 void drogue_real_difference(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
-    put_sum(out, drogue_shl_s64(a->mantissa, 31), a->exponent - 31, drogue_shl_s64(-b->mantissa, 31), b->exponent - 31);
+    put_sum(out, a->exponent - 31, drogue_shl_s64(a->mantissa, 31), drogue_shl_s64(-b->mantissa, 31), b->exponent - 31);
 }
 
 void drogue_real_product(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
-    put(out, drogue_product(a->mantissa, b->mantissa), a->exponent + b->exponent);
+    drogue_real_put(out, a->exponent + b->exponent, drogue_product(a->mantissa, b->mantissa));
 }
 
 void drogue_real_subtract_product(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
-    put_sum(out, drogue_shl_s64(out->mantissa, 31), out->exponent - 31, drogue_product(a->mantissa, -b->mantissa),
+    put_sum(out, out->exponent - 31, drogue_shl_s64(out->mantissa, 31), drogue_product(a->mantissa, -b->mantissa),
             a->exponent + b->exponent);
 }
 
 void drogue_real_products(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
                           const drogue_real *d)
 {
-    put_sum(out, drogue_product(a->mantissa, b->mantissa), a->exponent + b->exponent,
+    put_sum(out, a->exponent + b->exponent, drogue_product(a->mantissa, b->mantissa),
             drogue_product(c->mantissa, d->mantissa), c->exponent + d->exponent);
 }
 
 void drogue_real_determinant(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
                              const drogue_real *d)
 {
-    put_sum(out, drogue_product(a->mantissa, b->mantissa), a->exponent + b->exponent,
+    put_sum(out, a->exponent + b->exponent, drogue_product(a->mantissa, b->mantissa),
             drogue_product(c->mantissa, -d->mantissa), c->exponent + d->exponent);
 }
 
@@ -134,6 +132,14 @@ void drogue_real_quotient(drogue_real *out, const drogue_real *a, const drogue_r
     quotient = (int32_t)divide(dividend, divisor);
     out->mantissa = negative ? -quotient : quotient;
     out->exponent = exponent;
+}
+
+void drogue_real_ratio(drogue_real *out, int64_t a, int64_t b)
+{
+    drogue_real divisor;
+    drogue_real_set(&divisor, b, 0);
+    drogue_real_set(out, a, 0);
+    drogue_real_quotient(out, out, &divisor);
 }
 
 void drogue_real_root(drogue_real *out, const drogue_real *v)

@@ -147,10 +147,7 @@ static int64_t clamp(int64_t v) { return v > INT32_MAX ? INT32_MAX : v < -INT32_
 static int normalise(int32_t *x_q29, drogue_q16 px_q16, drogue_q16 centre_q16, drogue_q16 focal_q16)
 {
     drogue_real x;
-    drogue_real focal;
-    drogue_real_set(&x, (int64_t)px_q16 - centre_q16, 0);
-    drogue_real_set(&focal, focal_q16, 0);
-    drogue_real_quotient(&x, &x, &focal);
+    drogue_real_ratio(&x, (int64_t)px_q16 - centre_q16, focal_q16);
     *x_q29 = (int32_t)clamp(drogue_real_to_s64(x, FRAC));
     return abs_s64(drogue_real_to_s64(x, FRAC)) <= most_q29;
 }

@@ -85,6 +85,16 @@ drogue_status drogue_frontend_check(const drogue_workspace *workspace, const dro
     return DROGUE_OK;
 }
 
+void drogue_clip(int32_t *at, int32_t *length, int32_t limit)
+{
+    const int64_t end = (int64_t)*at + *length;
+    const int32_t most = limit > 0 ? limit : 0;
+    const int32_t from = *at < 0 ? 0 : *at > most ? most : *at;
+    const int32_t to = end < from ? from : end > most ? most : (int32_t)end;
+    *at = from;
+    *length = to - from;
+}
+
 int drogue_workspace_spans(const drogue_workspace *workspace, const drogue_region *region, const drogue_image *image)
 {
     int32_t x_px = region->x_px;

@@ -45,57 +45,45 @@ void drogue_rays_keep(drogue_ray rays[RAYS], drogue_q16 above_px_q16, drogue_q16
     }
 }
 
-void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, const int32_t weight[2], const int32_t off_q16[2])
+void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int32_t weight, int32_t off_q16)
 {
-    const int32_t both = weight[0] + weight[1];
-    const int32_t apart = weight[0] - weight[1];
-    const int64_t one = drogue_product(weight[0], off_q16[0]);
-    const int64_t other = drogue_product(weight[1], off_q16[1]);
-    const int32_t x = r->nx_q14 * both; /* < 2^31 */
-    const int32_t y = r->ny_q14 * both;
+    const int32_t x = r->nx_q14 * weight; /* < 2^30 */
+    const int32_t y = r->ny_q14 * weight;
     s->normal[0] += drogue_product(x, r->nx_q14);
     s->normal[1] += drogue_product(y, r->nx_q14);
     s->normal[2] += drogue_product(y, r->ny_q14);
-    s->normal[3] += r->nx_q14 * apart;
-    s->normal[4] += r->ny_q14 * apart;
-    s->normal[5] += both;
-    s->right[0] += r->nx_q14 * (one - other);
-    s->right[1] += r->ny_q14 * (one - other);
-    s->right[2] += one + other;
-    s->squares_q16 += drogue_shr_round_s64(drogue_product(off_q16[0], off_q16[0]), 16) +
-                      drogue_shr_round_s64(drogue_product(off_q16[1], off_q16[1]), 16);
-    s->rays += (uint32_t)(weight[0] > 0) + (uint32_t)(weight[1] > 0);
+    s->normal[3] += x;
+    s->normal[4] += y;
+    s->normal[5] += weight;
+    s->right[0] += drogue_product(x, off_q16);
+    s->right[1] += drogue_product(y, off_q16);
+    s->right[2] += drogue_product(weight, off_q16);
+    s->squares_q16 += drogue_shr_round_s64(drogue_product(off_q16, off_q16), 16);
+    s->rays++;
 }
 
 void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const drogue_ray rays[RAYS],
                                const drogue_q16 v_px_q16[3], drogue_q16 within_px_q16)
 {
     int32_t k;
-    for (k = 0; k < RAYS / 2; k++) {
-        int32_t weight[2] = {0, 0};
-        int32_t off_q16[2] = {0, 0};
-        int32_t side;
-        for (side = 0; side < 2; side++) {
-            const drogue_ray *r = &rays[k + side * (RAYS / 2)];
-            const drogue_q16 expected = r->count > 0 ? drogue_ray_along(r, v_px_q16) : 0;
-            const int32_t which = drogue_ray_chosen(r, expected, within_px_q16);
-            if (which >= 0) {
-                const drogue_ray_edge *e = &r->edges[which];
-                weight[side] = 1;
-                off_q16[side] = e->at_px_q16 - expected;
-                s->slopes_q8 += e->slope_q8;
-                s->levels_q8 += e->level_q8;
-                if (bins != NULL) {
-                    const int32_t bin = (k + side * (RAYS / 2)) / (RAYS / BINS);
-                    const int32_t grey = drogue_clamp_s32(e->slope_q8 / (DROGUE_RAY_WEIGHT * 256), 0, 254) + 1;
-                    weight[side] = grey * grey;
-                    bins->off_q16[bin] += drogue_product(weight[side], off_q16[side]);
-                    bins->weight[bin] += weight[side];
-                }
+    for (k = 0; k < RAYS; k++) {
+        const drogue_ray *r = &rays[k];
+        const drogue_q16 expected = r->count > 0 ? drogue_ray_along(r, v_px_q16) : 0;
+        const int32_t which = drogue_ray_chosen(r, expected, within_px_q16);
+        if (which >= 0) {
+            const drogue_ray_edge *e = &r->edges[which];
+            const int32_t off_q16 = e->at_px_q16 - expected;
+            int32_t weight = 1;
+            s->slopes_q8 += e->slope_q8;
+            s->levels_q8 += e->level_q8;
+            if (bins != NULL) {
+                const int32_t bin = k / (RAYS / BINS);
+                const int32_t grey = drogue_clamp_s32(e->slope_q8 / (DROGUE_RAY_WEIGHT * 256), 0, 254) + 1;
+                weight = grey * grey;
+                bins->off_q16[bin] += drogue_product(weight, off_q16);
+                bins->weight[bin] += weight;
             }
-        }
-        if (weight[0] + weight[1] > 0) {
-            drogue_ray_sums_add(s, &rays[k], weight, off_q16);
+            drogue_ray_sums_add(s, r, weight, off_q16);
         }
     }
 }
@@ -148,7 +136,6 @@ int drogue_ray_sums_place(drogue_q16 v_px_q16[3], drogue_q16 *std_px_q16, const 
                           const drogue_ray_bins *bins)
 {
     drogue_real normal[6];
-    drogue_real inverse[6];
     drogue_real scatter;
     drogue_real t;
     const int32_t filled = scatter_of(&scatter, bins);
@@ -156,9 +143,9 @@ int drogue_ray_sums_place(drogue_q16 v_px_q16[3], drogue_q16 *std_px_q16, const 
     if (!drogue_ray_sums_solve(v_px_q16, normal, s, 1) || filled < LEAST_BINS) {
         return 0;
     }
-    drogue_cholesky_invert(inverse, normal, 3);
-    k = drogue_real_order(&inverse[DROGUE_PACKED(0, 0)], &inverse[DROGUE_PACKED(1, 1)]) > 0 ? 0 : 1;
-    drogue_real_product(&scatter, &scatter, &inverse[DROGUE_PACKED(k, k)]);
+    drogue_cholesky_invert(normal, normal, 3);
+    k = drogue_real_order(&normal[DROGUE_PACKED(0, 0)], &normal[DROGUE_PACKED(1, 1)]) > 0 ? 0 : 1;
+    drogue_real_product(&scatter, &scatter, &normal[DROGUE_PACKED(k, k)]);
     drogue_real_set(&t, filled - 3, 0);
     drogue_real_quotient(&t, &scatter, &t);
     drogue_real_root(&t, &t);

@@ -36,9 +36,8 @@ int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogu
 /* Of the edges on the rays keep those between two places. */
 void drogue_rays_keep(drogue_ray rays[RAYS], drogue_q16 above_px_q16, drogue_q16 below_px_q16);
 
-/* Add what a ray and the one across, whose normal is the opposite, say: 'off' from what is known. Weights are at most
- * 255^2; one that says nothing has a weight and an offset of 0. */
-void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, const int32_t weight[2], const int32_t off_q16[2]);
+/* Add what a ray says: 'off' from what is known. Its weight is at most 255^2. */
+void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int32_t weight, int32_t off_q16);
 
 /* Add the edges that agree with an offset: weighted by their slopes, and to bins, where there are bins; all alike where
  * 'bins' is NULL. */

@@ -55,20 +55,10 @@ static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const 
     for (round = 0; round < 4; round++) {
         int32_t k;
         memset(&s, 0, sizeof s);
-        for (k = 0; k < RAYS / 2; k++) {
-            int32_t weight[2] = {0, 0};
-            int32_t off_q16[2] = {0, 0};
-            int32_t side;
-            for (side = 0; side < 2; side++) {
-                const int32_t at = k + side * (RAYS / 2);
-                const int32_t off = dark_q16[at] < 0 ? 0 : dark_q16[at] - drogue_ray_along(&rays[at], plane_q16);
-                if (dark_q16[at] >= 0 && off <= within && off >= -within) {
-                    weight[side] = 1;
-                    off_q16[side] = off;
-                }
-            }
-            if (weight[0] + weight[1] > 0) {
-                drogue_ray_sums_add(&s, &rays[k], weight, off_q16);
+        for (k = 0; k < RAYS; k++) {
+            const int32_t off_q16 = dark_q16[k] < 0 ? 0 : dark_q16[k] - drogue_ray_along(&rays[k], plane_q16);
+            if (dark_q16[k] >= 0 && off_q16 <= within && off_q16 >= -within) {
+                drogue_ray_sums_add(&s, &rays[k], 1, off_q16);
             }
         }
         if (!drogue_ray_sums_solve(plane_q16, normal, &s, 1)) {

@@ -18,7 +18,7 @@ static void spread(int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t moved_
     uint32_t k;
     for (k = 0; k < DROGUE_SUPPORT_BINS / 4; k++) {
         const uint32_t bins[4] = {k, HALF_TURN - 1 - k, HALF_TURN + k, 2 * HALF_TURN - 1 - k};
-        int64_t basis_q30[5];
+        int32_t basis_q30[5];
         int64_t length_q24;
         int32_t u_q24;
         int32_t v_q24;
@@ -39,10 +39,10 @@ static void fit_harmonics(int32_t c_px_q24[5], const int32_t off_px_q24[DROGUE_S
     uint32_t k;
     int i;
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        int64_t basis_q30[5];
+        int32_t basis_q30[5];
         drogue_support_basis(basis_q30, k);
         for (i = 0; i < 5; i++) {
-            sum_q54[i] += off_px_q24[k] * basis_q30[i];
+            sum_q54[i] += drogue_product(off_px_q24[k], basis_q30[i]);
         }
     }
     for (i = 0; i < 5; i++) {
@@ -58,11 +58,11 @@ static uint64_t squares_left(const int32_t off_px_q24[DROGUE_SUPPORT_BINS], cons
     uint32_t k;
     int i;
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        int64_t basis_q30[5];
+        int32_t basis_q30[5];
         drogue_support_basis(basis_q30, k);
-        left_q54 += off_px_q24[k] * basis_q30[0];
+        left_q54 += drogue_product(off_px_q24[k], basis_q30[0]);
         for (i = 0; i < 5; i++) {
-            left_q54 -= c_px_q24[i] * basis_q30[i];
+            left_q54 -= drogue_product(c_px_q24[i], basis_q30[i]);
         }
         if (k % BINS == BINS - 1) {
             squares_q48 += drogue_square_sum((int32_t)drogue_shr_round_s64(left_q54, 30), 0);

@@ -14,21 +14,11 @@ static void inverse_of(drogue_real *out, drogue_q16 v_q16)
     drogue_real_quotient(out, &one, out);
 }
 
-static int32_t times_q30(int32_t v_q30, const drogue_real *factor)
+static int32_t times_q30(const drogue_real *v, const drogue_real *factor)
 {
     drogue_real t;
-    drogue_real_set(&t, v_q30, -30);
-    drogue_real_product(&t, &t, factor);
+    drogue_real_product(&t, v, factor);
     return drogue_real_to_s32(t, 30);
-}
-
-/* v b / a */
-static int32_t ratio_q30(int32_t v_q30, drogue_q16 b_px_q16, const drogue_real *inverse)
-{
-    drogue_real b;
-    drogue_real_set_q16(&b, b_px_q16);
-    drogue_real_product(&b, &b, inverse);
-    return times_q30(v_q30, &b);
 }
 
 static int32_t mul_q30(int32_t a, int32_t b_q30) { return low_shr_round(drogue_product(a, b_q30), 30); }
@@ -41,7 +31,10 @@ drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_el
     int32_t c_q30;
     int32_t s_ratio_q30;
     int32_t c_ratio_q30;
+    drogue_real s;
+    drogue_real c;
     drogue_real inverse;
+    drogue_real ratio;
     if (ellipse->b_px_q16 < DROGUE_Q16_ONE || ellipse->a_px_q16 < ellipse->b_px_q16 || far(ellipse->xc_px_q16) ||
         far(ellipse->yc_px_q16) || !drogue_ellipse_angle_valid(ellipse)) {
         return DROGUE_E_DOMAIN;
@@ -50,15 +43,19 @@ drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_el
     out->xc_px_q16 = ellipse->xc_px_q16;
     out->yc_px_q16 = ellipse->yc_px_q16;
     out->b_px_q16 = ellipse->b_px_q16;
+    drogue_real_set(&s, s_q30, -30);
+    drogue_real_set(&c, c_q30, -30);
     inverse_of(&inverse, ellipse->a_px_q16);
-    out->cos_over_a_q30 = times_q30(c_q30, &inverse);
-    out->sin_over_a_q30 = times_q30(s_q30, &inverse);
-    s_ratio_q30 = ratio_q30(s_q30, ellipse->b_px_q16, &inverse);
-    c_ratio_q30 = ratio_q30(c_q30, ellipse->b_px_q16, &inverse);
+    out->cos_over_a_q30 = times_q30(&c, &inverse);
+    out->sin_over_a_q30 = times_q30(&s, &inverse);
+    drogue_real_set_q16(&ratio, ellipse->b_px_q16);
+    drogue_real_product(&ratio, &ratio, &inverse);
+    s_ratio_q30 = times_q30(&s, &ratio);
+    c_ratio_q30 = times_q30(&c, &ratio);
     inverse_of(&inverse, ellipse->b_px_q16);
     out->half_over_b_q31 = drogue_real_to_s32(inverse, 30);
-    out->cos_over_b_q30 = times_q30(c_q30, &inverse);
-    out->sin_over_b_q30 = times_q30(s_q30, &inverse);
+    out->cos_over_b_q30 = times_q30(&c, &inverse);
+    out->sin_over_b_q30 = times_q30(&s, &inverse);
     out->xx_q30 = mul_q30(c_ratio_q30, out->cos_over_a_q30) + mul_q30(s_q30, out->sin_over_b_q30);
     out->xy_q30 = mul_q30(c_ratio_q30, out->sin_over_a_q30) - mul_q30(s_q30, out->cos_over_b_q30);
     out->yy_q30 = mul_q30(s_ratio_q30, out->sin_over_a_q30) + mul_q30(c_q30, out->cos_over_b_q30);
@@ -135,13 +132,10 @@ drogue_q16 drogue_ellipse_circumference(const drogue_ellipse *ellipse)
 static int32_t share(int64_t num, int64_t den, int frac_bits)
 {
     drogue_real t;
-    drogue_real d;
     if (num >= den) {
         return (int32_t)1 << frac_bits;
     }
-    drogue_real_set(&t, num, 0);
-    drogue_real_set(&d, den, 0);
-    drogue_real_quotient(&t, &t, &d);
+    drogue_real_ratio(&t, num, den);
     return drogue_real_to_s32(t, frac_bits);
 }
 

@@ -4,13 +4,15 @@
 
 #include <string.h>
 
-/* Length of bin k of a quadrant, px Q16: (b + (a - b) sin^2) pi / 16, within 8 % for axis ratios from 0.4. */
-static int64_t bin_length_q16(const drogue_ellipse *e, uint32_t k)
+/* Points that bin k of a quadrant needs: 0.35 of its length (b + (a - b) sin^2) pi / 16 px, within 8 % for axis ratios
+ * from 0.4. */
+static uint32_t needed_points(const drogue_ellipse *e, uint32_t k)
 {
     /* sin^2 at the middles of the bins of a quadrant, Q16 */
     static const uint16_t sin2_q16[8] = {630, 5522, 14563, 26375, 39160, 50973, 60014, 64906};
     const int64_t mean_q16 = e->b_px_q16 + drogue_shr_round_s64(((int64_t)e->a_px_q16 - e->b_px_q16) * sin2_q16[k], 16);
-    return drogue_shr_round_s64(mean_q16 * DROGUE_Q16_PI, 20);
+    const int64_t length_q16 = drogue_shr_round_s64(mean_q16 * DROGUE_Q16_PI, 20);
+    return (uint32_t)((drogue_shr_round_s64(length_q16 * DROGUE_Q16(35, 100), 16) + 0xFFFF) >> 16);
 }
 
 /* Set bits of a word. */
@@ -45,13 +47,13 @@ static void enough_points(uint32_t enough[2], const drogue_support *support, con
     enough[0] = 0;
     enough[1] = 0;
     for (k = 0; k < DROGUE_SUPPORT_BINS / 4; k++) {
-        const int64_t needed_q16 = drogue_shr_round_s64(bin_length_q16(ellipse, k) * DROGUE_Q16(35, 100), 16);
+        const uint32_t needed = needed_points(ellipse, k);
         const uint32_t alike[4] = {k, 15 - k, 16 + k, 31 - k};
         uint32_t i;
         for (i = 0; i < 4; i++) {
             const uint32_t *count = support->bin[alike[i]].count;
-            enough[0] |= (uint32_t)((int64_t)count[0] * stride * DROGUE_Q16_ONE >= needed_q16) << alike[i];
-            enough[1] |= (uint32_t)((int64_t)count[1] * stride * DROGUE_Q16_ONE >= needed_q16) << alike[i];
+            enough[0] |= (uint32_t)(count[0] * stride >= needed) << alike[i]; /* no more than edge points, 2^24 */
+            enough[1] |= (uint32_t)(count[1] * stride >= needed) << alike[i];
         }
     }
 }
@@ -98,22 +100,25 @@ void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse
     }
 }
 
-void drogue_support_basis(int64_t basis_q30[5], uint32_t k)
+int32_t drogue_support_cosine(uint32_t j)
 {
-    /* cos of 5.625 + 11.25 i degrees */
-    static const int32_t quarter_q30[8] = {1068571464, 1027506862, 946955747, 830013654,
-                                           681174602,  506158392,  311690799, 105245103};
-    const uint32_t i = k & 7u;
-    const uint32_t quadrant = k >> 3;
-    int64_t c = quarter_q30[quadrant & 1u ? 7 - i : i];
-    int64_t s = quarter_q30[quadrant & 1u ? i : 7 - i];
-    c = quadrant == 1 || quadrant == 2 ? -c : c;
-    s = quadrant >= 2 ? -s : s;
-    basis_q30[0] = INT64_C(1) << 30;
+    static const int32_t quarter_q30[17] = {1073741824, 1068571464, 1053110176, 1027506862, 992008094, 946955747,
+                                            892783698,  830013654,  759250125,  681174602,  596538995, 506158392,
+                                            410903207,  311690799,  209476638,  105245103,  0};
+    const uint32_t turned = j & 31u; /* half a turn changes the sign */
+    const int32_t c = turned > 16 ? -quarter_q30[32 - turned] : quarter_q30[turned];
+    return j & 32u ? -c : c;
+}
+
+void drogue_support_basis(int32_t basis_q30[5], uint32_t k)
+{
+    const int32_t c = drogue_support_cosine(2 * k + 1);
+    const int32_t s = drogue_support_cosine(2 * k + 1 - 16);
+    basis_q30[0] = 1 << 30;
     basis_q30[1] = c;
     basis_q30[2] = s;
-    basis_q30[3] = drogue_shr_round_s64(c * c - s * s, 30);
-    basis_q30[4] = drogue_shr_round_s64(c * s, 29);
+    basis_q30[3] = (int32_t)drogue_shr_round_s64(drogue_product(c, c) - drogue_product(s, s), 30);
+    basis_q30[4] = (int32_t)drogue_shr_round_s64(drogue_product(c, s), 29);
 }
 
 void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16)

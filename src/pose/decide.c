@@ -75,16 +75,16 @@ static int solve_together(drogue_joint *best, uint32_t *index, int *agree, int32
     drogue_real limit;
     drogue_status near_status;
     int alone; /* has the other pose no solution? */
-    const drogue_status far_status = drogue_joint_solve(best, &seen->poses[1 - *index], outline, &seen->inner,
-                                                        setup->camera, setup->model, OTHER_STEPS);
+    const drogue_status far_status = drogue_joint_settle(best, &seen->poses[1 - *index], outline, &seen->inner,
+                                                         setup->camera, setup->model, OTHER_STEPS, 0);
     put_by(&other, best);
     near_status =
-        drogue_joint_solve(best, &seen->poses[*index], outline, &seen->inner, setup->camera, setup->model, STEPS);
+        drogue_joint_settle(best, &seen->poses[*index], outline, &seen->inner, setup->camera, setup->model, STEPS, 1);
     if (far_status == DROGUE_OK && (near_status != DROGUE_OK || drogue_real_order(&other.chi2, &best->chi2) < 0)) {
         put_by(&other, best);
         *index = 1 - *index;
-        if (drogue_joint_solve(best, &seen->poses[*index], outline, &seen->inner, setup->camera, setup->model, STEPS) !=
-            DROGUE_OK) {
+        if (drogue_joint_settle(best, &seen->poses[*index], outline, &seen->inner, setup->camera, setup->model, STEPS,
+                                1) != DROGUE_OK) {
             return 0;
         }
     } else if (near_status != DROGUE_OK) {
@@ -210,7 +210,7 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
         if (setup->model->inner_radius_m_q16 > 0 && !has_inner(evidence)) {
             doubt_outline(&outline);
         }
-        if (drogue_joint_solve(&joint, &evidence->poses[index], &outline, &none, setup->camera, setup->model, 0) !=
+        if (drogue_joint_settle(&joint, &evidence->poses[index], &outline, &none, setup->camera, setup->model, 0, 1) !=
             DROGUE_OK) {
             return DROGUE_E_DOMAIN;
         }

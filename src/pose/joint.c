@@ -125,9 +125,9 @@ static drogue_status finish(drogue_pose *out, const drogue_joint_state *s, drogu
     return s->position_q30[2] > 0 ? DROGUE_OK : DROGUE_E_BEHIND_CAMERA;
 }
 
-drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,
-                                 const drogue_joint_inner *inner, const drogue_camera *camera,
-                                 const drogue_model *model, int steps)
+drogue_status drogue_joint_settle(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,
+                                  const drogue_joint_inner *inner, const drogue_camera *camera,
+                                  const drogue_model *model, int steps, int with_covariance)
 {
     drogue_real normal[CHI2 + 1];
     drogue_real inner_weight[2];
@@ -166,7 +166,16 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
     if (status != DROGUE_OK) {
         return status;
     }
-    put_covariance(out->covariance, normal, model->rim_radius_m_q16);
+    if (with_covariance) {
+        put_covariance(out->covariance, normal, model->rim_radius_m_q16);
+    }
     out->chi2 = normal[CHI2];
     return finish(&out->pose, &s, model->rim_radius_m_q16);
+}
+
+drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,
+                                 const drogue_joint_inner *inner, const drogue_camera *camera,
+                                 const drogue_model *model, int steps)
+{
+    return drogue_joint_settle(out, start, outline, inner, camera, model, steps, 1);
 }

@@ -35,7 +35,12 @@ int drogue_joint_squeeze(int32_t *out, const int64_t *in, int n)
     }
     shift = all == 0 ? 0 : 34 - drogue_clz_u64(all);
     for (i = 0; i < n; i++) {
-        out[i] = (int32_t)(shift > 0 ? drogue_shr_round_s64(in[i], shift) : drogue_shl_s64(in[i], -shift));
+        if (shift > 0) { /* to 32 bits, then rounded */
+            const int32_t twice = (int32_t)(in[i] >> (shift - 1));
+            out[i] = (twice >> 1) + (twice & 1);
+        } else {
+            out[i] = (int32_t)drogue_shl_s64(in[i], -shift);
+        }
     }
     return shift;
 }
@@ -73,21 +78,13 @@ void drogue_joint_rescale(drogue_joint_state *s)
     }
 }
 
-static void ratio_q16(drogue_real *out, int64_t num, drogue_q16 den)
-{
-    drogue_real d;
-    drogue_real_set(out, num, 0);
-    drogue_real_set(&d, den, 0);
-    drogue_real_quotient(out, out, &d);
-}
-
 drogue_status drogue_joint_place(drogue_joint_state *s, const drogue_pose *pose, const drogue_model *model)
 {
     drogue_real position[3];
     int k;
     s->scale = NEAREST;
     for (k = 0; k < 3; k++) {
-        ratio_q16(&position[k], pose->position_m_q16[k], model->rim_radius_m_q16);
+        drogue_real_ratio(&position[k], pose->position_m_q16[k], model->rim_radius_m_q16);
         if (position[k].mantissa != 0 && position[k].exponent + 31 > s->scale) {
             s->scale = position[k].exponent + 31;
         }
@@ -106,8 +103,8 @@ drogue_status drogue_joint_place(drogue_joint_state *s, const drogue_pose *pose,
 
 void drogue_joint_size_disc(drogue_joint_frame *frame, const drogue_model *model)
 {
-    ratio_q16(&frame->depth, model->inner_depth_m_q16, model->rim_radius_m_q16);
-    ratio_q16(&frame->radius, model->inner_radius_m_q16, model->rim_radius_m_q16);
+    drogue_real_ratio(&frame->depth, model->inner_depth_m_q16, model->rim_radius_m_q16);
+    drogue_real_ratio(&frame->radius, model->inner_radius_m_q16, model->rim_radius_m_q16);
 }
 
 /* Component of a ray, length px times factor Q30 over the focal length; 1 where it is within two focal lengths. */
@@ -117,7 +114,7 @@ static int put_ray(int32_t *out_q29, int64_t length_px_q16, int32_t factor_q30, 
     drogue_real ray;
     drogue_real factor;
     int32_t v;
-    ratio_q16(&ray, length_px_q16, focal_px_q16);
+    drogue_real_ratio(&ray, length_px_q16, focal_px_q16);
     drogue_real_set(&factor, factor_q30, -30);
     drogue_real_product(&ray, &ray, &factor);
     v = drogue_real_to_s32(ray, 29);
@@ -150,8 +147,8 @@ drogue_status drogue_joint_begin(drogue_joint_state *state, drogue_joint_frame *
         return DROGUE_E_DOMAIN;
     }
     drogue_joint_size_disc(frame, model);
-    ratio_q16(&frame->inner[0], (int64_t)inner->x_px_q16 - camera->cx_px_q16, fx);
-    ratio_q16(&frame->inner[1], (int64_t)inner->y_px_q16 - camera->cy_px_q16, fy);
+    drogue_real_ratio(&frame->inner[0], (int64_t)inner->x_px_q16 - camera->cx_px_q16, fx);
+    drogue_real_ratio(&frame->inner[1], (int64_t)inner->y_px_q16 - camera->cy_px_q16, fy);
     return drogue_joint_place(state, pose, model);
 }
 

@@ -80,6 +80,11 @@ drogue_status drogue_joint_outline_rows(drogue_joint_rows *out, const drogue_joi
 drogue_status drogue_joint_inner_rows(drogue_joint_rows *out, const drogue_joint_state *state,
                                       const drogue_joint_frame *frame);
 
+/* As drogue_joint_solve(), which asks for the covariance; without it that is left as it is. */
+drogue_status drogue_joint_settle(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,
+                                  const drogue_joint_inner *inner, const drogue_camera *camera,
+                                  const drogue_model *model, int steps, int with_covariance);
+
 /* Inverse variances of the inner part's rows; 0 where there is none. */
 void drogue_joint_weigh_inner(drogue_real out[2], const drogue_joint_inner *inner, const drogue_camera *camera);
 

@@ -5,17 +5,6 @@
 
 #include "joint_model.h"
 
-/* cos of j / 64 turns, Q30 */
-static int32_t cosine_q30(uint32_t j)
-{
-    static const int32_t quarter_q30[17] = {1073741824, 1068571464, 1053110176, 1027506862, 992008094, 946955747,
-                                            892783698,  830013654,  759250125,  681174602,  596538995, 506158392,
-                                            410903207,  311690799,  209476638,  105245103,  0};
-    const uint32_t turned = j & 31u; /* half a turn changes the sign */
-    const int32_t c = turned > 16 ? -quarter_q30[32 - turned] : quarter_q30[turned];
-    return j & 32u ? -c : c;
-}
-
 #define HARMONICS 4
 
 /* Normal equations of the fit, points times products of the basis functions 1, cos t, sin t, cos 2t, sin 2t: sums of
@@ -45,10 +34,11 @@ static int32_t sum_bins(drogue_real information[DROGUE_PACKED_MAX], drogue_real 
         drogue_real_set(&points, n, 0);
         drogue_real_quotient(&square, &square, &points);
         drogue_real_sum(scatter, scatter, &square);
-        for (m = 0; m <= HARMONICS; m++) { /* the middle of bin k is 2 k + 1 64ths of a turn */
+        c_q30[0] += drogue_shl_s64(n, 30);
+        for (m = 1; m <= HARMONICS; m++) { /* the middle of bin k is 2 k + 1 64ths of a turn */
             const uint32_t turn = m * (2 * (k + DROGUE_SUPPORT_BINS - turned) + 1);
-            c_q30[m] += drogue_product((int32_t)n, cosine_q30(turn));
-            s_q30[m] += drogue_product((int32_t)n, cosine_q30(turn - 16));
+            c_q30[m] += drogue_product((int32_t)n, drogue_support_cosine(turn));
+            s_q30[m] += drogue_product((int32_t)n, drogue_support_cosine(turn - 16));
         }
     }
     {
@@ -134,21 +124,20 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
     /* 0.3 px^2 over the semi-axis: what the pixels' grid makes of all edges */
     const drogue_real grid_px2 = {1288490189, -32};
     drogue_real *covariance = outline->covariance;
-    drogue_real information[DROGUE_PACKED_MAX];
     drogue_real scatter;
     drogue_real variance;
     drogue_real a;
     drogue_real t;
     int i;
     const int32_t bins =
-        sum_bins(information, &scatter, support, drogue_support_bins_to(support, outline->ellipse.angle_rad_q16));
+        sum_bins(covariance, &scatter, support, drogue_support_bins_to(support, outline->ellipse.angle_rad_q16));
     if (bins <= DROGUE_JOINT_FIT || support->gradient == 0 ||
-        drogue_cholesky_factor(information, DROGUE_JOINT_FIT) != DROGUE_OK) {
+        drogue_cholesky_factor(covariance, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
     drogue_real_set(&t, bins - DROGUE_JOINT_FIT, 0);
     drogue_real_quotient(&scatter, &scatter, &t);
-    drogue_cholesky_invert(covariance, information, DROGUE_JOINT_FIT);
+    drogue_cholesky_invert(covariance, covariance, DROGUE_JOINT_FIT);
     for (i = 0; i < DROGUE_PACKED_MAX; i++) {
         drogue_real_product(&covariance[i], &covariance[i], &scatter);
     }
@@ -184,15 +173,14 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
 
 drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline)
 {
-    drogue_real root[DROGUE_PACKED_MAX];
     drogue_real information[DROGUE_PACKED_MAX];
     int32_t top = INT32_MIN;
     int i;
-    memcpy(root, outline->covariance, sizeof outline->covariance);
-    if (drogue_cholesky_factor(root, DROGUE_JOINT_FIT) != DROGUE_OK) {
+    memcpy(information, outline->covariance, sizeof outline->covariance);
+    if (drogue_cholesky_factor(information, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
-    drogue_cholesky_invert(information, root, DROGUE_JOINT_FIT);
+    drogue_cholesky_invert(information, information, DROGUE_JOINT_FIT);
     for (i = 0; i < DROGUE_PACKED_MAX; i++) { /* one scale: what is 2^30 below the largest is 0 */
         const drogue_real *w = &information[i];
         top = w->mantissa != 0 && w->exponent > top ? w->exponent : top;

@@ -55,15 +55,6 @@ static void squares_of(drogue_real out[3], const drogue_ellipse *e, const drogue
     drogue_real_quotient(&out[2], &out[2], &fy);
 }
 
-/* Offset of a pixel from the principal point, over the focal length. */
-static void ray_of(drogue_real *out, drogue_q16 px_q16, drogue_q16 centre_px_q16, drogue_q16 focal_px_q16)
-{
-    drogue_real focal;
-    drogue_real_set(out, (int64_t)px_q16 - centre_px_q16, -16);
-    drogue_real_set_q16(&focal, focal_px_q16);
-    drogue_real_quotient(out, out, &focal);
-}
-
 /* Axes (1, 0, -x) / w, (-xy, w^2, -y) / (w rho), (x, y, 1) / rho with w^2 = 1 + x^2, rho^2 = w^2 + y^2. */
 static void axes_of(drogue_real axis[3][3], drogue_real *rho2, const drogue_real *x, const drogue_real *y)
 {
@@ -96,8 +87,8 @@ static void view_of(view *out, const drogue_ellipse *ellipse, const drogue_camer
     int i;
     int j;
     squares_of(square, ellipse, camera);
-    ray_of(&x, ellipse->xc_px_q16, camera->cx_px_q16, camera->fx_px_q16);
-    ray_of(&y, ellipse->yc_px_q16, camera->cy_px_q16, camera->fy_px_q16);
+    drogue_real_ratio(&x, (int64_t)ellipse->xc_px_q16 - camera->cx_px_q16, camera->fx_px_q16);
+    drogue_real_ratio(&y, (int64_t)ellipse->yc_px_q16 - camera->cy_px_q16, camera->fy_px_q16);
     axes_of(out->axis, &rho2, &x, &y);
     for (j = 0; j < 3; j++) {
         drogue_real_products(&x, &square[0], &out->axis[j][0], &square[1], &out->axis[j][1]);

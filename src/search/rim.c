@@ -33,10 +33,7 @@ typedef struct rays {
 static int32_t quotient(int64_t num, int64_t den)
 {
     drogue_real t;
-    drogue_real d;
-    drogue_real_set(&t, num, 0);
-    drogue_real_set(&d, den, 0);
-    drogue_real_quotient(&t, &t, &d);
+    drogue_real_ratio(&t, num, den);
     return drogue_real_to_s32(t, 0);
 }
 

@@ -110,9 +110,7 @@ void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q
 {
     interval t;
     int p;
-    drogue_real_set(&t.half_dt2, 1000000, 0);
-    drogue_real_set(&t.dt, dt_us, 0);
-    drogue_real_quotient(&t.dt, &t.dt, &t.half_dt2);
+    drogue_real_ratio(&t.dt, dt_us, 1000000);
     drogue_real_product(&t.half_dt2, &t.dt, &t.dt);
     drogue_real_shift(&t.half_dt2, -1);
     for (p = 0; p < DROGUE_PARAMETERS; p++) {

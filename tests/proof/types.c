@@ -1,22 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Scalars of types.h: clipping, pixel addresses, coordinates of an edge point. */
+/* Scalars of types.h: pixel addresses, coordinates of an edge point. */
 #include "drogue/types.h"
 #include "proof.h"
-
-void clipping(void)
-{
-    const int32_t from = nondet_s32();
-    const int32_t n = nondet_s32();
-    const int32_t limit = nondet_s32();
-    const int32_t pixel = nondet_s32(); /* any one */
-    int32_t at = from;
-    int32_t length = n;
-    drogue_clip(&at, &length, limit);
-    PROVE(at >= 0 && length >= 0);
-    PROVE(limit < 0 || (int64_t)at + length <= limit);
-    PROVE((pixel >= at && (int64_t)pixel < (int64_t)at + length) ==
-          (pixel >= from && (int64_t)pixel < (int64_t)from + n && pixel >= 0 && pixel < limit));
-}
 
 void addresses(void)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Layout of a workspace: for every capacity each table has its room, one after the other, within the bytes asked for. */
+/* Layout of a workspace: for every capacity each table has its room, one after the other, within the bytes asked for;
+ * and clipping. */
 #include "frontend/workspace.c"
 
 #include "drogue/cluster.h"
@@ -92,4 +93,19 @@ void refusal(void)
            (uint64_t)capacity.labels * 16;
     PROVE(drogue_workspace_bytes(&capacity) > need);
     PROVE((status == DROGUE_OK) == (bytes >= drogue_workspace_bytes(&capacity)));
+}
+
+void clipping(void)
+{
+    const int32_t from = nondet_s32();
+    const int32_t n = nondet_s32();
+    const int32_t limit = nondet_s32();
+    const int32_t pixel = nondet_s32(); /* any one */
+    int32_t at = from;
+    int32_t length = n;
+    drogue_clip(&at, &length, limit);
+    PROVE(at >= 0 && length >= 0);
+    PROVE(limit < 0 || (int64_t)at + length <= limit);
+    PROVE((pixel >= at && (int64_t)pixel < (int64_t)at + length) ==
+          (pixel >= from && (int64_t)pixel < (int64_t)from + n && pixel >= 0 && pixel < limit));
 }

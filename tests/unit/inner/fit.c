@@ -14,12 +14,12 @@ static drogue_ray_sums sums_of(const double *angles, int count, double dx, doubl
     memset(&s, 0, sizeof s);
     for (k = 0; k < count; k++) {
         drogue_ray r;
-        int32_t off_q16[2] = {0, 0};
+        int32_t off_q16;
         memset(&r, 0, sizeof r);
         r.nx_q14 = (int32_t)lround(16384 * cos(angles[k]));
         r.ny_q14 = (int32_t)lround(16384 * sin(angles[k]));
-        off_q16[0] = q16_of(dx * cos(angles[k]) + dy * sin(angles[k]) + grown);
-        drogue_ray_sums_add(&s, &r, (int32_t[2]){1, 0}, off_q16);
+        off_q16 = q16_of(dx * cos(angles[k]) + dy * sin(angles[k]) + grown);
+        drogue_ray_sums_add(&s, &r, 1, off_q16);
     }
     return s;
 }

@@ -356,7 +356,7 @@ START_TEST(basis_of_every_bin)
     for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
         const double t = 2 * TEST_PI * (k + 0.5) / DROGUE_SUPPORT_BINS;
         const double want[5] = {1, cos(t), sin(t), cos(2 * t), sin(2 * t)};
-        int64_t basis_q30[5];
+        int32_t basis_q30[5];
         int i;
         drogue_support_basis(basis_q30, k);
         for (i = 0; i < 5; i++) {
