@@ -15,8 +15,9 @@ extern "C" {
 /* All parameters' filters, the same from model to model but for their process noise. */
 typedef struct drogue_bank {
     drogue_kalman model[DROGUE_BANK_MODELS]; /* from calm to agile */
-    /* mean squared error of prediction, fading over 16 frames */
+    /* mean squared error of prediction, over all measurements believed, then fading over 16 */
     drogue_real error2[DROGUE_BANK_MODELS][DROGUE_PARAMETERS];
+    int32_t weighed;                   /* measurements believed, at most 16; the first one's prediction knew no rate */
     int32_t chosen[DROGUE_PARAMETERS]; /* model of each parameter */
 } drogue_bank;
 
@@ -38,6 +39,11 @@ void drogue_bank_predict(drogue_bank *bank, uint32_t dt_us, const drogue_q16 std
  *  value  m and rad, Q16; angles are compared modulo 2 pi
  */
 void drogue_bank_weigh(drogue_bank *bank, const drogue_q16 value_q16[DROGUE_PARAMETERS]);
+
+/* Squared error to be expected of a parameter's prediction 'frames' ahead, m^2 or rad^2: the chosen model's mean over one
+ * frame, more while it is of few measurements, times the square of the frames, since what is unknown is mostly a rate.
+ * It tells what no model has: a camera that shakes. */
+void drogue_bank_error2(drogue_real *out, const drogue_bank *bank, int p, uint32_t frames);
 
 /* Each parameter from its chosen model, or from one 'wider' by so many steps, at most the most agile one. */
 void drogue_bank_mix(drogue_kalman *out, const drogue_bank *bank, int32_t wider);

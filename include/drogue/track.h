@@ -9,7 +9,9 @@
  * one that has predicted best (bank.h).
  *
  * The gate is the squared Mahalanobis distance between the five measured and predicted parameters, with the
- * covariance of both, in the model one step more agile than the chosen one. A measurement beyond it is not believed and
+ * covariance of both, in the model one step more agile than the chosen one and no less than predictions were wrong of
+ * late: where a camera shakes no model predicts. There the estimate is nearer the measurement than the filters', whose
+ * rates stay smooth. A measurement beyond the gate is not believed and
  * the frame counts as missed; but it opens a second filter beside the first, and when so many frames in a row are
  * refused that agree with each other, or the track would be lost, the second filter takes over: a drogue that truly
  * jumped is followed again. Where the model has an inner part, only a measurement that shows it opens a second filter,
@@ -103,6 +105,7 @@ typedef struct drogue_track {
     drogue_kalman filter;      /* of the bank's chosen models */
     drogue_kalman second;      /* follows what is refused, as the most agile model */
     drogue_real noise[DROGUE_PARAMETERS]; /* variances of the last measurement believed */
+    drogue_real shake[DROGUE_PARAMETERS]; /* what of it the filters take for noise, but is the camera's shaking */
 } drogue_track;
 
 /* The filter's estimate, Q16, with standard deviations, Q32. */

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define FADING 4 /* bits: a prediction counts 1/16 */
+#define MOST_WEIGHED 16 /* a prediction counts 1/16 and more */
 
 void drogue_bank_start(drogue_bank *bank, const drogue_kalman *filter)
 {
@@ -54,22 +54,34 @@ static int32_t choose(const drogue_bank *bank, int p)
 
 void drogue_bank_weigh(drogue_bank *bank, const drogue_q16 value_q16[DROGUE_PARAMETERS])
 {
+    const int32_t before = bank->weighed;
+    drogue_real share;
     int m;
     int p;
+    bank->weighed = before < MOST_WEIGHED ? before + 1 : before;
+    drogue_real_ratio(&share, 1, before); /* 0 of the first: its prediction knew no rate */
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
         for (m = 0; m < DROGUE_BANK_MODELS; m++) {
             drogue_real *mean = &bank->error2[m][p];
             drogue_real error;
-            drogue_real faded = *mean;
             drogue_kalman_innovation(&error, &bank->model[m], p, value_q16[p]);
             drogue_real_product(&error, &error, &error);
-            drogue_real_shift(&error, -FADING);
-            drogue_real_shift(&faded, -FADING);
-            drogue_real_difference(mean, mean, &faded);
+            drogue_real_difference(&error, &error, mean);
+            drogue_real_product(&error, &error, &share);
             drogue_real_sum(mean, mean, &error);
         }
         bank->chosen[p] = choose(bank, p);
     }
+}
+
+void drogue_bank_error2(drogue_real *out, const drogue_bank *bank, int p, uint32_t frames)
+{
+    drogue_real factor;
+    drogue_real_set(&factor, frames, 0);
+    drogue_real_product(out, &bank->error2[bank->chosen[p]][p], &factor);
+    drogue_real_product(out, out, &factor);
+    drogue_real_ratio(&factor, bank->weighed + 2, bank->weighed);
+    drogue_real_product(out, out, &factor);
 }
 
 void drogue_bank_mix(drogue_kalman *out, const drogue_bank *bank, int32_t wider)

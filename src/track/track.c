@@ -115,8 +115,9 @@ static int64_t axis_std(int64_t yaw_std_q32, int64_t pitch_std_q32, drogue_q16 p
 }
 
 /* Standard deviations of the estimate: what lasts of the last measurement's variance N does not go with filtering, so
- * that the filter's own P < N counts as P + share (N - P). */
-static void estimate_std(int64_t std_q32[DROGUE_PARAMETERS], const drogue_track *track)
+ * that the filter's own P < N counts as P + share (N - P). A prediction so many frames ahead is no better than
+ * predictions were of late. */
+static void estimate_std(int64_t std_q32[DROGUE_PARAMETERS], const drogue_track *track, uint32_t ahead)
 {
     drogue_real share;
     int p;
@@ -129,12 +130,17 @@ static void estimate_std(int64_t std_q32[DROGUE_PARAMETERS], const drogue_track 
             drogue_real_product(&more, &share, &more);
             drogue_real_sum(&variance, &variance, &more);
         }
+        drogue_bank_error2(&more, &track->bank, p, ahead);
+        if (drogue_real_order(&variance, &more) < 0) {
+            variance = more;
+        }
         drogue_real_root(&variance, &variance);
         std_q32[p] = drogue_real_to_s64(variance, 32);
     }
 }
 
-void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
+/* The estimate, so many frames after the last measurement that was believed. */
+static void estimate(drogue_track_estimate *out, const drogue_track *track, uint32_t ahead)
 {
     drogue_q16 value[DROGUE_PARAMETERS];
     drogue_q16 rate[DROGUE_PARAMETERS];
@@ -146,7 +152,10 @@ void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
     }
     drogue_kalman_state(value, &track->filter, 0);
     drogue_kalman_state(rate, &track->filter, 1);
-    estimate_std(std, track);
+    for (k = 0; k < DROGUE_PARAMETERS && ahead == 0; k++) {
+        value[k] = drogue_q16_add(value[k], drogue_real_to_q16(track->shake[k]));
+    }
+    estimate_std(std, track, ahead);
     for (k = 0; k < 3; k++) {
         out->position_m_q16[k] = value[k];
         out->velocity_mps_q16[k] = rate[k];
@@ -159,6 +168,8 @@ void drogue_track_get(drogue_track_estimate *out, const drogue_track *track)
     out->pitch_std_rad_q32 = std[DROGUE_PITCH];
     out->axis_std_rad_q32 = axis_std(std[DROGUE_YAW], std[DROGUE_PITCH], out->pitch_rad_q16);
 }
+
+void drogue_track_get(drogue_track_estimate *out, const drogue_track *track) { estimate(out, track, track->missed); }
 
 /* Square about a point; a side beyond the limits is brought within. */
 static void square_about(drogue_region *region, drogue_q16 x_px_q16, drogue_q16 y_px_q16, int64_t side_px,
@@ -242,7 +253,7 @@ static void hold_second(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, drogue_real 
  * side a tenth larger. */
 static int predicted_region(drogue_region *region, drogue_track *track)
 {
-    drogue_track_estimate estimate;
+    drogue_track_estimate predicted;
     drogue_real semi_axis_px;
     drogue_real spread;
     drogue_real scale;
@@ -250,16 +261,16 @@ static int predicted_region(drogue_region *region, drogue_track *track)
     drogue_real most;
     drogue_q16 x;
     drogue_q16 y;
-    drogue_track_get(&estimate, track);
-    if (!seen_at(&x, &y, estimate.position_m_q16, &track->camera)) {
+    estimate(&predicted, track, track->missed + 1);
+    if (!seen_at(&x, &y, predicted.position_m_q16, &track->camera)) {
         return 0;
     }
     drogue_real_set_q16(&semi_axis_px, track->model.rim_radius_m_q16);
-    drogue_real_set_q16(&scale, estimate.position_m_q16[2]);
+    drogue_real_set_q16(&scale, predicted.position_m_q16[2]);
     drogue_real_quotient(&semi_axis_px, &semi_axis_px, &scale);
     drogue_real_set_q16(&scale, track->camera.fx_px_q16);
     drogue_real_product(&semi_axis_px, &scale, &semi_axis_px);
-    predicted_spread(&spread, &estimate, track);
+    predicted_spread(&spread, &predicted, track);
     hold_second(&x, &y, &spread, track, &semi_axis_px);
     drogue_real_set_q16(&most, DROGUE_Q16(4, 10));
     track->search = drogue_real_order(&spread, &most) > 0;

@@ -115,14 +115,42 @@ static void keep_noise(drogue_track *track, const drogue_measurement *m)
     }
 }
 
+/* A camera that shakes adds to the innovations, from one frame to the next, what the filters take for noise. Its
+ * variance is what is in them beyond twice that of prediction and measurement: of so much of what the correction left
+ * the estimate is nearer the measurement. */
+static void share_shake(drogue_real share[DROGUE_PARAMETERS], const drogue_track *track, const drogue_measurement *m)
+{
+    int p;
+    for (p = 0; p < DROGUE_PARAMETERS; p++) {
+        const int32_t model = track->bank.chosen[p];
+        const drogue_real *noise = &m->noise[DROGUE_PACKED(p, p)];
+        drogue_real expected;
+        drogue_real shake;
+        drogue_real_sum(&expected, &track->bank.model[model].parameter[p].variance[0], noise);
+        drogue_real_shift(&expected, 1);
+        drogue_real_difference(&shake, &track->bank.error2[model][p], &expected);
+        drogue_real_sum(&expected, &shake, noise);
+        drogue_real_quotient(&share[p], &shake, &expected);
+        if (shake.mantissa < 0) {
+            drogue_real_set(&share[p], 0, 0);
+        }
+    }
+}
+
 static drogue_track_state believe(drogue_track *track, const drogue_measurement *m)
 {
     int i;
     drogue_bank_weigh(&track->bank, m->value_q16);
+    share_shake(track->shake, track, m);
     for (i = 0; i < DROGUE_BANK_MODELS; i++) {
         correct(&track->bank.model[i], m, &track->config);
     }
     drogue_bank_mix(&track->filter, &track->bank, 0);
+    for (i = 0; i < DROGUE_PARAMETERS; i++) {
+        drogue_real left;
+        drogue_kalman_innovation(&left, &track->filter, i, m->value_q16[i]);
+        drogue_real_product(&track->shake[i], &track->shake[i], &left);
+    }
     keep_noise(track, m);
     track->missed = 0;
     track->agreeing = 0;
@@ -135,17 +163,25 @@ static drogue_track_state believe(drogue_track *track, const drogue_measurement 
     return track->state;
 }
 
-/* What is measured against: a step more agile than the estimate, and with room in depth for what light and lens do to
- * the outline from one frame to the next. */
+/* What is measured against: a step more agile than the estimate, no narrower than predictions were wrong of late, and
+ * with room in depth for what light and lens do to the outline from one frame to the next. */
 static void gate_of(drogue_kalman *gate, const drogue_track *track)
 {
-    drogue_real *variance = &gate->parameter[DROGUE_Z].variance[0];
+    drogue_real *depth = &gate->parameter[DROGUE_Z].variance[0];
     drogue_real room;
+    int p;
     drogue_bank_mix(gate, &track->bank, 1);
+    for (p = 0; p < DROGUE_PARAMETERS; p++) {
+        drogue_real *variance = &gate->parameter[p].variance[0];
+        drogue_bank_error2(&room, &track->bank, p, track->missed + 1);
+        if (drogue_real_order(variance, &room) < 0) {
+            *variance = room;
+        }
+    }
     drogue_real_set_q16(&room, track->config.depth_std_q16);
     drogue_real_product(&room, &room, &gate->parameter[DROGUE_Z].state[0]);
     drogue_real_product(&room, &room, &room);
-    drogue_real_sum(variance, variance, &room);
+    drogue_real_sum(depth, depth, &room);
 }
 
 /* Without an inner part where there should be one, the range must be about what is predicted. */
@@ -168,6 +204,7 @@ static int range_fits(const drogue_kalman *filter, const drogue_measurement *m)
 /* A new filter begins. */
 static void take_over(drogue_track *track, int orientation_known)
 {
+    memset(track->shake, 0, sizeof track->shake);
     track->trial = 0;
     track->orientation_known = orientation_known;
     track->open_frames = 0;

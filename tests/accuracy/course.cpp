@@ -21,7 +21,7 @@ const cv::Size image_px = {1280, 720};
 
 /* One sine of a motion across or down. */
 struct Sine {
-    double amplitude_m, hertz, phase_rad;
+    double amplitude_m, hertz, phase_rad; /* of an angle: rad */
     double at(double t) const { return amplitude_m * std::sin(turns * hertz * t + phase_rad); }
 };
 
@@ -30,8 +30,9 @@ struct Plan {
     int frames = 300;
     double from_m = 8, to_m = 8;
     std::vector<Sine> across, down;
-    double down_m = 0;       /* the drogue goes down by so much and comes back, every 4 s */
-    double turn_per_m = 0.2; /* rad that the axis turns a metre of motion */
+    std::vector<Sine> yaw, pitch; /* of the camera, rad for m */
+    double down_m = 0;            /* the drogue goes down by so much and comes back, every 4 s */
+    double turn_per_m = 0.2;      /* rad that the axis turns a metre of motion */
     double tilt_yaw = 0, tilt_pitch = 0.08;
     double blank_share = 0;
     int gap_from = 0, gap_frames = 0;
@@ -95,24 +96,41 @@ Plan plan_of(const std::string &name, Random &random, int index)
         p.frames = 250;
         p.from_m = 45;
         p.to_m = 15;
+    } else if (name == "S") { /* 4 and 2 px */
+        p.from_m = 18;
+        p.to_m = 5;
+        p.yaw = {{0.0036, 6.3, phase()}, {0.0018, 10.7, phase()}};
+        p.pitch = {{0.0036, 7.1, phase()}, {0.0018, 11.9, phase()}};
     } else {
         throw std::invalid_argument("no course " + name);
     }
     return p;
 }
 
+double sum_at(const std::vector<Sine> &sines, double t)
+{
+    double sum = 0;
+    for (const Sine &s : sines) {
+        sum += s.at(t);
+    }
+    return sum;
+}
+
+/* A vector as the camera sees it that has turned. */
+cv::Vec3d turned(const cv::Vec3d &v, double yaw, double pitch)
+{
+    const cv::Vec3d u(v[0] * std::cos(yaw) - v[2] * std::sin(yaw), v[1], v[0] * std::sin(yaw) + v[2] * std::cos(yaw));
+    return {u[0], u[1] * std::cos(pitch) - u[2] * std::sin(pitch), u[1] * std::sin(pitch) + u[2] * std::cos(pitch)};
+}
+
 Pose pose_at(const Plan &p, double t)
 {
-    double x = 0, y = 0;
-    for (const Sine &s : p.across) {
-        x += s.at(t);
-    }
-    for (const Sine &s : p.down) {
-        y += s.at(t);
-    }
+    const double x = sum_at(p.across, t);
+    const double y = sum_at(p.down, t) + p.down_m * (1 - std::cos(turns * t / 4));
     const double z = p.from_m + (p.to_m - p.from_m) * t * frames_per_second / p.frames;
-    y += p.down_m * (1 - std::cos(turns * t / 4));
-    return {{x, y, z}, axis_of(p.tilt_yaw + p.turn_per_m * x, p.tilt_pitch + p.turn_per_m * std::min(y, 1.0))};
+    const double yaw = sum_at(p.yaw, t), pitch = sum_at(p.pitch, t);
+    const cv::Vec3d axis = axis_of(p.tilt_yaw + p.turn_per_m * x, p.tilt_pitch + p.turn_per_m * std::min(y, 1.0));
+    return {turned({x, y, z}, yaw, pitch), turned(axis, yaw, pitch)};
 }
 
 /* Glow of the sun about a point: saturated in the middle. */
@@ -216,7 +234,7 @@ double nees_of(const drogue_result &r, const Pose &truth)
 
 const std::vector<std::string> &course_names()
 {
-    static const std::vector<std::string> names = {"A", "B0", "B", "B2", "C", "D", "E", "E2", "F", "F2", "G", "H"};
+    static const std::vector<std::string> names = {"A", "B0", "B", "B2", "C", "D", "E", "E2", "F", "F2", "G", "H", "S"};
     return names;
 }
 

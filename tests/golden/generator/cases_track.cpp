@@ -177,6 +177,16 @@ void add_following(Set &set)
     s.seen.std = {0.00002, 0.00002, 0.00002, 0.00002, 0.00002}; /* below the floors */
     s.follow(random, 8, [](double) { return Five{0.1, 0.2, 5, 0.1, 0}; });
     add_script(set, "sharper-than-the-floors", Tier::boundary, {}, s);
+    s = Script();
+    s.seen.dt_us = 20000;
+    const auto shaken = [](double t) { /* a camera that turns by 5 mrad */
+                                       return Five{0.06 * std::sin(55 * t), 0.05 * std::sin(41 * t), 12 - t,
+                                                   0.1 + 0.005 * std::sin(55 * t), 0};
+    };
+    s.follow(random, 24, shaken);
+    s.miss(3);
+    s.follow(random, 6, shaken);
+    add_script(set, "camera-shakes", Tier::stress, {"missed-frames"}, s);
 }
 
 /* A disc that is not of its size: doubted are all frames, some, or by more than the covariance has. */

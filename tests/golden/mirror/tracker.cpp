@@ -115,16 +115,24 @@ void Tracker::mix(int wider, Filter &out) const
     }
 }
 
-/* What lasts of a measurement's variance does not go with filtering. */
-void Tracker::estimate()
+/* By how much predictions so many frames ahead were wrong of late, squared. */
+Real Tracker::wrong2(size_t p, int frames) const
+{
+    return weighed_ == 0 ? 0 : error2_[chosen_[p]][p] * frames * frames * (weighed_ + 2) / weighed_;
+}
+
+/* What lasts of a measurement's variance does not go with filtering; a prediction is no better than the last ones. */
+void Tracker::estimate(int ahead)
 {
     Filter own;
     mix(0, own);
     for (size_t p = 0; p < 5; p++) {
         const Real variance = own.parameter[p].covariance[0][0];
         value[p] = own.parameter[p].state[0];
+        value[p] = ahead > 0 ? value[p] : rounded(value[p]) + rounded(shake_[p]);
         rate[p] = own.parameter[p].state[1];
-        std[p] = std::sqrt(variance + std::max<Real>(0, noise_[p] - variance) * real(config_.lasting_share_q16));
+        std[p] = std::sqrt(std::max(
+            variance + std::max<Real>(0, noise_[p] - variance) * real(config_.lasting_share_q16), wrong2(p, ahead)));
     }
     value[PITCH] = std::remainder(value[PITCH], 2 * PI);
     value[YAW] = std::remainder(value[YAW], 2 * PI);
@@ -150,7 +158,7 @@ bool Tracker::place(drogue_region &region)
     };
     const Real radius = real(model_.rim_radius_m_q16), scale = real(config_.region_scale_q16);
     reference::Point at, other;
-    estimate();
+    estimate(missed + 1);
     Five seen = value;
     std::transform(seen.begin(), seen.end(), seen.begin(), rounded);
     if (!pixel(seen, at)) {
@@ -310,6 +318,8 @@ void Tracker::follow(const Filter &f, bool known)
 {
     bank_.fill(f);
     error2_ = {};
+    weighed_ = 0;
+    shake_ = {};
     chosen_.fill(MOST_AGILE);
     orientation_known = known;
     trial = open_frames = turned = agreeing = missed = 0;
@@ -318,9 +328,9 @@ void Tracker::follow(const Filter &f, bool known)
 
 void Tracker::believe(const Measured &m)
 {
-    for (size_t p = 0; p < 5; p++) {
+    for (size_t p = 0; p < 5 && weighed_ > 0; p++) { /* the first prediction knew no rate */
         for (size_t i = 0; i < bank_.size(); i++) {
-            error2_[i][p] += (squared(innovation(bank_[i], p, m.value[p])) - error2_[i][p]) / 16;
+            error2_[i][p] += (squared(innovation(bank_[i], p, m.value[p])) - error2_[i][p]) / weighed_;
         }
         size_t best = chosen_[p];
         Real least = error2_[best][p] * 7 / 8;
@@ -332,8 +342,17 @@ void Tracker::believe(const Measured &m)
         }
         chosen_[p] = best;
     }
+    weighed_ = std::min(weighed_ + 1, 16);
+    for (size_t p = 0; p < 5; p++) {
+        const Real expected = bank_[chosen_[p]].parameter[p].covariance[0][0] + m.noise[p][p];
+        const Real shake = std::max<Real>(0, error2_[chosen_[p]][p] - 2 * expected);
+        shake_[p] = shake / (shake + m.noise[p][p]);
+    }
     for (Filter &f : bank_) {
         correct(f, m);
+    }
+    for (size_t p = 0; p < 5; p++) { /* what the filters take for noise, but is the camera's */
+        shake_[p] *= innovation(bank_[chosen_[p]], p, m.value[p]);
     }
     keep_noise(m);
     missed = agreeing = 0;
@@ -379,11 +398,15 @@ void Tracker::refuse(const Measured &m, bool known)
     }
 }
 
-/* A step more agile than the estimate, with room in depth. */
+/* A step more agile than the estimate, no narrower than predictions were wrong, with room in depth. */
 Filter Tracker::gate() const
 {
     Filter f;
     mix(1, f);
+    for (size_t p = 0; p < 5; p++) {
+        Real &variance = f.parameter[p].covariance[0][0];
+        variance = std::max(variance, wrong2(p, missed + 1));
+    }
     f.parameter[Z].covariance[0][0] += squared(real(config_.depth_std_q16) * f.parameter[Z].state[0]);
     return f;
 }
@@ -450,7 +473,7 @@ void Tracker::end(const drogue_result &r)
         unresolved(read(r, false), read(r, true));
     }
     if (state != DROGUE_LOST) {
-        estimate();
+        estimate(missed);
     }
 }
 

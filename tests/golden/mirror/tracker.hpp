@@ -48,7 +48,8 @@ public:
     Real axis_std = 0;
 
 private:
-    void estimate();
+    void estimate(int ahead);
+    Real wrong2(size_t p, int frames) const;
     void mix(int wider, Filter &out) const;
     bool place(drogue_region &region);
     drogue_region square(Real x, Real y, Real side) const;
@@ -71,8 +72,9 @@ private:
     std::array<Filter, DROGUE_BANK_MODELS> bank_;
     std::array<Five, DROGUE_BANK_MODELS> error2_ = {};
     std::array<size_t, 5> chosen_ = {};
+    int weighed_ = 0;
     Filter second_;
-    Five noise_ = {};
+    Five noise_ = {}, shake_ = {};
 };
 
 } // namespace mirror

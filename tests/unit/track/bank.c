@@ -95,6 +95,7 @@ START_TEST(choice_does_not_flicker)
     int least;
     for (least = 0; least <= 1; least++) {
         drogue_bank bank = new_bank(value);
+        bank.weighed = 16;
         drogue_real_set(&bank.error2[0][0], least ? 139 : 141, 0); /* against 7/8 of 160 */
         drogue_real_set(&bank.error2[1][0], 200, 0);
         drogue_real_set(&bank.error2[2][0], 160, 0);
@@ -104,5 +105,28 @@ START_TEST(choice_does_not_flicker)
 }
 END_TEST
 
+/* The first prediction, which knows no rate, does not count; the next ones count alike, later ones fade over 16. */
+START_TEST(errors_are_a_mean_that_fades)
+{
+    const double off[4] = {0.5, 0.25, 0.75, 0.125};
+    drogue_q16 value[DROGUE_PARAMETERS] = {0};
+    drogue_bank bank = new_bank(value);
+    double mean = 0;
+    int k;
+    for (k = 0; k < 40; k++) { /* the models stay where they began */
+        const double e = off[k % 4], n = k < 15 ? k + 1 : 16;
+        const double factor = (n + 2) / n; /* more while it is of few */
+        drogue_real error2;
+        value[DROGUE_Y] = q16_of(e);
+        drogue_bank_weigh(&bank, value);
+        mean += k == 0 ? 0 : (e * e - mean) / (k < 16 ? k : 16);
+        drogue_bank_error2(&error2, &bank, DROGUE_Y, 1);
+        ck_assert_double_eq_tol((double)drogue_real_to_s64(error2, 32) / 4294967296.0, mean * factor, 1e-8);
+        drogue_bank_error2(&error2, &bank, DROGUE_Y, 3);
+        ck_assert_double_eq_tol((double)drogue_real_to_s64(error2, 32) / 4294967296.0, 9 * mean * factor, 1e-7);
+    }
+}
+END_TEST
+
 SUITE_MAIN("bank", starts_agile, each_parameter_has_the_model_that_predicts_it, mix_takes_the_chosen_and_wider_ones,
-           choice_does_not_flicker)
+           choice_does_not_flicker, errors_are_a_mean_that_fades)
