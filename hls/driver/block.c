@@ -30,6 +30,7 @@ drogue_block_status drogue_block_start(const drogue_bank_of_registers *bank, con
     if (drogue_bank_read(bank, DROGUE_BANK_STATE) & DROGUE_BANK_BUSY) {
         return DROGUE_BLOCK_BUSY;
     }
+    drogue_block_acknowledge(bank); /* DONE is the frame's before until START: no interrupt comes of it */
     drogue_bank_write(bank, DROGUE_BANK_WIDTH_PX, (uint32_t)frame->width_px);
     drogue_bank_write(bank, DROGUE_BANK_HEIGHT_PX, (uint32_t)frame->height_px);
     drogue_bank_write(bank, DROGUE_BANK_CANNY_LOW, (uint32_t)c->canny_low);
@@ -42,9 +43,16 @@ drogue_block_status drogue_block_start(const drogue_bank_of_registers *bank, con
     drogue_bank_write(bank, DROGUE_BANK_LONGEST_PX, (uint32_t)c->ring.longest_px);
     drogue_bank_write(bank, DROGUE_BANK_SOURCE, frame->source);
     drogue_bank_write(bank, DROGUE_BANK_STRIDE, frame->stride);
-    drogue_bank_write(bank, DROGUE_BANK_INTERRUPT, interrupt != 0);
     drogue_bank_write(bank, DROGUE_BANK_CONTROL, DROGUE_BANK_START);
+    if (interrupt) {
+        drogue_bank_write(bank, DROGUE_BANK_INTERRUPT, 1);
+    }
     return DROGUE_BLOCK_OK;
+}
+
+void drogue_block_acknowledge(const drogue_bank_of_registers *bank)
+{
+    drogue_bank_write(bank, DROGUE_BANK_INTERRUPT, 0);
 }
 
 drogue_block_status drogue_block_poll(const drogue_bank_of_registers *bank)

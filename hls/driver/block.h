@@ -49,9 +49,13 @@ typedef struct drogue_block_frame {
 /* Is there a block, and does it hold what the workspace holds?  OK, ABSENT, SMALL. */
 drogue_block_status drogue_block_examine(const drogue_bank_of_registers *bank, const drogue_capacity *capacity);
 
-/* Start a frame and return at once.  interrupt  1: the block's line goes high at the end.  OK, BUSY. */
+/* Start a frame and return at once.  interrupt  1: the block's line goes high at the end of this frame and stays so until
+ * drogue_block_acknowledge() or the next start.  OK, BUSY. */
 drogue_block_status drogue_block_start(const drogue_bank_of_registers *bank, const drogue_block_frame *frame,
                                        int interrupt);
+
+/* In the interrupt's handler: the line goes low. The frame stays ended, its lists can be read. */
+void drogue_block_acknowledge(const drogue_bank_of_registers *bank);
 
 /* Has the frame ended?  OK, BUSY, EARLY (none was started). */
 drogue_block_status drogue_block_poll(const drogue_bank_of_registers *bank);

@@ -10,8 +10,8 @@ enum {
     DROGUE_BANK_ARCS = 0x0C,      /* read: words that the arc table holds */
     DROGUE_BANK_CONTROL = 0x10,   /* write: START, or RESET, which ends whatever is under way */
     DROGUE_BANK_STATE = 0x14,     /* read: BUSY, DONE (from the end of a frame until the next START) */
-    DROGUE_BANK_INTERRUPT = 0x18, /* 1: the interrupt's line is high while DONE */
-    /* of the frame; not to be written while BUSY */
+    DROGUE_BANK_INTERRUPT = 0x18, /* write, at any time: 1: the interrupt's line is high while DONE; 0: it is low */
+    /* of the frame; write, not while BUSY */
     DROGUE_BANK_WIDTH_PX = 0x20,
     DROGUE_BANK_HEIGHT_PX = 0x24,
     DROGUE_BANK_CANNY_LOW = 0x28,

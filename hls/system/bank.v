@@ -4,7 +4,7 @@ module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter AR
     input wire clock, input wire reset,
     // the processor's: a word a clock, what is read comes a clock later
     input wire select, input wire write, input wire [17:0] at, input wire [31:0] word, output reg [31:0] read,
-    output wire interrupt,
+    output wire irq, // a level: high from the end of a frame until INTERRUPT is 0 or the next START
     // the frame memory's: the word about the pixel that lies at 'frame_at', a clock later
     output wire running, output wire [31:0] frame_at, input wire [31:0] frame_word);
     localparam EDGE_BITS = $clog2(EDGES), ARC_BITS = $clog2(ARCS);
@@ -78,7 +78,7 @@ module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter AR
         end
     end
     always @(posedge clock) was_running <= running && !stop;
-    assign interrupt = interrupting && done;
+    assign irq = interrupting && done;
 
     // The lists, a half of a word a memory.
     reg [31:0] edges_low [0:EDGES-1];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The register bank: its state, read every clock from START on, is busy until the lists are there, then done, nothing else between;
-// and the block is given the region's pixels, each once and in order, wherever the region lies.
+// the block is given the region's pixels, each once and in order, wherever the region lies; and by the driver the interrupt's line is
+// high from the end of a frame that asked for it until that is acknowledged, or the next start, never else.
 #include <cstdio>
 
 #include "Vdrogue_bank.h"
@@ -8,6 +9,7 @@
 #include "verilated.h"
 
 extern "C" {
+#include "driver/block.h"
 #include "driver/registers.h"
 }
 
@@ -20,8 +22,16 @@ struct Frame {
     unsigned reset_after; // clocks; 0: never
 };
 
+struct Driven {
+    int32_t width; // 0 is refused: the frame ends at once
+    bool interrupt, acknowledges;
+};
+
 Vdrogue_bank v;
 uint8_t memory[MEMORY_BYTES];
+const drogue_bank_of_registers bank = {nullptr, memory, sizeof memory, 200000};
+bool was_high, started; // the interrupt's line; a frame by the driver
+unsigned rises, early;  // of the line, early: before the frame was started
 
 uint32_t word_about(uint32_t at)
 {
@@ -41,6 +51,9 @@ void tick()
     v.clock = 0;
     v.frame_word = word;
     v.eval();
+    rises += v.irq && !was_high;
+    early += v.irq && !was_high && !started;
+    was_high = v.irq;
 }
 
 void write(uint32_t at, uint32_t word)
@@ -90,7 +103,51 @@ bool runs(const Frame &f)
     return false;
 }
 
+// A frame by the driver, which asks for an interrupt or does not.
+bool drives(int32_t width, bool interrupt, bool acknowledges)
+{
+    drogue_block_frame f = {};
+    f.config.canny_low = 20;
+    f.config.canny_high = 60;
+    f.config.min_arc_px = 1;
+    f.width_px = width;
+    f.height_px = 8;
+    f.stride = 64;
+    started = false;
+    rises = early = 0;
+    bool good =
+        drogue_block_start(&bank, &f, interrupt) == DROGUE_BLOCK_OK && drogue_block_wait(&bank) == DROGUE_BLOCK_OK;
+    for (int clocks = 0; clocks < 10; clocks++) {
+        tick();
+    }
+    good = good && v.irq == interrupt && rises == interrupt && early == 0;
+    if (acknowledges) {
+        drogue_block_acknowledge(&bank);
+        tick();
+        good = good && !v.irq;
+    }
+    if (!good) {
+        printf("bank: interrupt %d, width %d: line %d, rises %u, early %u\n", interrupt, width, v.irq, rises, early);
+    }
+    return good && drogue_block_poll(&bank) == DROGUE_BLOCK_OK;
+}
+
 } // namespace
+
+uint32_t drogue_bank_read(const drogue_bank_of_registers *, uint32_t offset)
+{
+    v.select = 1;
+    v.at = offset;
+    tick();
+    v.select = 0;
+    return v.read;
+}
+
+void drogue_bank_write(const drogue_bank_of_registers *, uint32_t offset, uint32_t word)
+{
+    write(offset, word);
+    started = started || offset == DROGUE_BANK_CONTROL;
+}
 
 int main()
 {
@@ -100,6 +157,8 @@ int main()
         {9, 1, 65530, 9, 0}, {40, 3, 2, 40, 100},   {7, 5, 6001, 7, 0},    {256, 2, 1, 256, 300},
         {3, 4, 70, 64, 33},  {12, 11, 9, 12, 0},
     };
+    static const Driven driven[] = {{64, false, false}, {64, true, true}, {64, true, false}, {64, true, false},
+                                    {64, false, false}, {0, true, false}, {0, false, true},  {0, true, true}};
     unsigned failed = 0;
     uint32_t state = 1;
     for (uint8_t &pixel : memory) {
@@ -112,6 +171,9 @@ int main()
     for (const Frame &f : frames) {
         failed += !runs(f);
     }
-    printf("bank: frames=%zu failed=%u\n", sizeof frames / sizeof frames[0], failed);
+    for (const Driven &d : driven) {
+        failed += !drives(d.width, d.interrupt, d.acknowledges);
+    }
+    printf("bank: frames=%zu failed=%u\n", sizeof frames / sizeof frames[0] + sizeof driven / sizeof driven[0], failed);
     return failed != 0;
 }

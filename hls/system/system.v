@@ -20,7 +20,7 @@ module drogue_system #(
     wire [2:0] i_burst, d_burst;
     reg [31:0] i_read, d_read;
     wire [31:0] ram_read, frame_read, bank_read;
-    wire interrupt;
+    wire irq;
 
     wire unit_asked, unit_ready, unit_answered, unit_taken;
     wire [9:0] unit_function;
@@ -30,7 +30,7 @@ module drogue_system #(
 
     VexRiscv core (
         .externalResetVector(32'd0), .timerInterrupt(1'b0), .softwareInterrupt(1'b0),
-        .externalInterruptArray({31'd0, interrupt}), .clk(clock), .reset(reset),
+        .externalInterruptArray({31'd0, irq}), .clk(clock), .reset(reset),
         .CfuPlugin_bus_cmd_valid(unit_asked), .CfuPlugin_bus_cmd_ready(unit_ready),
         .CfuPlugin_bus_cmd_payload_function_id(unit_function), .CfuPlugin_bus_cmd_payload_inputs_0(unit_first),
         .CfuPlugin_bus_cmd_payload_inputs_1(unit_second), .CfuPlugin_bus_rsp_valid(unit_answered),
@@ -122,7 +122,7 @@ module drogue_system #(
 
     drogue_bank #(.WIDTH(WIDTH), .EDGES(EDGES), .ARCS(ARCS)) bank (
         .clock(clock), .reset(reset), .select(to_bank), .write(bank_write), .at({place[15:0], 2'd0}), .word(word),
-        .read(bank_read), .interrupt(interrupt), .running(running), .frame_at(block_at), .frame_word(frame_read));
+        .read(bank_read), .irq(irq), .running(running), .frame_at(block_at), .frame_word(frame_read));
     assign result_valid = d_own && d_at[0] && d_write;
     assign result = d_word;
     assign block_busy = running;

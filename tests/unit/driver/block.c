@@ -29,6 +29,7 @@ static fault wrong;
 static uint32_t polls_left; /* reads of the state while busy */
 static uint32_t resets;
 static uint32_t starts;
+static uint32_t interrupts; /* times the line went high */
 
 static const drogue_bank_of_registers bank = {NULL, memory, sizeof memory, 100};
 
@@ -63,6 +64,8 @@ static void run_block(void)
     memcpy(words + DROGUE_BANK_ARC_LIST / 4, arcs, sizeof arcs);
 }
 
+static int line(void) { return words[DROGUE_BANK_INTERRUPT / 4] && words[DROGUE_BANK_STATE / 4] == DROGUE_BANK_DONE; }
+
 uint32_t drogue_bank_read(const drogue_bank_of_registers *of, uint32_t offset)
 {
     ck_assert_ptr_eq(of, &bank);
@@ -75,6 +78,7 @@ uint32_t drogue_bank_read(const drogue_bank_of_registers *of, uint32_t offset)
         if (polls_left > 0 && wrong != NEVER_ENDS && --polls_left == 0) {
             run_block();
             words[DROGUE_BANK_STATE / 4] = DROGUE_BANK_DONE;
+            interrupts += (uint32_t)line();
         }
         return words[DROGUE_BANK_STATE / 4];
     default: break;
@@ -85,8 +89,11 @@ uint32_t drogue_bank_read(const drogue_bank_of_registers *of, uint32_t offset)
 
 void drogue_bank_write(const drogue_bank_of_registers *of, uint32_t offset, uint32_t word)
 {
+    const int was_high = line();
     ck_assert_ptr_eq(of, &bank);
-    if (offset != DROGUE_BANK_CONTROL) {
+    if (offset == DROGUE_BANK_INTERRUPT) {
+        words[offset / 4] = word;
+    } else if (offset != DROGUE_BANK_CONTROL) {
         MUST((words[DROGUE_BANK_STATE / 4] & DROGUE_BANK_BUSY) == 0, "0x%x written while busy", (unsigned)offset);
         words[offset / 4] = word;
     } else if (word == DROGUE_BANK_START) {
@@ -98,6 +105,7 @@ void drogue_bank_write(const drogue_bank_of_registers *of, uint32_t offset, uint
         resets++;
         words[DROGUE_BANK_STATE / 4] = 0;
     }
+    interrupts += (uint32_t)(!was_high && line());
 }
 
 static void draw_disc(void)
@@ -131,6 +139,7 @@ static test_workspace begin(fault f)
     wrong = f;
     resets = 0;
     starts = 0;
+    interrupts = 0;
     polls_left = 0;
     memset(words, 0, sizeof words);
     draw_disc();
@@ -216,6 +225,33 @@ START_TEST(too_early_and_too_late)
     ck_assert_int_eq(drogue_block_wait(&bank), DROGUE_BLOCK_STUCK);
     ck_assert_uint_eq(resets, 1);
     ck_assert_int_eq(drogue_block_poll(&bank), DROGUE_BLOCK_EARLY);
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* The line: once a frame that asked for it, never for the frame before; low when acknowledged, with the lists still there. */
+START_TEST(an_interrupt_a_frame)
+{
+    static const int asked[] = {0, 1, 1, 0, 1};
+    test_workspace t = begin(NONE);
+    const drogue_block_frame frame = whole_frame();
+    drogue_edge_list list;
+    drogue_status status;
+    uint32_t expected = 0;
+    size_t i;
+    for (i = 0; i < sizeof asked / sizeof asked[0]; i++) {
+        ck_assert_int_eq(drogue_block_start(&bank, &frame, asked[i]), DROGUE_BLOCK_OK);
+        ck_assert_int_eq(line(), 0);
+        ck_assert_int_eq(drogue_block_wait(&bank), DROGUE_BLOCK_OK);
+        ck_assert_int_eq(line(), asked[i]);
+        expected += (uint32_t)asked[i];
+        ck_assert_uint_eq(interrupts, expected);
+        if (i != 1) { /* start lowers it, too */
+            drogue_block_acknowledge(&bank);
+            ck_assert_int_eq(line(), 0);
+        }
+        ck_assert_int_eq(drogue_block_read(&list, &status, &t.workspace, &bank), DROGUE_BLOCK_OK);
+    }
     test_workspace_free(&t);
 }
 END_TEST
@@ -314,5 +350,5 @@ START_TEST(names)
 }
 END_TEST
 
-SUITE_MAIN("block", a_frame, lists_that_cannot_be, too_early_and_too_late, another_block, in_the_place_of_the_front_end,
-           a_full_table, names)
+SUITE_MAIN("block", a_frame, lists_that_cannot_be, too_early_and_too_late, an_interrupt_a_frame, another_block,
+           in_the_place_of_the_front_end, a_full_table, names)
