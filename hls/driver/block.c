@@ -18,7 +18,7 @@ drogue_block_status drogue_block_examine(const drogue_bank_of_registers *bank, c
     }
     return drogue_bank_read(bank, DROGUE_BANK_WIDTH) < capacity->width_px ||
                    drogue_bank_read(bank, DROGUE_BANK_EDGES) < capacity->edges ||
-                   drogue_bank_read(bank, DROGUE_BANK_ARCS) < capacity->arcs
+                   drogue_bank_read(bank, DROGUE_BANK_ARCS) < capacity->arcs || capacity->edges > DROGUE_BANK_LIST_WORDS
                ? DROGUE_BLOCK_SMALL
                : DROGUE_BLOCK_OK;
 }
@@ -30,7 +30,7 @@ drogue_block_status drogue_block_start(const drogue_bank_of_registers *bank, con
     if (drogue_bank_read(bank, DROGUE_BANK_STATE) & DROGUE_BANK_BUSY) {
         return DROGUE_BLOCK_BUSY;
     }
-    drogue_block_acknowledge(bank); /* DONE is the frame's before until START: no interrupt comes of it */
+    drogue_bank_write(bank, DROGUE_BANK_INTERRUPT, 0); /* DONE is still the frame before's */
     drogue_bank_write(bank, DROGUE_BANK_WIDTH_PX, (uint32_t)frame->width_px);
     drogue_bank_write(bank, DROGUE_BANK_HEIGHT_PX, (uint32_t)frame->height_px);
     drogue_bank_write(bank, DROGUE_BANK_CANNY_LOW, (uint32_t)c->canny_low);
@@ -44,9 +44,7 @@ drogue_block_status drogue_block_start(const drogue_bank_of_registers *bank, con
     drogue_bank_write(bank, DROGUE_BANK_SOURCE, frame->source);
     drogue_bank_write(bank, DROGUE_BANK_STRIDE, frame->stride);
     drogue_bank_write(bank, DROGUE_BANK_CONTROL, DROGUE_BANK_START);
-    if (interrupt) {
-        drogue_bank_write(bank, DROGUE_BANK_INTERRUPT, 1);
-    }
+    drogue_bank_write(bank, DROGUE_BANK_INTERRUPT, interrupt != 0);
     return DROGUE_BLOCK_OK;
 }
 

@@ -3,7 +3,11 @@
  *
  * block_frontend.c puts the block in the place of the library's front end: linked before the library, its
  * drogue_frontend_begin(), _row() and _end() are what drogue_measure() and drogue_track_frame() call, second looks
- * included. */
+ * included.
+ *
+ * The registers must not be cached. Block and camera reach the frame memory behind the cache: it is not cached, or what
+ * the processor wrote is written back before the start and its lines are invalidated when the camera has written. A
+ * processor that reorders or delays writes needs a barrier before START: drogue_bank_write() is the place for it. */
 #ifndef DROGUE_BLOCK_H
 #define DROGUE_BLOCK_H
 
@@ -30,7 +34,7 @@ typedef struct drogue_bank_of_registers {
     volatile uint32_t *base;
     const uint8_t *frame; /* the frame memory as the processor sees it */
     uint32_t frame_bytes;
-    uint32_t most_polls; /* reads of the state before a frame counts as stuck */
+    uint32_t most_polls; /* reads of the state before a frame counts as stuck; how long that is, is the bus's */
 } drogue_bank_of_registers;
 
 /* A word of the bank at a byte offset. */
@@ -49,7 +53,7 @@ typedef struct drogue_block_frame {
 /* Is there a block, and does it hold what the workspace holds?  OK, ABSENT, SMALL. */
 drogue_block_status drogue_block_examine(const drogue_bank_of_registers *bank, const drogue_capacity *capacity);
 
-/* Start a frame and return at once.  interrupt  1: the block's line goes high at the end of this frame and stays so until
+/* Start a frame and return at once.  interrupt  1: the block's line goes high at the end of this frame, until
  * drogue_block_acknowledge() or the next start.  OK, BUSY. */
 drogue_block_status drogue_block_start(const drogue_bank_of_registers *bank, const drogue_block_frame *frame,
                                        int interrupt);

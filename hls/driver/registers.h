@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The front end's register bank as ../system/bank.v has it: byte offsets, words of 32 bits. */
+/* The front end's register bank as ../system/bank.v has it: byte offsets, words of 32 bits. What is written reads as 0. */
 #ifndef DROGUE_BLOCK_REGISTERS_H
 #define DROGUE_BLOCK_REGISTERS_H
 
@@ -32,7 +32,8 @@ enum {
     DROGUE_BANK_ARC_LIST = 0x20000   /* words of drogue_hls_pack_arc() */
 };
 
-#define DROGUE_BANK_IS UINT32_C(0x44524731) /* "DRG1" */
+#define DROGUE_BANK_IS UINT32_C(0x44524731)   /* "DRG1" */
+#define DROGUE_BANK_LIST_WORDS UINT32_C(8192) /* that the map has room for, each list: regions up to 718 px */
 #define DROGUE_BANK_START UINT32_C(1)
 #define DROGUE_BANK_RESET UINT32_C(2)
 #define DROGUE_BANK_BUSY UINT32_C(1)

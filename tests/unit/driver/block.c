@@ -15,6 +15,7 @@ typedef enum fault {
     NONE,
     OTHER_IDENTITY,
     SMALL_TABLE,
+    LARGE_TABLE,
     NEVER_ENDS,
     EDGES_TOO_MANY,
     ARCS_TOO_MANY,
@@ -72,7 +73,7 @@ uint32_t drogue_bank_read(const drogue_bank_of_registers *of, uint32_t offset)
     switch (offset) {
     case DROGUE_BANK_IDENTITY: return DROGUE_BANK_IS + (wrong == OTHER_IDENTITY);
     case DROGUE_BANK_WIDTH: return SIDE;
-    case DROGUE_BANK_EDGES: return wrong == SMALL_TABLE ? 10 : DROGUE_HLS_EDGES;
+    case DROGUE_BANK_EDGES: return wrong == SMALL_TABLE ? 10 : wrong == LARGE_TABLE ? 10000 : DROGUE_HLS_EDGES;
     case DROGUE_BANK_ARCS: return DROGUE_HLS_ARCS;
     case DROGUE_BANK_STATE:
         if (polls_left > 0 && wrong != NEVER_ENDS && --polls_left == 0) {
@@ -229,7 +230,7 @@ START_TEST(too_early_and_too_late)
 }
 END_TEST
 
-/* The line: once a frame that asked for it, never for the frame before; low when acknowledged, with the lists still there. */
+/* The line: once a frame that asked, never for the frame before; low when acknowledged, the lists still there. */
 START_TEST(an_interrupt_a_frame)
 {
     static const int asked[] = {0, 1, 1, 0, 1};
@@ -266,6 +267,11 @@ START_TEST(another_block)
     ck_assert_int_eq(drogue_block_examine(&bank, &t.workspace.capacity), DROGUE_BLOCK_SMALL);
     wrong = NONE;
     ck_assert_int_eq(drogue_block_examine(&bank, &wide), DROGUE_BLOCK_SMALL);
+    wrong = LARGE_TABLE; /* longer than the map */
+    t.workspace.capacity.edges = DROGUE_BANK_LIST_WORDS;
+    ck_assert_int_eq(drogue_block_examine(&bank, &t.workspace.capacity), DROGUE_BLOCK_OK);
+    t.workspace.capacity.edges++;
+    ck_assert_int_eq(drogue_block_examine(&bank, &t.workspace.capacity), DROGUE_BLOCK_SMALL);
     test_workspace_free(&t);
 }
 END_TEST
