@@ -62,7 +62,7 @@ int main(int argc, char **argv)
         add(&f.track, sizeof f.track);
         const unsigned long begin = m.clock;
         unsigned long first = 0;
-        m.show(pixels, sizeof pixels);
+        m.show(pixels, sizeof pixels, frames % 2 == 0);
         while (got < words.size()) {
             const bool taken = m.settle();
             if (taken) {
@@ -90,7 +90,7 @@ int main(int argc, char **argv)
             if (argc == 3 && frames > 0) {
                 profile[m.instruction()]++;
             }
-            m.rise(taken);
+            m.rise();
             if (m.clock - begin > 400ul * 1000 * 1000) {
                 printf("frame %lu: no end, %zu of %zu words\n", frames, got, words.size());
                 return 1;

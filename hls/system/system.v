@@ -2,7 +2,7 @@
 // A small system: camera -> frame memory -> front end -> lists -> VexRiscv, which runs the library after the lists.
 //
 //   0x00000000  RAM: firmware, its data and stack
-//   0x40000000  frame memory; the processor waits while the front end or the camera is at it
+//   0x40000000  frame memory, to read; the processor waits for the front end, the camera for both
 //   0x80000000  the front end's registers and lists, bank.v; not cached, like all from here on
 //   0x90000000  CAPTURE: write, pixels of the next frame to take; read, 1 when they are there
 //   0x90000004  RESULT: words that go out
@@ -98,10 +98,11 @@ module drogue_system #(
     // camera's when it brings a pixel, the rays' unit's.
     wire [31:0] block_at;
     reg [31:0] wanted, taken;
-    wire takes = camera_valid && camera_ready;
+    wire between = !camera_first && taken == 32'd0; // a pixel of no frame that is wanted: taken and dropped
+    wire takes = camera_valid && camera_ready && !between;
     wire [31:0] pixel = camera_first ? 32'd0 : taken;
     assign captured = wanted == 32'd0;
-    assign camera_ready = !captured && !running && !to_frame && (camera_first || taken != 32'd0);
+    assign camera_ready = between || (!captured && !running && !to_frame);
     assign ray_free = !running && !takes && !to_frame;
     wire [31:0] frame_at = to_frame ? {place, 2'd0} : running ? block_at : takes ? pixel : ray_at;
     drogue_ram #(.WORDS(FRAME_WORDS), .CONTENTS("")) frame (

@@ -60,11 +60,11 @@ private:
     {
         const unsigned long begin = m.clock;
         while (m.sent() < pixels || words->size() < count) {
-            const bool taken = m.settle();
+            m.settle();
             if (m.v.result_valid) {
                 words->push_back(m.v.result);
             }
-            m.rise(taken);
+            m.rise();
             if (m.clock - begin > most_clocks) {
                 return false;
             }
