@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The front end in Verilog, a clock of the C a clock of the block: build/hls/rtl/WIDTH/drogue_frontend.v.
+# The front end in Verilog, a clock of the C a clock of the block: build/hls/rtl/WIDTH/drogue_frontend.v, sizes.vh.
 # clang makes LLVM IR of drogue_hls_step(), verilog.py a combinational module of that, shell.c registers and memories.
 # usage: rtl.sh [WIDTH]      largest region, 256; 77 where clang, llvm or python3 are absent
 set -euo pipefail
@@ -33,4 +33,5 @@ gcc "${flags[@]}" hls/rtl/shell.c -o "$work/shell"
     python3 hls/rtl/verilog.py "$work/step.ll" drogue_hls_step_rtl now=in asked=in read=in next=now places=out write=out
     "$work/shell"
 } >"$work/drogue_frontend.v"
+"$work/shell" sizes >"$work/sizes.vh"
 echo "rtl: $work/drogue_frontend.v"

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Writes the front end's shell in Verilog: memories and ports about the registers and the combinational part that verilog.py
- * makes of drogue_hls_step(). Places of members are the compiler's, sizes those of stages.h: the shell cannot drift from the C. */
+ * makes of drogue_hls_step(). Places of members are the compiler's, sizes those of stages.h: the shell cannot drift from
+ * the C, nor what is about it, which includes the sizes. */
 #include <stdio.h>
+#include <string.h>
 
 #include "../frontend/stages.h"
 
@@ -105,10 +107,13 @@ static void outputs(void)
            OUT(arcs.enable), OUT(arcs.address), address_bits(DROGUE_HLS_ARCS) - 1, OUT(arcs.word));
 }
 
-/* Before the combinational part, with the argument 'begin', or after it. */
+/* Before the combinational part, with the argument 'begin', or after it; with 'sizes' what the block was made for. */
 int main(int argc, char **argv)
 {
-    (void)argv;
+    if (argc > 1 && strcmp(argv[1], "sizes") == 0) {
+        printf("localparam WIDTH = %d, EDGES = %d, ARCS = %d;\n", DROGUE_HLS_WIDTH, DROGUE_HLS_EDGES, DROGUE_HLS_ARCS);
+        return 0;
+    }
     if (argc > 1) {
         head();
         inputs();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The front end's register bank, ../driver/registers.h, its lists, and what reads a region out of the frame memory for it.
-module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter ARCS = 96) (
+module drogue_bank (
     input wire clock, input wire reset,
     // the processor's: a word a clock, what is read comes a clock later
     input wire select, input wire write, input wire [17:0] at, input wire [31:0] word, output reg [31:0] read,
     output wire irq, // a level: high from the end of a frame until INTERRUPT is 0 or the next START
     // the frame memory's: the word about the pixel that lies at 'frame_at', a clock later
     output wire running, output wire [31:0] frame_at, input wire [31:0] frame_word);
+    `include "sizes.vh" // WIDTH, EDGES, ARCS of the block, ../rtl/rtl.sh
     localparam EDGE_BITS = $clog2(EDGES), ARC_BITS = $clog2(ARCS);
     reg [31:0] asked [0:11]; // WIDTH_PX .. STRIDE
     reg started, done, interrupting, was_running;
@@ -24,6 +25,9 @@ module drogue_bank #(parameter WIDTH = 256, parameter EDGES = 2688, parameter AR
     reg asked_for;
     reg [7:0] waiting [0:2];
     integer k;
+    generate if (EDGES > 8192 || ARCS > 8192) begin : refused // 718 px
+        drogue_lists_are_longer_than_the_register_map error ();
+    end endgenerate
     initial for (k = 0; k < 12; k = k + 1) asked[k] = 0;
 
     drogue_frontend block (

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The register bank: its state, read every clock from START on, is busy until the lists are there, then done, nothing else between;
-// the block is given the region's pixels, each once and in order, wherever the region lies; and by the driver the interrupt's line is
-// high from the end of a frame that asked for it until that is acknowledged, or the next start, never else.
+// the block is given the region's pixels, each once and in order, wherever the region lies; and by the driver the
+// interrupt's line is high from the end of a frame that asked for it until acknowledged, or the next start, never else.
 #include <cstdio>
 
 #include "Vdrogue_bank.h"

@@ -11,7 +11,8 @@ hls/rtl/rtl.sh 256 >/dev/null
 work=$PWD/build/hls/system/bank
 mkdir -p "$work"
 gcc -std=c99 -O1 -Iinclude -c hls/driver/block.c -o "$work/block.o"
-verilator --cc --exe --build -O3 --x-assign fast --x-initial fast -Wno-fatal -Wno-lint -Mdir "$work" --public-flat-rw --top-module drogue_bank \
-    hls/system/bank.v build/hls/rtl/256/drogue_frontend.v "$PWD/hls/system/bank_test.cpp" "$work/block.o" -CFLAGS "-O1 -I$PWD/hls -I$PWD/include" -o bank_test \
+verilator --cc --exe --build -O3 --x-assign fast --x-initial fast -Wall -Mdir "$work" --public-flat-rw --top-module drogue_bank \
+    -Ibuild/hls/rtl/256 hls/system/lint.vlt hls/system/bank.v build/hls/rtl/256/drogue_frontend.v \
+    "$PWD/hls/system/bank_test.cpp" "$work/block.o" -CFLAGS "-O1 -I$PWD/hls -I$PWD/include" -o bank_test \
     >"$work/verilator.log" 2>&1 || { tail -n 20 "$work/verilator.log" && exit 1; }
 "$work/bank_test"

@@ -45,8 +45,9 @@ model() {
     hls/rtl/rtl.sh 256
     hls/system/unit.sh
     mkdir -p "$made/objects"
-    verilator --cc --build -O3 --x-assign fast --x-initial fast -Wno-fatal -Wno-lint -Mdir "$made/verilated" \
-        --top-module drogue_system "-GFIRMWARE=\"firmware.hex\"" hls/system/{system,bank,unit}.v \
+    verilator --cc --build -O3 --x-assign fast --x-initial fast -Wall -Mdir "$made/verilated" \
+        --top-module drogue_system "-GFIRMWARE=\"firmware.hex\"" -Ibuild/hls/rtl/256 hls/system/lint.vlt \
+        hls/system/{system,bank,unit}.v \
         build/hls/system/unit/units.v build/hls/rtl/256/drogue_frontend.v "$core" -CFLAGS -O2 >"$made/verilator.log" 2>&1 ||
         { tail -n 20 "$made/verilator.log" && exit 1; }
     (cd "$made/objects" && core_files "$root" '*.c' | xargs gcc -std=c99 -O2 "-I$root/include" -c)

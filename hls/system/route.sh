@@ -30,9 +30,10 @@ frontend)
 *) echo "route: no $what" && exit 2 ;;
 esac
 hls/rtl/rtl.sh 256
+sizes=$PWD/build/hls/rtl/256
 files+=(build/hls/rtl/256/drogue_frontend.v)
 mapfile -t files < <(realpath "${files[@]}")
-(cd "$work" && yosys -q -p "read_verilog ${files[*]}; synth_ecp5 -abc9 -top $top -json design.json; tee -o stat stat" \
+(cd "$work" && yosys -q -p "read_verilog -I$sizes ${files[*]}; synth_ecp5 -abc9 -top $top -json design.json; tee -o stat stat" \
     >yosys.log 2>&1)
 (cd "$work" && "$nextpnr" --85k --speed 6 --package CABGA756 --json design.json --freq 100 --timing-allow-fail \
     --lpf-allow-unconstrained --report report.json >nextpnr.log 2>&1)

@@ -7,8 +7,7 @@
 //   0x90000000  CAPTURE: write, pixels of the next frame to take; read, 1 when they are there
 //   0x90000004  RESULT: words that go out
 module drogue_system #(
-    parameter RAM_WORDS = 53248, parameter FRAME_WORDS = 16384, parameter FIRMWARE = "firmware.hex",
-    parameter WIDTH = 256, parameter EDGES = 2688, parameter ARCS = 96) (
+    parameter RAM_WORDS = 53248, parameter FRAME_WORDS = 16384, parameter FIRMWARE = "firmware.hex") (
     input wire clock, input wire reset,
     input wire camera_valid, input wire camera_first, input wire [7:0] camera_pixel, output wire camera_ready,
     output wire result_valid, output wire [31:0] result,
@@ -27,6 +26,7 @@ module drogue_system #(
     wire [31:0] unit_first, unit_second, unit_answer, ray_at;
     wire ray_free;
     wire running; // the front end
+    wire i_done, d_done;
 
     VexRiscv core (
         .externalResetVector(32'd0), .timerInterrupt(1'b0), .softwareInterrupt(1'b0),
@@ -41,7 +41,7 @@ module drogue_system #(
         .dBusWishbone_CYC(d_cycle), .dBusWishbone_STB(d_strobe), .dBusWishbone_ACK(d_done), .dBusWishbone_WE(d_write),
         .dBusWishbone_ADR(d_at), .dBusWishbone_DAT_MISO(d_read), .dBusWishbone_DAT_MOSI(d_word),
         .dBusWishbone_SEL(d_bytes), .dBusWishbone_ERR(1'b0), .dBusWishbone_CTI(d_burst), .dBusWishbone_BTE());
-    drogue_unit unit (
+    drogue_unit units (
         .clock(clock), .reset(reset), .asked(unit_asked), .ready(unit_ready), .function_id(unit_function),
         .first(unit_first), .second(unit_second), .answered(unit_answered), .taken(unit_taken), .answer(unit_answer),
         .frame_at(ray_at), .frame_free(ray_free), .frame_word(frame_read));
@@ -61,7 +61,8 @@ module drogue_system #(
     wire d_bank = d_asks && d_at[29:26] == 4'd8;
     wire d_own = d_asks && d_at[29:26] == 4'd9;
     wire d_given = d_ram || d_frame || d_bank || d_own, i_given = i_asks && !d_ram && !d_frame && !d_bank;
-    wire d_done = d_ahead[2] || (d_given && d_write), i_done = i_ahead[2];
+    assign d_done = d_ahead[2] || (d_given && d_write);
+    assign i_done = i_ahead[2];
     reg [29:0] place; // of what goes to RAM, frame memory or the front end's registers
     reg [31:0] word;
     reg [3:0] ram_write;
@@ -82,6 +83,9 @@ module drogue_system #(
     // The most of the RAM in block RAMs of a bit each, which need the fewest of them for a bit and so the shortest way out; the rest,
     // which the firmware begins without, apart.
     localparam LOW_WORDS = RAM_WORDS / 16384 * 16384;
+    generate if (LOW_WORDS == 0 || LOW_WORDS == RAM_WORDS) begin : refused
+        drogue_ram_words_are_below_16384_or_a_multiple_of_it error ();
+    end endgenerate
     wire [$clog2(RAM_WORDS)-1:0] ram_at = place[$clog2(RAM_WORDS)-1:0];
     wire high = ram_at >= LOW_WORDS;
     wire [31:0] low_read, high_read;
@@ -121,7 +125,7 @@ module drogue_system #(
         end
     end
 
-    drogue_bank #(.WIDTH(WIDTH), .EDGES(EDGES), .ARCS(ARCS)) bank (
+    drogue_bank bank (
         .clock(clock), .reset(reset), .select(to_bank), .write(bank_write), .at({place[15:0], 2'd0}), .word(word),
         .read(bank_read), .irq(irq), .running(running), .frame_at(block_at), .frame_word(frame_read));
     assign result_valid = d_own && d_at[0] && d_write;

@@ -77,7 +77,7 @@ module drogue_unit (
     wire second_bit = second_left >= second_by;
     wire [34:0] after = second_bit ? second_left - second_by : second_left;
 
-    wire [6:0] unit = function_id[9:3];
+    wire [6:0] unit = {3'd0, function_id[6:3]}; // there are sixteen: the next are those again
     assign ready = !busy && (!answered || taken) && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
         !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(unit == 7'd14 && !there);
     wire begins = asked && ready;
@@ -208,6 +208,7 @@ endmodule
 module drogue_divider (
     input wire clock, input wire start, input wire [31:0] dividend, input wire [31:0] divisor, output reg [31:0] quotient);
     reg [31:0] rest, by;
+    reg [4:0] count = 5'd0;
     wire [33:0] next = {rest, quotient[31:30]}, twice = {1'b0, by, 1'b0};
     wire upper = next >= twice;
     wire [33:0] left = upper ? next - twice : next;
@@ -225,5 +226,4 @@ module drogue_divider (
             count <= count - 5'd1;
         end
     end
-    reg [4:0] count = 5'd0;
 endmodule

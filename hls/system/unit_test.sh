@@ -15,7 +15,8 @@ mkdir -p "$work/objects"
 flags=("-I$root/include" "-I$root/hls")
 (cd "$work/objects" && rm -f ./*.o && core_files "$root" '*.c' | xargs gcc -std=c99 -O2 "${flags[@]}" -c)
 gcc -std=c99 -O2 "${flags[@]}" -c hls/system/points_unit.c -o "$work/objects/points_unit.o"
-verilator --cc --exe --build -O3 --x-assign fast --x-initial fast -Wno-fatal -Wno-lint -Mdir "$work/verilated" --top-module drogue_unit \
-    hls/system/unit.v "$work/units.v" "$root/hls/system/unit_test.cpp" "$work"/objects/*.o -CFLAGS "-O1 ${flags[*]}" -o unit_test \
+verilator --cc --exe --build -O3 --x-assign fast --x-initial fast -Wall -Mdir "$work/verilated" --top-module drogue_unit \
+    hls/system/lint.vlt hls/system/unit.v "$work/units.v" \
+    "$root/hls/system/unit_test.cpp" "$work"/objects/*.o -CFLAGS "-O1 ${flags[*]}" -o unit_test \
     >"$work/verilator.log" 2>&1 || { tail -n 20 "$work/verilator.log" && exit 1; }
 "$work/verilated/unit_test" "$@"
