@@ -78,7 +78,9 @@ drogue_status drogue_joint_solve(drogue_joint *out, const drogue_pose *start, co
  *
  *  out     ellipse in ideal pixels, that of the perspective: its centre is not the image of the disc's centre, and off
  *          the optical axis it is longer than it would be there; zero on failure
- *  return  DROGUE_OK; DROGUE_E_BEHIND_CAMERA; DROGUE_E_DOMAIN when it is seen edge-on or from behind
+ *  return  DROGUE_OK; DROGUE_E_BEHIND_CAMERA; DROGUE_E_DOMAIN when it is seen edge-on or from behind, or
+ *          two focal lengths and more off the axis
+ *  error   as of drogue_project_axis_point() where its centre is within Q16 of the principal point
  */
 drogue_status drogue_inner_disc_image(drogue_ellipse *out, const drogue_pose *pose, const drogue_camera *camera,
                                       const drogue_model *model);

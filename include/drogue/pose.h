@@ -37,8 +37,9 @@ void drogue_pose_axis(drogue_q16 axis_q16[3], drogue_q16 yaw_rad_q16, drogue_q16
  *  return   DROGUE_OK, DROGUE_E_DOMAIN (ellipse flat or empty, its angle beyond pi / 2, camera without focal length,
  *           position beyond Q16, or so near that its z rounds to 0)
  *  scaling  31-bit mantissas; the cone in a frame about its own axis, where its matrix is graded; no overflow
- *  error    position, axis and angles <= 4 LSB against double from the same ellipse, for a focal length of 300 px and
- *           more and a centre within 2 focal lengths of the principal point
+ *  error    position, axis and angles <= 4 LSB against double from the same ellipse, beyond 8 km 2^-27 of the distance,
+ *           for a focal length of 300 px and more, a centre within 2 focal lengths of the principal point and axes
+ *           1 to 20 at most
  *  source   paper (20)-(30)
  */
 drogue_status drogue_pose_from_ellipse(drogue_pose out[2], const drogue_ellipse *ellipse, const drogue_camera *camera,
@@ -47,7 +48,7 @@ drogue_status drogue_pose_from_ellipse(drogue_pose out[2], const drogue_ellipse 
 /* Image of the point at the given depth behind the end plane on the axis, without distortion, px Q16.
  *
  *  return  DROGUE_OK; DROGUE_E_BEHIND_CAMERA
- *  error   <= 2 LSB for focal lengths to 2^13 px, 4 beyond
+ *  error   <= 2 LSB for focal lengths to 2^13 px, 4 beyond, and a principal point within 2^13 px; beyond Q16 saturated
  */
 drogue_status drogue_project_axis_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_pose *pose,
                                         drogue_q16 depth_m_q16, const drogue_camera *camera);

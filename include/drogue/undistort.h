@@ -40,11 +40,11 @@ static inline int drogue_camera_distorts(const drogue_camera *c)
 /* Pixel as an ideal pinhole camera of the same fx, fy, cx, cy would see it -> pixel as seen.
  *
  *  x, y    in/out, px Q16
- *  return  DROGUE_OK; DROGUE_E_DOMAIN when the point lies more than 4 focal lengths off the axis, a
+ *  return  DROGUE_OK; DROGUE_E_DOMAIN when the point lies more than 4 focal lengths off the axis in x or y, a
  *          coefficient exceeds DROGUE_MAX_DISTORTION_Q16, or the result leaves Q16
  *  error   1 LSB for lenses as calibration finds them (k1 within 0.25, focal lengths to 3000 px); 4 LSB, 0.0001 px,
  *          where they move points by up to three focal lengths; in proportion to longer focal lengths, 24 LSB at
- *          30000 px
+ *          30000 px; where large terms cancel each other, of the largest one 2^-25
  */
 drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);
 
@@ -52,7 +52,7 @@ drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, c
  *
  *  x, y    in/out, px Q16; unchanged on failure
  *  return  DROGUE_OK; DROGUE_E_DOMAIN as above, when the model cannot be inverted there (beyond a
- *          fold), or when it stretches more than 64-fold
+ *          fold, which is looked for at 16 places on the way from the axis), or when it stretches more than 64-fold
  *  error   1, 8 and 48 LSB in the same cases; the last two where the lens compresses five times
  */
 drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);

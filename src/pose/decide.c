@@ -5,17 +5,26 @@
 
 #include <string.h>
 
+#define MOST_BITS 15 /* of a variance in Q48 before the point */
+
+/* A variance too large for Q48 shifts all entries down: none saturates by itself, which no covariance would bear. */
 static void put_covariance(drogue_decision *out, const drogue_joint *joint)
 {
     const drogue_real *yaw = &joint->covariance[DROGUE_PACKED(3, 3)];
     drogue_real t;
     int32_t s_q30;
     int32_t c_q30;
+    int32_t top = MOST_BITS;
     int i;
     int j;
     for (i = 0; i < 5; i++) {
+        const int32_t own = joint->covariance[DROGUE_PACKED(i, i)].exponent + 31;
+        top = own > top ? own : top;
+    }
+    for (i = 0; i < 5; i++) {
         for (j = 0; j < 5; j++) {
-            out->covariance_q48[i][j] = drogue_real_to_s64(joint->covariance[DROGUE_PACKED(i, j)], 48);
+            out->covariance_q48[i][j] =
+                drogue_real_to_s64(joint->covariance[DROGUE_PACKED(i, j)], 48 + MOST_BITS - top);
         }
     }
     for (i = 0; i < 3; i++) {

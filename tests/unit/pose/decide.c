@@ -256,6 +256,41 @@ START_TEST(head_on)
 END_TEST
 
 /* A support of too few bins says nothing about the outline's errors. */
+/* Variances beyond Q48 shift all entries: the same correlations as in a tenth of the unit, and the true deviations. */
+START_TEST(large_variances_keep_the_correlations)
+{
+    field f = usual_field();
+    const drogue_joint_inner none = {0, 0, 0};
+    double correlation[2][10], std[2];
+    int k;
+    for (k = 0; k < 2; k++) {
+        const double metres = k == 0 ? 1 : 10;
+        const pose_real p = {{300 * metres, 200 * metres, 1500 * metres, 0.3, -0.2}};
+        uint64_t rng = 3;
+        seen s;
+        int i, j, n = 0;
+        f.model.rim_radius_m_q16 = q16_of(2.3 * metres);
+        f.model.inner_radius_m_q16 = q16_of(0.8 * metres);
+        f.model.inner_depth_m_q16 = q16_of(metres);
+        ck_assert(look_at(&s, &f, &p, &rng));
+        ck_assert_int_eq(decide(&s, &f, 0, &none), DROGUE_OK);
+        for (i = 0; i < 5; i++) {
+            for (j = 0; j < i; j++) {
+                correlation[k][n++] =
+                    (double)s.result.covariance_q48[i][j] /
+                    sqrt((double)s.result.covariance_q48[i][i] * (double)s.result.covariance_q48[j][j]);
+            }
+        }
+        std[k] = (double)s.result.position_std_m_q32[2] / 4294967296.0;
+        ck_assert(k == 0 || std[k] > 1000);
+    }
+    ck_assert_double_eq_tol(std[1], 10 * std[0], 0.05 * std[1]);
+    for (k = 0; k < 10; k++) {
+        ck_assert_double_eq_tol(correlation[0][k], correlation[1][k], 0.02);
+    }
+}
+END_TEST
+
 START_TEST(no_covariance)
 {
     const field f = usual_field();
@@ -300,4 +335,5 @@ START_TEST(solutions_that_leave_the_numbers)
 END_TEST
 
 SUITE_MAIN("decide", the_right_pose_from_both_sides, outline_alone, contradiction, a_clear_choice_for_all_disagreement,
-           disagreement_widens, size_in_doubt, head_on, no_covariance, solutions_that_leave_the_numbers)
+           disagreement_widens, size_in_doubt, head_on, large_variances_keep_the_correlations, no_covariance,
+           solutions_that_leave_the_numbers)
