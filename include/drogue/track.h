@@ -8,15 +8,14 @@
  * Each parameter is followed by filters side by side that differ in their process noise; the estimate is that of the
  * one that has predicted best (bank.h).
  *
- * The gate is the squared Mahalanobis distance between the five measured and predicted parameters, with the
- * covariance of both, in the model one step more agile than the chosen one and no less than predictions were wrong of
- * late: where a camera shakes no model predicts. There the estimate is nearer the measurement than the filters', whose
- * rates stay smooth. A measurement beyond the gate is not believed and
- * the frame counts as missed; but it opens a second filter beside the first, and when so many frames in a row are
- * refused that agree with each other, or the track would be lost, the second filter takes over: a drogue that truly
- * jumped is followed again. Where the model has an inner part, only a measurement that shows it opens a second filter,
- * one that shows none must agree in range to a twentieth, and a track that does not show it again within five
- * measurements is lost.
+ * The gate is the squared Mahalanobis distance between the five measured and predicted parameters, with the covariance
+ * of both, in the model one step more agile than the chosen one and no less than predictions were wrong of late: where
+ * a camera shakes no model predicts. There the estimate is nearer the measurement than the filters', whose rates stay
+ * smooth. A measurement beyond the gate is not believed and the frame counts as missed; but it opens a second filter
+ * beside the first, and when so many frames in a row are refused that agree with each other, or the track would be
+ * lost, the second filter takes over: a drogue that truly jumped is followed again. Where the model has an inner part,
+ * only a measurement that shows it opens a second filter, one that shows none must agree in range to a twentieth, and a
+ * track that does not show it again within five measurements is lost.
  *
  * Of the two poses that an outline allows, one whose orientation is not resolved goes by the smaller distance. A
  * resolved one that the gate refuses gives way to its twin when that passes; after the same number of frames in

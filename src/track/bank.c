@@ -74,14 +74,18 @@ void drogue_bank_weigh(drogue_bank *bank, const drogue_q16 value_q16[DROGUE_PARA
     }
 }
 
-void drogue_bank_error2(drogue_real *out, const drogue_bank *bank, int p, uint32_t frames)
+void drogue_bank_allow(drogue_real *variance, const drogue_bank *bank, int p, uint32_t frames)
 {
+    drogue_real error2;
     drogue_real factor;
     drogue_real_set(&factor, frames, 0);
-    drogue_real_product(out, &bank->error2[bank->chosen[p]][p], &factor);
-    drogue_real_product(out, out, &factor);
+    drogue_real_product(&error2, &bank->error2[bank->chosen[p]][p], &factor);
+    drogue_real_product(&error2, &error2, &factor);
     drogue_real_ratio(&factor, bank->weighed + 2, bank->weighed);
-    drogue_real_product(out, out, &factor);
+    drogue_real_product(&error2, &error2, &factor);
+    if (drogue_real_order(variance, &error2) < 0) {
+        *variance = error2;
+    }
 }
 
 void drogue_bank_mix(drogue_kalman *out, const drogue_bank *bank, int32_t wider)

@@ -19,31 +19,33 @@ const char *drogue_track_state_name(drogue_track_state state)
     return "lost";
 }
 
-static const drogue_track_config defaults = {.max_missed = 10,
-                                             .agree_frames = 4,
-                                             .reconsider_frames = 50,
-                                             .min_reliability_q16 = 0,
-                                             .gate_q16 = DROGUE_Q16(20515, 1000),
-                                             .position_gate_q16 = DROGUE_Q16(16266, 1000),
-                                             .region_scale_q16 = DROGUE_Q16(5, 2),
-                                             .region_sigmas_q16 = DROGUE_Q16(3, 1),
-                                             .min_region_px = 32,
-                                             .max_region_px = DROGUE_MAX_SIDE,
-                                             .lateral_std_q16 = DROGUE_Q16(5, 10000),
-                                             .depth_std_q16 = DROGUE_Q16(2, 1000),
-                                             .angle_std_rad_q16 = DROGUE_Q16(2, 100),
-                                             .position_floor_m_q16 = DROGUE_Q16(1, 10000),
-                                             .angle_floor_rad_q16 = DROGUE_Q16(5, 10000),
-                                             .process_std_q16[DROGUE_X] = DROGUE_Q16(2, 10),
-                                             .process_std_q16[DROGUE_Y] = DROGUE_Q16(2, 10),
-                                             .process_std_q16[DROGUE_Z] = DROGUE_Q16(2, 100),
-                                             .process_std_q16[DROGUE_PITCH] = DROGUE_Q16(15, 100),
-                                             .process_std_q16[DROGUE_YAW] = DROGUE_Q16(15, 100),
-                                             .start_rate_std_q16 = DROGUE_Q16(2, 1),
-                                             .process_step_q16 = DROGUE_Q16(6, 1),
-                                             .lasting_share_q16 = DROGUE_Q16(75, 100),
-                                             .known_frames = 25,
-                                             .start_accel_std_q16 = DROGUE_Q16(15, 1)};
+static const drogue_track_config defaults = {
+    .max_missed = 10,
+    .agree_frames = 4,
+    .reconsider_frames = 50,
+    .min_reliability_q16 = 0,
+    .gate_q16 = DROGUE_Q16(20515, 1000),
+    .position_gate_q16 = DROGUE_Q16(16266, 1000),
+    .region_scale_q16 = DROGUE_Q16(5, 2),
+    .region_sigmas_q16 = DROGUE_Q16(3, 1),
+    .min_region_px = 32,
+    .max_region_px = DROGUE_MAX_SIDE,
+    .lateral_std_q16 = DROGUE_Q16(5, 10000),
+    .depth_std_q16 = DROGUE_Q16(2, 1000),
+    .angle_std_rad_q16 = DROGUE_Q16(2, 100),
+    .position_floor_m_q16 = DROGUE_Q16(1, 10000),
+    .angle_floor_rad_q16 = DROGUE_Q16(5, 10000),
+    .process_std_q16[DROGUE_X] = DROGUE_Q16(2, 10),
+    .process_std_q16[DROGUE_Y] = DROGUE_Q16(2, 10),
+    .process_std_q16[DROGUE_Z] = DROGUE_Q16(2, 100),
+    .process_std_q16[DROGUE_PITCH] = DROGUE_Q16(15, 100),
+    .process_std_q16[DROGUE_YAW] = DROGUE_Q16(15, 100),
+    .start_rate_std_q16 = DROGUE_Q16(2, 1),
+    .process_step_q16 = DROGUE_Q16(6, 1),
+    .lasting_share_q16 = DROGUE_Q16(75, 100),
+    .known_frames = 25,
+    .start_accel_std_q16 = DROGUE_Q16(15, 1),
+};
 
 void drogue_track_config_default(drogue_track_config *config) { *config = defaults; }
 
@@ -130,10 +132,7 @@ static void estimate_std(int64_t std_q32[DROGUE_PARAMETERS], const drogue_track 
             drogue_real_product(&more, &share, &more);
             drogue_real_sum(&variance, &variance, &more);
         }
-        drogue_bank_error2(&more, &track->bank, p, ahead);
-        if (drogue_real_order(&variance, &more) < 0) {
-            variance = more;
-        }
+        drogue_bank_allow(&variance, &track->bank, p, ahead);
         drogue_real_root(&variance, &variance);
         std_q32[p] = drogue_real_to_s64(variance, 32);
     }

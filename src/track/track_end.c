@@ -172,11 +172,7 @@ static void gate_of(drogue_kalman *gate, const drogue_track *track)
     int p;
     drogue_bank_mix(gate, &track->bank, 1);
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        drogue_real *variance = &gate->parameter[p].variance[0];
-        drogue_bank_error2(&room, &track->bank, p, track->missed + 1);
-        if (drogue_real_order(variance, &room) < 0) {
-            *variance = room;
-        }
+        drogue_bank_allow(&gate->parameter[p].variance[0], &track->bank, p, track->missed + 1);
     }
     drogue_real_set_q16(&room, track->config.depth_std_q16);
     drogue_real_product(&room, &room, &gate->parameter[DROGUE_Z].state[0]);
