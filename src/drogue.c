@@ -158,16 +158,24 @@ static int about_one_size(drogue_q16 a_px_q16, drogue_q16 of_px_q16, int32_t par
     return off <= of_px_q16 / part;
 }
 
-/* Does less show of an outline about the disc than of the best one, about as large? Both are edges of one rim then, and
- * the disc, which is not too large for it, may be a little off its place. */
+/* Does less show of an outline about the disc than of the best one, about as large, but no smaller? Both are edges of
+ * one rim then, and the disc, which is not too large for it, may be a little off its place. */
 static int shows_less(const drogue_result *about_disc, const best_try *best)
 {
     return best->result->status == DROGUE_OK && best->larger_q16 == 0 &&
+           about_disc->ellipse.a_px_q16 < best->result->ellipse.a_px_q16 &&
            about_one_size(about_disc->ellipse.a_px_q16, best->result->ellipse.a_px_q16, ONE_SIZE) &&
            about_disc->cover_q16 < best->result->cover_q16 / 8 * LESS_EIGHTHS;
 }
 
-/* The disc itself, and an outline about it. That stands, whatever the doubt, where the disc does not contradict it. */
+/* Most doubt of an outline about the disc: less than where they contradict each other; or, where the best outline has no
+ * disc at all, than what the disc is looked for for. */
+static drogue_q16 most_doubt(const best_try *best)
+{
+    return best->result->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE ? DISC_Q16 : DROGUE_CONTRADICTED_Q16;
+}
+
+/* The disc itself, and an outline about it. That stands, whatever the best one's doubt, where it has little itself. */
 static void try_disc(best_try *best, drogue_frame *f, const drogue_region *region)
 {
     drogue_status status;
@@ -177,8 +185,7 @@ static void try_disc(best_try *best, drogue_frame *f, const drogue_region *regio
         status = judge(f, DROGUE_TRIED_DISC);
     }
     drogue_note_room(&f->room, status, f->second_look);
-    if (status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < DROGUE_CONTRADICTED_Q16 &&
-        !shows_less(f->out, best)) {
+    if (status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < most_doubt(best) && !shows_less(f->out, best)) {
         keep(best, f, status);
     }
 }

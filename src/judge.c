@@ -47,6 +47,7 @@ static void find_inner(drogue_evidence *evidence, drogue_frame *f)
         drogue_inner_weigh(&inner, &edge, &out->region, &expected, outline, evidence->poses, f->setup);
         evidence->inner = inner.weighed;
         evidence->doubt_q16 = inner.doubt_q16;
+        evidence->too_far_q16 = inner.too_far_q16;
         evidence->nearer = inner.nearer;
         out->inner = inner.part;
         out->has_inner = inner.weighed.std_px_q16 > 0;

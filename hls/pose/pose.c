@@ -77,6 +77,7 @@ static inline drogue_status solve(drogue_decision *out, drogue_inner_evidence *i
         evidence->inner = inner->weighed;
         evidence->nearer = inner->nearer;
         evidence->doubt_q16 = inner->doubt_q16;
+        evidence->too_far_q16 = inner->too_far_q16;
     }
     return drogue_decide(out, evidence, &setup);
 }

@@ -45,6 +45,7 @@ static void find_pose(frame *f)
         evidence.inner = inner.weighed;
         evidence.nearer = inner.nearer;
         evidence.doubt_q16 = inner.doubt_q16;
+        evidence.too_far_q16 = inner.too_far_q16;
         r->inner = inner.part;
         r->has_inner = inner.weighed.std_px_q16 > 0;
         r->ambiguity_q16 = inner.ambiguity_q16;

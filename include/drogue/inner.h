@@ -108,12 +108,16 @@ typedef struct drogue_inner_evidence {
     drogue_q16 ambiguity_q16;
     /* 1: a disc is seen that would be believed but for its size, which is too large for the outline */
     int32_t too_large;
-    uint32_t nearer;      /* index of the pose whose projected inner centre is nearer, believed or not */
-    drogue_q16 doubt_q16; /* share by which the disc's size puts the distance in doubt */
+    uint32_t nearer;        /* index of the pose whose projected inner centre is nearer, believed or not */
+    drogue_q16 doubt_q16;   /* share by which the disc's size puts the distance in doubt */
+    drogue_q16 too_far_q16; /* share by which size and place say that the outline's pose is too far */
 } drogue_inner_evidence;
 
 /* Weigh the disc, and see which pose it is nearer to. Its size puts the distance in doubt by the share by which it is
  * too large, if 1/32 or more, and not at all below 1/64; by half of that by which it is too small, beyond half a pixel.
+ * Where it is seen by seven of eight rays, is too large by at most an eighth and lies beside its place by more than
+ * that, the outline is too far: by three quarters of the share that it is too large by beyond 1/256, or, if less, of half
+ * of what it lies farther beside its place than it is too large.
  *
  *  region             pixel (0, 0) of it is where coordinates of the region begin
  *  expected, outline  region coordinates: the discs, the ellipse as seen

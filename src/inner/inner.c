@@ -115,6 +115,27 @@ static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *
     return beyond > LARGER_Q16 ? drogue_clamp_s32(share, 0, DROGUE_Q16_ONE - 1) : beyond > 0 ? 2 * beyond : 0;
 }
 
+#define SEEN_Q16 DROGUE_Q16(1, 256) /* of its size: a disc is no larger by so little */
+#define SHARE_Q16 DROGUE_Q16(3, 4)  /* of what its size says */
+
+static int all_about(const drogue_inner_edge *edge) { return 8 * edge->rays >= 7 * DROGUE_RAYS; }
+
+/* By what share an outline's pose is too far. An edge within the rim, as that of its band, is too small for the disc
+ * and, cut by light and shade, tilted otherwise: the disc lies beside its place, too. A disc whose edge is another one,
+ * as a collar's, is too large as well, but in its place: of one that is off it by three times what it is off its size
+ * all counts, by no more than once nothing. */
+static drogue_q16 too_far(const drogue_inner_edge *edge, const drogue_ellipse *expected)
+{
+    const drogue_q16 away = drogue_sat_s32((int64_t)drogue_isqrt_u64(drogue_inner_away2_q32(edge, expected)));
+    const drogue_q16 larger = drogue_q16_sub(edge->grown_px_q16, drogue_q16_mul(SEEN_Q16, expected->a_px_q16));
+    const drogue_q16 beside = drogue_q16_sub(away, edge->grown_px_q16) / 2;
+    const drogue_q16 by = larger < beside ? larger : beside;
+    if (by <= 0 || !all_about(edge) || edge->grown_px_q16 > drogue_q16_mul(ELSEWHERE_Q16, expected->a_px_q16)) {
+        return 0;
+    }
+    return drogue_q16_mul(SHARE_Q16, drogue_q16_div(by, expected->a_px_q16));
+}
+
 #define EVIDENT_PX_Q16 DROGUE_Q16(3, 10) /* and a 64th: of its size */
 
 /* Sharp, of its size and seen nearly all about: then it is the disc, and what puts it elsewhere than expected is that
@@ -122,7 +143,7 @@ static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *
 static int evident(const drogue_inner_edge *edge, const drogue_ellipse *expected, const drogue_config *config)
 {
     const drogue_q16 off = edge->grown_px_q16 < 0 ? drogue_q16_sub(0, edge->grown_px_q16) : edge->grown_px_q16;
-    return 8 * edge->rays >= 7 * DROGUE_RAYS && 2 * (int64_t)edge->spread_px_q16 <= config->inner_rms_px_q16 &&
+    return all_about(edge) && 2 * (int64_t)edge->spread_px_q16 <= config->inner_rms_px_q16 &&
            off <= drogue_q16_add(EVIDENT_PX_Q16, drogue_q16_mul(LARGER_Q16, expected->a_px_q16));
 }
 
@@ -193,6 +214,7 @@ void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge
         choice.index = 0;
     }
     evidence->doubt_q16 = doubt_of(edge, disc);
+    evidence->too_far_q16 = too_far(edge, disc);
     evidence->nearer = choice.index;
     evidence->ambiguity_q16 = weighed->std_px_q16 > 0 ? choice.ambiguity_q16 : DROGUE_Q16_ONE;
     if (weighed->std_px_q16 == 0) { /* what is dark orders the poses, but is not to be believed */

@@ -195,6 +195,26 @@ static drogue_q16 doubt_of(const drogue_evidence *evidence, int agree)
     return has_inner(evidence) && !agree && doubt_q16 < DROGUE_CONTRADICTED_Q16 ? DROGUE_CONTRADICTED_Q16 : doubt_q16;
 }
 
+#define SMEARED_Q16 DROGUE_Q16(5, 4) /* px^2: an inner disc's edge says nothing of the outline */
+
+/* The share by which the poses are too far. */
+static drogue_q16 too_far(const drogue_evidence *evidence)
+{
+    const int32_t *smear_px2_q16 = evidence->support->smear_px2_q16;
+    const int64_t smear = (int64_t)drogue_isqrt_u64(drogue_square_sum(smear_px2_q16[0], smear_px2_q16[1]));
+    const int32_t left_q16 = drogue_clamp_s32(drogue_sat_s32(SMEARED_Q16 - smear), 0, DROGUE_Q16_ONE);
+    return has_inner(evidence) ? drogue_q16_mul(evidence->too_far_q16, left_q16) : 0;
+}
+
+static void bring_nearer(drogue_pose *pose, drogue_q16 share_q16)
+{
+    int i;
+    for (i = 0; i < 3; i++) {
+        drogue_q16 *p = &pose->position_m_q16[i];
+        *p = drogue_q16_sub(*p, drogue_q16_mul(*p, share_q16));
+    }
+}
+
 drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidence, const drogue_setup *setup)
 {
     static const drogue_joint_inner none = {0, 0, 0};
@@ -203,6 +223,7 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
     uint32_t index = evidence->nearer;
     int together = 0;
     int agree = 0;
+    const drogue_q16 nearer_q16 = too_far(evidence);
     memset(&joint, 0, sizeof joint);
     out->orientation_resolved = 0;
     outline.ellipse = evidence->ideal;
@@ -230,10 +251,13 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
         }
         widen(&joint);
     }
-    out->doubt_q16 = doubt_of(evidence, agree);
-    drogue_doubt_add(joint.covariance, joint.pose.position_m_q16, out->doubt_q16, setup->model->rim_radius_m_q16);
-    out->pose = joint.pose;
     out->alternative = evidence->poses[1 - index];
+    bring_nearer(&joint.pose, nearer_q16);
+    bring_nearer(&out->alternative, nearer_q16);
+    out->pose = joint.pose;
+    out->doubt_q16 = doubt_of(evidence, agree);
+    out->doubt_q16 = out->doubt_q16 > nearer_q16 ? out->doubt_q16 : nearer_q16;
+    drogue_doubt_add(joint.covariance, joint.pose.position_m_q16, out->doubt_q16, setup->model->rim_radius_m_q16);
     if (!out->orientation_resolved) {
         add_spread(&joint, &out->alternative);
     }

@@ -121,6 +121,7 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
             drogue_inner_weigh(&weighed, &edge, &region, &expected, &ellipse, evidence.poses, &setup);
             inner.std_px_q16 = weighed.weighed.std_px_q16;
             evidence.doubt_q16 = weighed.doubt_q16;
+            evidence.too_far_q16 = weighed.too_far_q16;
         }
     }
     if (result.has_inner != 0) {

@@ -218,7 +218,7 @@ static const stage_spec stages[] = {
     {"joint", stage_joint, {{"ellipse", 32, 5, 0}, {"camera", 32, 9, 0}, {"bins", 32, 64, 0}, {"params", 32, 15, 0}}},
     {"kalman", stage_kalman, {{"params", 32, 26, 0}, {"frames", 32, 10, 1}}},
     {"frame", stage_frame, {{"image", 0, 0, 0}, {"camera", 32, 9, 0}, {"model", 32, 3, 0}, {"region", 32, 4, 0}}},
-    {"decide", stage_decide, {{"ellipse", 32, 5, 0}, {"camera", 32, 9, 0}, {"bins", 32, 64, 0}, {"params", 32, 29, 0}}},
+    {"decide", stage_decide, {{"ellipse", 32, 5, 0}, {"camera", 32, 9, 0}, {"bins", 32, 64, 0}, {"params", 32, 30, 0}}},
     {"look", stage_look, {{"image", 0, 0, 0}, {"camera", 32, 9, 0}, {"model", 32, 3, 0}, {"params", 32, 9, 0}}},
     {"rim", stage_rim, {{"image", 0, 0, 0}, {"disc", 32, 4, 0}}},
     {"search", stage_search, {{"image", 0, 0, 0}, {"params", 32, 1, 0}}},

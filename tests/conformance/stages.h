@@ -105,7 +105,7 @@ enum {
  *                  whatever is known for every status
  *  decide       ellipse; camera; bins as of 'joint'; params: rim_radius inner_radius inner_depth, two poses (position 3,
  *               axis 3, yaw, pitch), nearer (whole), inner x y std, shading blur max_chi2 min_chi2_gap, gradient (whole), doubt
- *               -> decision: status, pose 8, alternative 8, resolved; covariance and std as of 'frame'
+ *               too_far -> decision: status, pose 8, alternative 8, resolved, doubt; covariance and std as of 'frame'
  *  look         image; camera; model; params (whole): region x y width height, the workspace's width edges labels arcs
  *               -> looked: status second_look tried, region used 4, cover, ellipse 5, has_inner resolved
  *  rim          image: cells, at most 48 high; disc (whole): x y, ring (Q4), contrast

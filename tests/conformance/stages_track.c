@@ -169,6 +169,7 @@ int stage_decide(stage_run *r)
     evidence.inner.y_px_q16 = p[21];
     evidence.inner.std_px_q16 = p[22];
     evidence.doubt_q16 = p[28];
+    evidence.too_far_q16 = p[29];
     evidence.support = &support;
     config.outline_shading_q16 = p[23];
     config.optics_blur_std_px2_q16 = p[24];
@@ -176,7 +177,7 @@ int stage_decide(stage_run *r)
     config.min_chi2_gap_q16 = p[26];
     if (!drogue_config_valid(&config) ||
         !stage_support_of_words(&support, stage_input32(r, 2), p[27], stage_input32(r, 0)[4]) || p[22] < 0 ||
-        p[28] < 0 || camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 || p[0] <= 0 || p[1] < 0 ||
+        p[28] < 0 || p[29] < 0 || camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 || p[0] <= 0 || p[1] < 0 ||
         !stage_angle_valid(&evidence.ideal) || evidence.ideal.b_px_q16 < DROGUE_Q16_ONE ||
         evidence.ideal.a_px_q16 < evidence.ideal.b_px_q16) {
         return CONF_E_MALFORMED;

@@ -275,8 +275,9 @@ struct Evidence {
     int nearer = 0;
     double off_px = 0; /* of the inner part, to the right */
     double max_chi2 = 16, gap = 9;
-    double doubt = 0; /* share by which the inner part is not of its size */
-    int behind = -1;  /* pose whose z is negative */
+    double doubt = 0;   /* share by which the inner part is not of its size */
+    double too_far = 0; /* share by which the outline's pose is */
+    int behind = -1;    /* pose whose z is negative */
     bool inner = true;
 };
 
@@ -299,7 +300,8 @@ void add_evidence(Set &set, const std::string &name, Tier tier, const Flags &fla
     params.push_back(w.params[8] + q16(e.off_px));
     params.push_back(w.params[9]);
     params.push_back(e.inner ? w.params[10] : 0);
-    params.insert(params.end(), {w.params[11], w.params[12], q16(e.max_chi2), q16(e.gap), w.params[13], q16(e.doubt)});
+    params.insert(params.end(), {w.params[11], w.params[12], q16(e.max_chi2), q16(e.gap), w.params[13], q16(e.doubt),
+                                 q16(e.too_far)});
     set.add(name, tier, flags,
             {word_array("ellipse", 32, 16, w.ellipse), word_array("camera", 32, 16, w.camera),
              word_array("bins", 32, 16, w.bins), word_array("params", 32, 16, params)});
@@ -366,6 +368,17 @@ void add_decide(Set &set)
     e.off_px = 0;
     e.inner = false;
     add_evidence(set, "doubt-of-nothing", Tier::stress, {"inner-missing"}, j, e);
+    for (const double too_far : {0.004, 0.03, 0.09}) { /* more than is in doubt, less, of nothing */
+        e = Evidence();
+        e.too_far = too_far;
+        e.doubt = 0.02;
+        for (e.nearer = 0; e.nearer < 2; e.nearer++) {
+            const std::string name = "too-far-" + std::to_string(std::lround(1000 * too_far)) + "-of-1000";
+            add_evidence(set, name + (e.nearer != 0 ? "-twin-nearer" : ""), Tier::stress, {"twin-pose"}, j, e);
+        }
+    }
+    e.inner = false;
+    add_evidence(set, "too-far-of-nothing", Tier::stress, {"inner-missing"}, j, e);
     e = Evidence();
     e.gap = 30000;
     add_evidence(set, "gap-never", Tier::boundary, {"threshold-met"}, j, e);

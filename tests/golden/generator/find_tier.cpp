@@ -91,7 +91,8 @@ Tiers decide_tier(const Arrays &in, const Arrays &exact)
                           {{real(p[20]), real(p[21])}, real(p[22])},
                           true,
                           true,
-                          real(p[28])};
+                          real(p[28]),
+                          real(p[29])};
     for (size_t k = 0; k < reference::SUPPORT_BINS; k++) {
         f.support.count[k][0] = as_int(bins[2 * k]);
         f.support.sum[k] = real(bins[2 * k + 1]);

@@ -201,6 +201,10 @@ void poses_more(std::vector<Real> &more, const mirror::Task &task, const mirror:
         s.move([](mirror::Features &g, Real by) { g.doubt += by; },
                32 / 65536.0L / std::sqrt(r.area / std::acos(Real(-1))));
     }
+    if (f.too_far > 0) {
+        s.move([](mirror::Features &g, Real by) { g.too_far += by; },
+               24 / 65536.0L / std::sqrt(r.area / std::acos(Real(-1))));
+    }
     const Words own = words_of(r);
     for (size_t i = POSE; i < RESOLVED; i++) {
         more[i] = s.at(i);

@@ -214,6 +214,16 @@ Real size_doubt(Real grown, Real a)
     return std::max({std::min(grown / a, 2 * (grown / a - 1 / 64.0L)), (-grown - 0.5L) / a / 2, Real(0)});
 }
 
+/* By what share size and place say that the outline's pose is too far: three quarters of what the disc is too large by beyond
+ * 1/256, or of half of what it lies farther beside its place than that, whichever is less. */
+Real too_far(const Disc &part, const Ellipse &expected)
+{
+    const Real away = std::hypot(part.x - expected.xc, part.y - expected.yc);
+    const Real by = std::min(part.grown - expected.a / 256, (away - part.grown) / 2);
+    const bool tells = 8 * part.rays >= 7 * DROGUE_RAYS && part.grown <= expected.a / 8;
+    return tells ? std::max<Real>(0, 0.75L * by / expected.a) : 0;
+}
+
 Real inner_std(const Result &out, const Ellipse &expected, const drogue_config &config)
 {
     const Real doubt = size_doubt(out.part.grown, expected.a);
@@ -334,7 +344,13 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
     if (out.has_inner) {
         out.covariance *= std::max(1.0, together ? t.joint.chi2 : static_cast<double>(real(config.max_chi2_q16)));
     }
-    out.doubt = !out.has_inner ? 0 : agree ? f.doubt : std::max<Real>(f.doubt, 1 / 64.0L);
+    const Real smear = std::hypot(f.support.smear[0], f.support.smear[1]); /* it moves the disc's edge, too */
+    const Real nearer_by = out.has_inner ? f.too_far * std::min<Real>(1, std::max<Real>(0, 1.25L - smear)) : 0;
+    for (size_t k = 0; k < 3; k++) {
+        out.pose.position[k] *= 1 - nearer_by;
+        out.alternative.position[k] *= 1 - nearer_by;
+    }
+    out.doubt = std::max(nearer_by, !out.has_inner ? 0 : agree ? f.doubt : std::max<Real>(f.doubt, 1 / 64.0L));
     const auto doubted = doubt_covariance(out.pose.position, out.doubt, task.model.rim_radius);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -414,7 +430,7 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
         out.status = out.ideal.ok ? DROGUE_E_DOMAIN : DROGUE_E_NO_ELLIPSE;
         return DOUBTED;
     }
-    from = {out.ideal, out.outline.support, {{0, 0}, 0}, false, false, 0};
+    from = {out.ideal, out.outline.support, {{0, 0}, 0}, false, false, 0, 0};
     turn(from.support, f.follow.library != nullptr ? real(f.decided.support.axis_rad_q16) : out.outline.fitted.angle,
          out.ideal.angle, library != nullptr ? library->ideal : drogue_ellipse{});
     if (task.model.inner_radius > 0) {
@@ -432,6 +448,7 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
         }
         out.larger_q16 = from.trusted || out.too_large ? out.larger_q16 : 0;
         from.doubt = from.trusted ? size_doubt(out.part.grown, expected.a) : 0;
+        from.too_far = from.trusted ? too_far(out.part, expected) : 0;
         doubt = from.trusted ? from.doubt : 1;
     }
     finish(out, task, from, library);
@@ -640,10 +657,11 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
                                                                : DROGUE_SECOND_NONE;
         }
         contradicted = out.contradicted;
-        const bool shows_less = best.status == DROGUE_OK && best.larger_q16 == 0 &&
+        const bool shows_less = best.status == DROGUE_OK && best.larger_q16 == 0 && out.seen.a < best.seen.a &&
                                 about_one_size(out.seen.a, best.seen.a, 16) &&
                                 out.outline.cover < best.outline.cover * 7 / 8;
-        if (out.status == DROGUE_OK && out.has_inner && out.doubt < 1 / 64.0L && !shows_less) {
+        const Real most = best.status == DROGUE_OK && least == 1 ? 0.04L : 1 / 64.0L;
+        if (out.status == DROGUE_OK && out.has_inner && out.doubt < most && !shows_less) {
             keep(out, from, doubt);
         }
     }

@@ -54,6 +54,7 @@ struct Features {
     bool trusted;           /* in its place and of its size */
     bool placed;            /* there, and its lens undone */
     Real doubt;             /* share by which it is not of its size, where it is trusted */
+    Real too_far;           /* share by which size and place say that the outline's pose is, likewise */
 };
 
 /* Follows the library's documented method from edge points to the pose.

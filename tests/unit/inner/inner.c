@@ -406,6 +406,54 @@ START_TEST(doubt_by_size)
 }
 END_TEST
 
+/* Of 30 px, seen all about: too large by so much and beside its place by so much the outline is too far by what is less,
+ * three quarters of it; not where the disc is in its place, much too large, or not seen by seven of eight rays. */
+START_TEST(too_far_by_size_and_place)
+{
+    static const struct {
+        double grown, away;
+        uint32_t rays;
+        double px;
+    } of[] = {{0, 0, 64, 0},
+              {1, 0, 64, 0},
+              {1, 1, 64, 0},
+              {1, 1.5, 64, 0.25},
+              {1, 2, 64, 0.5},
+              {1, 2.7, 64, 0.85},
+              {1, 3, 64, 1 - 30 / 256.0},
+              {1, 3, 56, 1 - 30 / 256.0},
+              {1, 3, 55, 0},
+              {0.1, 2, 64, 0},
+              {30 / 256.0, 4, 64, 0},
+              {0.2, 4, 64, 0.2 - 30 / 256.0},
+              {-1, 3, 64, 0},
+              {3.74, 9.5, 64, 2.88},
+              {3.76, 9.5, 64, 0}};
+    const drogue_region region = {100, 200, 400, 300};
+    const pose_real p = {{0, 0, 6, 0, 0}};
+    const drogue_pose poses[2] = {pose_of(&p), pose_of(&p)};
+    const field f = usual_field();
+    size_t i;
+    for (i = 0; i < sizeof of / sizeof of[0]; i++) {
+        const double turn = (double)i;
+        finding g = usual_finding();
+        const drogue_setup setup = {&f.camera, &f.model, &g.config};
+        drogue_inner_expected expected;
+        drogue_inner_evidence evidence;
+        memset(&expected, 0, sizeof expected);
+        expected.count = 1;
+        expected.disc[0] = g.expected;
+        g.edge.grown_px_q16 = q16_of(of[i].grown);
+        g.edge.rays = of[i].rays;
+        g.edge.x_px_q16 = g.expected.xc_px_q16 + q16_of(of[i].away * cos(turn));
+        g.edge.y_px_q16 = g.expected.yc_px_q16 + q16_of(of[i].away * sin(turn));
+        drogue_inner_weigh(&evidence, &g.edge, &region, &expected, &g.outline, poses, &setup);
+        MUST(fabs(real_of_q16(evidence.too_far_q16) - 0.75 * of[i].px / 30) < 3.0 / 65536, "%zu: %g px of %g", i,
+             real_of_q16(evidence.too_far_q16) * 30 / 0.75, of[i].px);
+    }
+}
+END_TEST
+
 SUITE_MAIN("inner", expected_where_the_poses_show_it, poses_that_show_none, standard_deviation, reasons_not_to_believe,
-           evident_elsewhere, within_the_rim_however_tilted, no_evidence, doubt_by_size, flat_where_the_lens_folds,
-           any_bits)
+           evident_elsewhere, within_the_rim_however_tilted, no_evidence, doubt_by_size, too_far_by_size_and_place,
+           flat_where_the_lens_folds, any_bits)

@@ -244,6 +244,73 @@ START_TEST(size_in_doubt)
 }
 END_TEST
 
+/* Of an outline that is too far both poses come nearer by that share, in whatever way they differ; so much is in doubt
+ * at least. */
+START_TEST(too_far)
+{
+    static const double share = 0.03;
+    const field f = usual_field();
+    seen s;
+    drogue_decision before;
+    int k;
+    int i;
+    look_ahead(&s, &f, 0.25, -0.1);
+    ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
+    before = s.result;
+    s.evidence.too_far_q16 = q16_of(share);
+    for (i = 0; i < 2; i++) {
+        s.evidence.doubt_q16 = q16_of(i * 0.05);
+        ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
+        ck_assert_int_eq(s.result.doubt_q16, q16_of(i > 0 ? 0.05 : share));
+        for (k = 0; k < 3; k++) {
+            const double at = real_of_q16(s.result.pose.position_m_q16[k]);
+            const double more = (double)(s.result.covariance_q48[k][k] - before.covariance_q48[k][k]) / 0x1p48;
+            MUST(fabs(at - (1 - share) * real_of_q16(before.pose.position_m_q16[k])) < 0x1p-14, "%d: %g", k, at);
+            MUST(fabs(real_of_q16(s.result.alternative.position_m_q16[k]) -
+                      (1 - share) * real_of_q16(before.alternative.position_m_q16[k])) < 0x1p-14,
+                 "other %d", k);
+            MUST(fabs(more - pow(at * (i > 0 ? 0.05 : share), 2) / 2) < 1e-4, "%d: %g", k, more);
+        }
+        ck_assert(memcmp(s.result.pose.axis_q16, before.pose.axis_q16, sizeof before.pose.axis_q16) == 0);
+    }
+}
+END_TEST
+
+/* Smeared by motion the disc's edge says less of the outline, and nothing from 1.25 px^2 on; nor does none. */
+START_TEST(not_too_far_where_smeared)
+{
+    static const double smear[][3] = {{0.2, -0.1, 1}, {0.6, 0.45, 0.5}, {-0.75, 1.0, 0}, {3, 0, 0}};
+    const field f = usual_field();
+    const double share = 0.04;
+    seen s;
+    size_t i;
+    look_ahead(&s, &f, 0.25, -0.1);
+    for (i = 0; i < sizeof smear / sizeof smear[0]; i++) {
+        drogue_decision before;
+        s.support.smear_px2_q16[0] = q16_of(smear[i][0]);
+        s.support.smear_px2_q16[1] = q16_of(smear[i][1]);
+        s.evidence.too_far_q16 = 0;
+        ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
+        before = s.result;
+        s.evidence.too_far_q16 = q16_of(share);
+        ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
+        MUST(fabs(real_of_q16(s.result.pose.position_m_q16[2]) -
+                  (1 - share * smear[i][2]) * real_of_q16(before.pose.position_m_q16[2])) < 0x1p-12,
+             "%g px^2", hypot(smear[i][0], smear[i][1]));
+        ck_assert_int_eq(s.result.doubt_q16, q16_of(share * smear[i][2]));
+    }
+    memset(s.support.smear_px2_q16, 0, sizeof s.support.smear_px2_q16);
+    s.evidence.too_far_q16 = 0;
+    ck_assert_int_eq(decide(&s, &f, 0, &(drogue_joint_inner){0, 0, 0}), DROGUE_OK);
+    {
+        const drogue_decision before = s.result;
+        s.evidence.too_far_q16 = q16_of(share);
+        ck_assert_int_eq(decide(&s, &f, 0, &(drogue_joint_inner){0, 0, 0}), DROGUE_OK);
+        ck_assert(memcmp(&s.result, &before, sizeof before) == 0);
+    }
+}
+END_TEST
+
 /* Head-on the two poses are one: nothing to choose, and so nothing open. */
 START_TEST(head_on)
 {
@@ -335,5 +402,5 @@ START_TEST(solutions_that_leave_the_numbers)
 END_TEST
 
 SUITE_MAIN("decide", the_right_pose_from_both_sides, outline_alone, contradiction, a_clear_choice_for_all_disagreement,
-           disagreement_widens, size_in_doubt, head_on, large_variances_keep_the_correlations, no_covariance,
-           solutions_that_leave_the_numbers)
+           disagreement_widens, size_in_doubt, too_far, not_too_far_where_smeared, head_on,
+           large_variances_keep_the_correlations, no_covariance, solutions_that_leave_the_numbers)
