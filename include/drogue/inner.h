@@ -52,11 +52,7 @@ typedef struct drogue_inner_edge {
 } drogue_inner_edge;
 
 /* Squared distance of its centre from an expected one, px^2 Q32. */
-static inline uint64_t drogue_inner_away2_q32(const drogue_inner_edge *edge, const drogue_ellipse *expected)
-{
-    return drogue_square_sum(drogue_q16_sub(edge->x_px_q16, expected->xc_px_q16),
-                             drogue_q16_sub(edge->y_px_q16, expected->yc_px_q16));
-}
+uint64_t drogue_inner_away2_q32(const drogue_inner_edge *edge, const drogue_ellipse *expected);
 
 /* How far from the expected centre the disc may be, by the configured gate. */
 static inline drogue_q16 drogue_inner_gate(const drogue_ellipse *outline, const drogue_config *config)

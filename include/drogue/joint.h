@@ -38,7 +38,7 @@ typedef struct drogue_joint {
 } drogue_joint;
 
 /* Covariance of an outline's parameters from the residuals of its bins, whose scatter about the ellipse measures noise
- * and shape together however far they are correlated along the edge.
+ * and shape together however far they are correlated along the edge. drogue_joint_outline_weigh() comes after it.
  *
  *  support  of the last fit, its bins from any axis
  *  shading  what the residuals cannot show, as light that changes along the outline, moves an edge by this over its
@@ -51,7 +51,7 @@ typedef struct drogue_joint {
 drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
                                               drogue_q16 shading_q16, drogue_q16 blur_px2_q16);
 
-/* An outline's weights from its covariance: every solution uses them. drogue_joint_outline_covariance() ends with it.
+/* An outline's weights from its covariance: every solution uses them.
  *
  *  return  DROGUE_OK; DROGUE_E_DEGENERATE when the covariance is not positive definite
  */

@@ -77,6 +77,12 @@ void drogue_inner_expect(drogue_inner_expected *expected, const drogue_pose pose
     }
 }
 
+uint64_t drogue_inner_away2_q32(const drogue_inner_edge *edge, const drogue_ellipse *expected)
+{
+    return drogue_square_sum(drogue_q16_sub(edge->x_px_q16, expected->xc_px_q16),
+                             drogue_q16_sub(edge->y_px_q16, expected->yc_px_q16));
+}
+
 /* Does the expected disc lie wholly within the outline when its centre is the part's? Their planes are parallel: to the
  * outline's frame, where that is a circle, the disc is one too. */
 static int within_outline(const drogue_inner_edge *edge, const drogue_ellipse *expected, const drogue_ellipse *outline)
@@ -100,7 +106,7 @@ static int within_outline(const drogue_inner_edge *edge, const drogue_ellipse *e
 
 #define LARGER_Q16 DROGUE_Q16(1, 64)    /* of its size: a disc is seen to that */
 #define SMALLER_PX_Q16 DROGUE_Q16(1, 2) /* by as much blur and what touches the disc move its edge */
-#define ELSEWHERE_Q16 DROGUE_Q16(1, 8)  /* of more doubt the centre is off by as much, too */
+#define ELSEWHERE 8 /* so many-th part of its size: one that is larger by more may be something else */
 
 /* A disc that is too large may be that of a larger outline than the one found, and is so in one of eight; one that is
  * too small hardly ever says more than that its edge is blurred or touched. */
@@ -115,25 +121,24 @@ static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *
     return beyond > LARGER_Q16 ? drogue_clamp_s32(share, 0, DROGUE_Q16_ONE - 1) : beyond > 0 ? 2 * beyond : 0;
 }
 
-#define SEEN_Q16 DROGUE_Q16(1, 256) /* of its size: a disc is no larger by so little */
-#define SHARE_Q16 DROGUE_Q16(3, 4)  /* of what its size says */
+#define SEEN 256   /* so many-th part of its size: a disc is no larger by so little */
 
 static int all_about(const drogue_inner_edge *edge) { return 8 * edge->rays >= 7 * DROGUE_RAYS; }
 
 /* By what share an outline's pose is too far. An edge within the rim, as that of its band, is too small for the disc
  * and, cut by light and shade, tilted otherwise: the disc lies beside its place, too. A disc whose edge is another one,
  * as a collar's, is too large as well, but in its place: of one that is off it by three times what it is off its size
- * all counts, by no more than once nothing. */
+ * all counts, by no more than once nothing. Of what counts three quarters. */
 static drogue_q16 too_far(const drogue_inner_edge *edge, const drogue_ellipse *expected)
 {
-    const drogue_q16 away = drogue_sat_s32((int64_t)drogue_isqrt_u64(drogue_inner_away2_q32(edge, expected)));
-    const drogue_q16 larger = drogue_q16_sub(edge->grown_px_q16, drogue_q16_mul(SEEN_Q16, expected->a_px_q16));
-    const drogue_q16 beside = drogue_q16_sub(away, edge->grown_px_q16) / 2;
-    const drogue_q16 by = larger < beside ? larger : beside;
-    if (by <= 0 || !all_about(edge) || edge->grown_px_q16 > drogue_q16_mul(ELSEWHERE_Q16, expected->a_px_q16)) {
+    const int64_t away = (int64_t)drogue_isqrt_u64(drogue_inner_away2_q32(edge, expected));
+    const int64_t larger = (int64_t)edge->grown_px_q16 - expected->a_px_q16 / SEEN;
+    const int64_t beside = (away - edge->grown_px_q16) / 2;
+    const int64_t by = larger < beside ? larger : beside;
+    if (by <= 0 || !all_about(edge) || edge->grown_px_q16 > expected->a_px_q16 / ELSEWHERE) {
         return 0;
     }
-    return drogue_q16_mul(SHARE_Q16, drogue_q16_div(by, expected->a_px_q16));
+    return drogue_q16_div((drogue_q16)(by - by / 4), expected->a_px_q16);
 }
 
 #define EVIDENT_PX_Q16 DROGUE_Q16(3, 10) /* and a 64th: of its size */
@@ -155,7 +160,7 @@ drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse 
     const drogue_q16 room = drogue_inner_room(expected, config);
     const drogue_q16 share = drogue_q16_mul(config->inner_std_share_q16, expected->a_px_q16);
     const drogue_q16 doubt = doubt_of(edge, expected);
-    const drogue_q16 off = doubt > ELSEWHERE_Q16 ? drogue_q16_mul(doubt, expected->a_px_q16) : 0;
+    const drogue_q16 off = doubt > DROGUE_Q16_ONE / ELSEWHERE ? drogue_q16_mul(doubt, expected->a_px_q16) : 0;
     if (edge->contrast < config->min_inner_contrast ||
         (int64_t)edge->rays * DROGUE_Q16_ONE < (int64_t)config->min_inner_cover_q16 * DROGUE_RAYS ||
         edge->spread_px_q16 > config->inner_rms_px_q16 || edge->grown_px_q16 < -room ||

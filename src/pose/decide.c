@@ -183,7 +183,6 @@ static void doubt_outline(drogue_joint_outline *outline)
         drogue_real *own = &outline->covariance[DROGUE_PACKED(i, i)];
         drogue_real_sum(own, own, &doubt);
     }
-    (void)drogue_joint_outline_weigh(outline); /* as positive definite as it was */
 }
 
 static int has_inner(const drogue_evidence *evidence) { return evidence->inner.std_px_q16 > 0; }
@@ -231,15 +230,18 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
                                         setup->config->optics_blur_std_px2_q16) != DROGUE_OK) {
         return DROGUE_E_DOMAIN;
     }
+    if (setup->model->inner_radius_m_q16 > 0 && !has_inner(evidence)) {
+        doubt_outline(&outline);
+    }
+    if (drogue_joint_outline_weigh(&outline) != DROGUE_OK) {
+        return DROGUE_E_DOMAIN;
+    }
     if (has_inner(evidence)) {
         together = solve_together(&joint, &index, &agree, &out->orientation_resolved, &outline, evidence, setup);
     }
     if (!together) {
         out->orientation_resolved = 0;
         index = evidence->nearer;
-        if (setup->model->inner_radius_m_q16 > 0 && !has_inner(evidence)) {
-            doubt_outline(&outline);
-        }
         if (drogue_joint_settle(&joint, &evidence->poses[index], &outline, &none, setup->camera, setup->model, 0, 1) !=
             DROGUE_OK) {
             return DROGUE_E_DOMAIN;

@@ -168,7 +168,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
         drogue_real_sum(own, own, &variance);
     }
     add_smear(covariance, &outline->ellipse, support);
-    return drogue_joint_outline_weigh(outline);
+    return DROGUE_OK;
 }
 
 drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline)

@@ -189,6 +189,9 @@ int stage_joint(stage_run *r)
     }
     out[0] = (int32_t)drogue_joint_outline_covariance(&outline, &support, p[11], p[12]);
     if (out[0] == DROGUE_OK) {
+        out[0] = (int32_t)drogue_joint_outline_weigh(&outline);
+    }
+    if (out[0] == DROGUE_OK) {
         put_packed(outline_covariance, outline.covariance);
         out[0] = (int32_t)drogue_joint_solve(&joint, &start, &outline, &inner, &camera, &model, p[14]);
     }

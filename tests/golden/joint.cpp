@@ -107,6 +107,7 @@ int main()
         reference::Covariance expected_outline;
         reference::Ellipse expected_image;
         if (drogue_joint_outline_covariance(&t.outline, &t.support, 249037, 7864) != DROGUE_OK ||
+            drogue_joint_outline_weigh(&t.outline) != DROGUE_OK ||
             !reference::outline_covariance(expected_outline, e, t.model_support, 249037 / 65536.0L, 7864 / 65536.0L)) {
             outline.add(INFINITY, name);
             continue;

@@ -390,6 +390,7 @@ START_TEST(solutions_that_leave_the_numbers)
     }
     outline.ellipse = s.evidence.ideal;
     ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s.support, 0, 0), DROGUE_OK);
+    ck_assert_int_eq(drogue_joint_outline_weigh(&outline), DROGUE_OK);
     for (k = 1; k <= 5; k += 4) {
         MUST((drogue_joint_solve(&joint, &s.evidence.poses[1], &outline, &s.evidence.inner, &f.camera, &f.model, k) ==
               DROGUE_OK) == (k == 1),
