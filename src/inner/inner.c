@@ -121,7 +121,7 @@ static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *
     return beyond > LARGER_Q16 ? drogue_clamp_s32(share, 0, DROGUE_Q16_ONE - 1) : beyond > 0 ? 2 * beyond : 0;
 }
 
-#define SEEN 256   /* so many-th part of its size: a disc is no larger by so little */
+#define SEEN 256 /* so many-th part of its size: a disc is no larger by so little */
 
 static int all_about(const drogue_inner_edge *edge) { return 8 * edge->rays >= 7 * DROGUE_RAYS; }
 

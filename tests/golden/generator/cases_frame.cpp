@@ -411,6 +411,20 @@ void add_led_by_disc(Set &set)
         add_frame(set, "lip-" + std::to_string(k++), Tier::stress, {}, dashed_drogue(d));
     }
     k = 0;
+    for (const Dashed &d :
+         {Dashed{49, 34.5, 0.45, 12, 118, 45, 50, 160, 60, 2, -2}, /* less shows of it than of one within */
+          Dashed{39, 25, 0.38, 8, 122, 37, 60, 100, 70, -1, -4},
+          Dashed{57, 53, 0.52, 4, 153, 0, 90, 120, 110, -4, -4}}) {
+        add_frame(set, "larger-rim-" + std::to_string(k++), Tier::stress, {}, dashed_drogue(d));
+    }
+    k = 0;
+    for (const Dashed &d :
+         {Dashed{45, 42.5, 0.41, 14, 119, 0, 100, 90, 110, -1, -4}, /* the best outline has a disc, too */
+          Dashed{47, 43.5, 0.64, 14, 109, 54, 60, 140, 70, 4, 1},
+          Dashed{52, 47.5, 0.6, 14, 130, 47, 50, 50, 180, -1, 3}}) {
+        add_frame(set, "doubted-rim-" + std::to_string(k++), Tier::stress, {}, dashed_drogue(d));
+    }
+    k = 0;
     for (const uint32_t seed : {1u, 2u, 3u, 4u}) {
         add_frame(set, "noisy-rim-" + std::to_string(k++), Tier::stress, {"noise"}, noisy_drogue(12, 20, seed));
     }
