@@ -168,8 +168,8 @@ static int shows_less(const drogue_result *about_disc, const best_try *best)
            about_disc->cover_q16 < best->result->cover_q16 / 8 * LESS_EIGHTHS;
 }
 
-/* Most doubt of an outline about the disc: less than where they contradict each other; or, where the best outline has no
- * disc at all, than what the disc is looked for for. */
+/* Most doubt of an outline about the disc: less than where they contradict each other; or, where the best outline has
+ * no disc at all, than makes the disc be looked for. */
 static drogue_q16 most_doubt(const best_try *best)
 {
     return best->result->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE ? DISC_Q16 : DROGUE_CONTRADICTED_Q16;

@@ -69,7 +69,8 @@ typedef struct drogue_result {
     uint32_t arcs[4];         /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
     int32_t tried;            /* what stands, drogue_tried */
     drogue_ellipse ellipse;   /* outline of the end plane, as seen (distorted) */
-    drogue_ellipse ideal;     /* the same without distortion: what the pose is computed from */
+    drogue_ellipse ideal;     /* the same without distortion: what the pose is computed from; the inner part may bring
+                                 that nearer than its size says (drogue_decide()) */
     drogue_quality quality;   /* of the fit of the arcs */
     drogue_polarity polarity; /* DARK or BRIGHT: the outline's inside against its outside; BOTH: it changes */
     uint32_t cluster_members; /* candidates that agree with the winner, itself included */

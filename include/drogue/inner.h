@@ -111,9 +111,9 @@ typedef struct drogue_inner_evidence {
 
 /* Weigh the disc, and see which pose it is nearer to. Its size puts the distance in doubt by the share by which it is
  * too large, if 1/32 or more, and not at all below 1/64; by half of that by which it is too small, beyond half a pixel.
- * Where it is seen by seven of eight rays, is too large by at most an eighth and lies beside its place by more than
- * that, the outline is too far: by three quarters of the share that it is too large by beyond 1/256, or, if less, of half
- * of what it lies farther beside its place than it is too large.
+ * Where it is seen by seven of eight rays, is too large by at most an eighth and lies farther beside its place than it
+ * is too large, the outline is too far: by three quarters of the share by which it is too large beyond 1/256; or, if
+ * that is less, of half of what it lies farther beside its place.
  *
  *  region             pixel (0, 0) of it is where coordinates of the region begin
  *  expected, outline  region coordinates: the discs, the ellipse as seen
