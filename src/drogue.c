@@ -158,8 +158,8 @@ static int about_one_size(drogue_q16 a_px_q16, drogue_q16 of_px_q16, int32_t par
     return off <= of_px_q16 / part;
 }
 
-/* Does less show of an outline about the disc than of the best one, about as large, but no smaller? Both are edges of
- * one rim then, and the disc, which is not too large for it, may be a little off its place. */
+/* Does less show of an outline about the disc than of the best one, about as large, but larger? Both are edges of one
+ * rim then, and the disc, which is not too large for it, may be a little off its place. */
 static int shows_less(const drogue_result *about_disc, const best_try *best)
 {
     return best->result->status == DROGUE_OK && best->larger_q16 == 0 &&

@@ -103,8 +103,8 @@ drogue_status drogue_frame_judge(drogue_frame *f)
         find_inner(&evidence, f);
     }
     status = decide(out, &evidence, f->setup);
-    if (status == DROGUE_OK && out->has_inner && out->doubt_q16 > f->doubt_q16) {
-        f->doubt_q16 += CONTRADICTION_Q16; /* another outline may be right */
+    if (status == DROGUE_OK && out->has_inner && out->doubt_q16 > f->doubt_q16) { /* they do, or it is too far */
+        f->doubt_q16 += CONTRADICTION_Q16;                                        /* another outline may be right */
     }
     return status;
 }

@@ -18,7 +18,7 @@ typedef struct drogue_evidence {
     const drogue_support *support; /* of the outline's last fit */
     drogue_joint_inner inner;      /* std_px_q16 is 0 when there is none */
     drogue_q16 doubt_q16;          /* of the distance, by the inner part's size, as in drogue_inner_evidence */
-    drogue_q16 too_far_q16;        /* share by which the outline's pose is, as there */
+    drogue_q16 too_far_q16;        /* [0, 1): share by which the outline's pose is, as there */
 } drogue_evidence;
 
 /* The pose that a result gives. */
@@ -40,8 +40,8 @@ typedef struct drogue_decision {
  * times as large where that, 0.5 on average of frames that are as supposed, is above 1, and max_chi2 times that of the
  * outline alone; and what the inner part's size puts in doubt is added, at least DROGUE_CONTRADICTED_Q16 where they
  * contradict each other. Where it says that the outline's pose is too far, both poses are brought nearer by that share,
- * and at least so much is in doubt; by the less the nearer the frame's smear is to 1.25 px^2, since motion blur moves
- * the disc's edge, too: by all of it up to 0.25 px^2. Where the model has an inner part and none is to be believed, the
+ * and at least so much is in doubt: by all of it from a chi2 of 3 on, by none up to 1, and by the less the nearer the
+ * frame's smear is to 1.25 px^2, since motion blur moves the disc's edge, too; up to 0.25 px^2 by all. Where the model has an inner part and none is to be believed, the
  * outline may be another edge than the rim, or partly: 1.1 % of its size is added to every parameter of the outline.
  *
  *  out     undefined on failure

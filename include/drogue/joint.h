@@ -38,7 +38,8 @@ typedef struct drogue_joint {
 } drogue_joint;
 
 /* Covariance of an outline's parameters from the residuals of its bins, whose scatter about the ellipse measures noise
- * and shape together however far they are correlated along the edge. drogue_joint_outline_weigh() comes after it.
+ * and shape together however far they are correlated along the edge. drogue_joint_outline_weigh() comes after it:
+ * until then there are no weights.
  *
  *  support  of the last fit, its bins from any axis
  *  shading  what the residuals cannot show, as light that changes along the outline, moves an edge by this over its

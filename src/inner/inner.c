@@ -106,7 +106,7 @@ static int within_outline(const drogue_inner_edge *edge, const drogue_ellipse *e
 
 #define LARGER_Q16 DROGUE_Q16(1, 64)    /* of its size: a disc is seen to that */
 #define SMALLER_PX_Q16 DROGUE_Q16(1, 2) /* by as much blur and what touches the disc move its edge */
-#define ELSEWHERE 8 /* so many-th part of its size: one that is larger by more may be something else */
+#define ELSEWHERE 8                     /* so many-th part of its size: what is off it by more may be something else */
 
 /* A disc that is too large may be that of a larger outline than the one found, and is so in one of eight; one that is
  * too small hardly ever says more than that its edge is blurred or touched. */
@@ -121,7 +121,7 @@ static drogue_q16 doubt_of(const drogue_inner_edge *edge, const drogue_ellipse *
     return beyond > LARGER_Q16 ? drogue_clamp_s32(share, 0, DROGUE_Q16_ONE - 1) : beyond > 0 ? 2 * beyond : 0;
 }
 
-#define SEEN 256 /* so many-th part of its size: a disc is no larger by so little */
+#define SEEN 256 /* so many-th part of its size: no disc is seen to be larger by less */
 
 static int all_about(const drogue_inner_edge *edge) { return 8 * edge->rays >= 7 * DROGUE_RAYS; }
 

@@ -196,13 +196,15 @@ static drogue_q16 doubt_of(const drogue_evidence *evidence, int agree)
 
 #define SMEARED_Q16 DROGUE_Q16(5, 4) /* px^2: an inner disc's edge says nothing of the outline */
 
-/* The share by which the poses are too far. */
-static drogue_q16 too_far(const drogue_evidence *evidence)
+/* The share by which the poses are too far: of what place and size say as much as the place is off by more than noise,
+ * which it is by a chi2 of 3. */
+static drogue_q16 too_far(const drogue_evidence *evidence, drogue_real chi2)
 {
     const int32_t *smear_px2_q16 = evidence->support->smear_px2_q16;
     const int64_t smear = (int64_t)drogue_isqrt_u64(drogue_square_sum(smear_px2_q16[0], smear_px2_q16[1]));
-    const int32_t left_q16 = drogue_clamp_s32(drogue_sat_s32(SMEARED_Q16 - smear), 0, DROGUE_Q16_ONE);
-    return has_inner(evidence) ? drogue_q16_mul(evidence->too_far_q16, left_q16) : 0;
+    const int32_t still_q16 = drogue_clamp_s32(drogue_sat_s32(SMEARED_Q16 - smear), 0, DROGUE_Q16_ONE);
+    const int32_t off_q16 = drogue_clamp_s32((drogue_real_to_q16(chi2) - DROGUE_Q16_ONE) / 2, 0, DROGUE_Q16_ONE);
+    return drogue_q16_mul(drogue_q16_mul(evidence->too_far_q16, still_q16), off_q16);
 }
 
 static void bring_nearer(drogue_pose *pose, drogue_q16 share_q16)
@@ -222,7 +224,7 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
     uint32_t index = evidence->nearer;
     int together = 0;
     int agree = 0;
-    const drogue_q16 nearer_q16 = too_far(evidence);
+    drogue_q16 nearer_q16 = 0;
     memset(&joint, 0, sizeof joint);
     out->orientation_resolved = 0;
     outline.ellipse = evidence->ideal;
@@ -252,6 +254,7 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
             drogue_real_set_q16(&joint.chi2, setup->config->max_chi2_q16);
         }
         widen(&joint);
+        nearer_q16 = too_far(evidence, joint.chi2);
     }
     out->alternative = evidence->poses[1 - index];
     bring_nearer(&joint.pose, nearer_q16);

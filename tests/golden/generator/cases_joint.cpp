@@ -372,9 +372,12 @@ void add_decide(Set &set)
         e = Evidence();
         e.too_far = too_far;
         e.doubt = 0.02;
-        for (e.nearer = 0; e.nearer < 2; e.nearer++) {
-            const std::string name = "too-far-" + std::to_string(std::lround(1000 * too_far)) + "-of-1000";
-            add_evidence(set, name + (e.nearer != 0 ? "-twin-nearer" : ""), Tier::stress, {"twin-pose"}, j, e);
+        for (const double off : {0.1, 0.2, 0.3, 1.0}) { /* by noise, and by more */
+            e.off_px = off;
+            add_evidence(set,
+                         "too-far-" + std::to_string(std::lround(1000 * too_far)) + "-of-1000-off-" +
+                             std::to_string(std::lround(10 * off)),
+                         Tier::stress, {"twin-pose"}, j, e);
         }
     }
     e.inner = false;

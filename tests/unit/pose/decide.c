@@ -244,6 +244,13 @@ START_TEST(size_in_doubt)
 }
 END_TEST
 
+/* The inner part lies beside the line on which both poses have it. */
+static void off_its_place(seen *s, double px)
+{
+    s->evidence.inner.x_px_q16 += q16_of(0.37 * px);
+    s->evidence.inner.y_px_q16 += q16_of(0.93 * px);
+}
+
 /* Of an outline that is too far both poses come nearer by that share, in whatever way they differ; so much is in doubt
  * at least. */
 START_TEST(too_far)
@@ -255,6 +262,7 @@ START_TEST(too_far)
     int k;
     int i;
     look_ahead(&s, &f, 0.25, -0.1);
+    off_its_place(&s, 0.2);
     ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
     before = s.result;
     s.evidence.too_far_q16 = q16_of(share);
@@ -276,6 +284,31 @@ START_TEST(too_far)
 }
 END_TEST
 
+/* By no more than noise the inner part is off its place up to a chi2 of 1; from 3 on all counts. */
+START_TEST(not_too_far_by_noise)
+{
+    const field f = usual_field();
+    const double share = 0.04;
+    double last = 0;
+    seen s;
+    int i;
+    for (i = 0; i <= 12; i++) {
+        drogue_decision before;
+        double moved;
+        look_ahead(&s, &f, 0.25, -0.1);
+        off_its_place(&s, 0.02 * i);
+        ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
+        before = s.result;
+        s.evidence.too_far_q16 = q16_of(share);
+        ck_assert_int_eq(decide(&s, &f, 0, &s.evidence.inner), DROGUE_OK);
+        moved = 1 - (double)s.result.pose.position_m_q16[2] / before.pose.position_m_q16[2];
+        MUST(i > 2 ? moved >= last : fabs(moved) < 1e-6, "%d: %g", i, moved);
+        MUST(i < 12 || fabs(moved - share) < 1e-4, "%d: %g", i, moved);
+        last = moved;
+    }
+}
+END_TEST
+
 /* Smeared by motion the disc's edge says less of the outline, and nothing from 1.25 px^2 on; nor does none. */
 START_TEST(not_too_far_where_smeared)
 {
@@ -285,6 +318,7 @@ START_TEST(not_too_far_where_smeared)
     seen s;
     size_t i;
     look_ahead(&s, &f, 0.25, -0.1);
+    off_its_place(&s, 0.45);
     for (i = 0; i < sizeof smear / sizeof smear[0]; i++) {
         drogue_decision before;
         s.support.smear_px2_q16[0] = q16_of(smear[i][0]);
@@ -403,5 +437,5 @@ START_TEST(solutions_that_leave_the_numbers)
 END_TEST
 
 SUITE_MAIN("decide", the_right_pose_from_both_sides, outline_alone, contradiction, a_clear_choice_for_all_disagreement,
-           disagreement_widens, size_in_doubt, too_far, not_too_far_where_smeared, head_on,
+           disagreement_widens, size_in_doubt, too_far, not_too_far_by_noise, not_too_far_where_smeared, head_on,
            large_variances_keep_the_correlations, no_covariance, solutions_that_leave_the_numbers)

@@ -201,8 +201,9 @@ START_TEST(smear_of_any_size_and_direction)
         s.smear_px2_q16[0] = q16_of(rng_real(&rng, -most, most));
         s.smear_px2_q16[1] = q16_of(rng_real(&rng, -most, most));
         outline.ellipse.angle_rad_q16 = q16_of(rng_real(&rng, -1.5, 1.5));
-        MUST(drogue_joint_outline_covariance(&outline, &s, 65536, 7864) == DROGUE_OK, "case %d: %d %d at %d", i,
-             s.smear_px2_q16[0], s.smear_px2_q16[1], outline.ellipse.angle_rad_q16);
+        MUST(drogue_joint_outline_covariance(&outline, &s, 65536, 7864) == DROGUE_OK &&
+                 drogue_joint_outline_weigh(&outline) == DROGUE_OK,
+             "case %d: %d %d at %d", i, s.smear_px2_q16[0], s.smear_px2_q16[1], outline.ellipse.angle_rad_q16);
     }
 }
 END_TEST
@@ -218,6 +219,7 @@ START_TEST(hostile_smear)
             s.smear_px2_q16[0] = ends[i];
             s.smear_px2_q16[1] = ends[j];
             ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 7864), DROGUE_OK);
+            ck_assert_int_eq(drogue_joint_outline_weigh(&outline), DROGUE_OK);
         }
     }
 }
@@ -291,6 +293,7 @@ START_TEST(degenerate_support)
     }
     s.gradient = UINT32_MAX;
     ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, INT32_MAX, INT32_MAX), DROGUE_OK);
+    ck_assert_int_eq(drogue_joint_outline_weigh(&outline), DROGUE_OK);
     ck_assert(outline.covariance[0].mantissa > 0);
 }
 END_TEST
