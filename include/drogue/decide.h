@@ -39,10 +39,11 @@ typedef struct drogue_decision {
  * wrong by more than they say, and which pose it is stays clear. Where there is an inner part, the covariance is chi2
  * times as large where that, 0.5 on average of frames that are as supposed, is above 1, and max_chi2 times that of the
  * outline alone; and what the inner part's size puts in doubt is added, at least DROGUE_CONTRADICTED_Q16 where they
- * contradict each other. Where it says that the outline's pose is too far, both poses are brought nearer by that share,
- * and at least so much is in doubt: by all of it from a chi2 of 3 on, by none up to 1, and by the less the nearer the
- * frame's smear is to 1.25 px^2, since motion blur moves the disc's edge, too; up to 0.25 px^2 by all. Where the model has an inner part and none is to be believed, the
- * outline may be another edge than the rim, or partly: 1.1 % of its size is added to every parameter of the outline.
+ * contradict each other. Where the orientation is resolved and the inner part says that the outline's pose is too far,
+ * both poses are brought nearer by that share, and at least so much is in doubt: by all of it from a chi2 of 3 on, by
+ * none up to 1, and by the less the nearer the frame's smear is to 1.25 px^2, since motion blur moves the disc's edge,
+ * too; up to 0.25 px^2 by all. Where the model has an inner part and none is to be believed, the outline may be another
+ * edge than the rim, or partly: 1.1 % of its size is added to every parameter of the outline.
  *
  *  out     undefined on failure
  *  return  DROGUE_OK, DROGUE_E_DOMAIN

@@ -254,6 +254,8 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
             drogue_real_set_q16(&joint.chi2, setup->config->max_chi2_q16);
         }
         widen(&joint);
+    }
+    if (out->orientation_resolved) { /* else what is dark may be anything */
         nearer_q16 = too_far(evidence, joint.chi2);
     }
     out->alternative = evidence->poses[1 - index];

@@ -372,7 +372,7 @@ void add_decide(Set &set)
         e = Evidence();
         e.too_far = too_far;
         e.doubt = 0.02;
-        for (const double off : {0.1, 0.2, 0.3, 1.0}) { /* by noise, and by more */
+        for (const double off : {0.1, 0.2, 0.3, 1.0, 60.0}) { /* by noise, by more, and is anything */
             e.off_px = off;
             add_evidence(set,
                          "too-far-" + std::to_string(std::lround(1000 * too_far)) + "-of-1000-off-" +

@@ -345,9 +345,9 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
         out.covariance *= std::max(1.0, together ? t.joint.chi2 : static_cast<double>(real(config.max_chi2_q16)));
     }
     const Real smear = std::hypot(f.support.smear[0], f.support.smear[1]); /* it moves the disc's edge, too */
-    const Real chi2 = together ? static_cast<Real>(t.joint.chi2) : real(config.max_chi2_q16);
+    const Real chi2 = static_cast<Real>(t.joint.chi2);
     const auto unit = [](Real v) { return std::min<Real>(1, std::max<Real>(0, v)); };
-    const Real nearer_by = out.has_inner ? f.too_far * unit(1.25L - smear) * unit((chi2 - 1) / 2) : 0;
+    const Real nearer_by = t.resolved ? f.too_far * unit(1.25L - smear) * unit((chi2 - 1) / 2) : 0;
     for (size_t k = 0; k < 3; k++) {
         out.pose.position[k] *= 1 - nearer_by;
         out.alternative.position[k] *= 1 - nearer_by;
