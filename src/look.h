@@ -30,8 +30,8 @@ typedef struct drogue_frame {
     drogue_q16 larger_q16;   /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
     drogue_q16 ring_px_q16;  /* semi-axis of the outline that a disc allows which was sought; 0: there is none */
     drogue_q16 doubt_q16;    /* in the inner disc's size, as in drogue_inner_evidence, a little more where disc and
-                               outline contradict each other or it says that the outline is too far; 1: not seen, or too large for the outline; more: no
-                               outline */
+                               outline contradict each other or it says that the outline is too far; 1: not seen, or
+                               too large for the outline; more: no outline */
 } drogue_frame;
 
 /* Find the edges of a region by the frame's thresholds; the view becomes the region's pixels. */
