@@ -420,7 +420,6 @@ void add_led_by_disc(Set &set)
     k = 0;
     for (const Dashed &d :
          {Dashed{45, 42.5, 0.41, 14, 119, 0, 100, 90, 110, -1, -4}, /* the best outline has a disc, too */
-          Dashed{47, 43.5, 0.64, 14, 109, 54, 60, 140, 70, 4, 1},
           Dashed{52, 47.5, 0.6, 14, 130, 47, 50, 50, 180, -1, 3}}) {
         add_frame(set, "doubted-rim-" + std::to_string(k++), Tier::stress, {}, dashed_drogue(d));
     }
