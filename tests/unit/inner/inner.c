@@ -370,6 +370,21 @@ START_TEST(any_bits)
 }
 END_TEST
 
+/* What a finding says of the distance. */
+static void weigh(drogue_inner_evidence *evidence, const finding *g)
+{
+    const drogue_region region = {100, 200, 400, 300};
+    const pose_real p = {{0, 0, 6, 0, 0}};
+    const drogue_pose poses[2] = {pose_of(&p), pose_of(&p)};
+    const field f = usual_field();
+    const drogue_setup setup = {&f.camera, &f.model, &g->config};
+    drogue_inner_expected expected;
+    memset(&expected, 0, sizeof expected);
+    expected.count = 1;
+    expected.disc[0] = g->expected;
+    drogue_inner_weigh(evidence, &g->edge, &region, &expected, &g->outline, poses, &setup);
+}
+
 /* Of 30 px: what the disc's size says of the distance. */
 START_TEST(doubt_by_size)
 {
@@ -384,21 +399,12 @@ START_TEST(doubt_by_size)
                                       {-3.5, 0.05},
                                       {29.99, 0.9997},
                                       {40, 0.99999}};
-    const drogue_region region = {100, 200, 400, 300};
-    const pose_real p = {{0, 0, 6, 0, 0}};
-    const drogue_pose poses[2] = {pose_of(&p), pose_of(&p)};
-    const field f = usual_field();
     size_t i;
     for (i = 0; i < sizeof grown / sizeof grown[0]; i++) {
         finding g = usual_finding();
-        const drogue_setup setup = {&f.camera, &f.model, &g.config};
-        drogue_inner_expected expected;
         drogue_inner_evidence evidence;
-        memset(&expected, 0, sizeof expected);
-        expected.count = 1;
-        expected.disc[0] = g.expected;
         g.edge.grown_px_q16 = q16_of(grown[i][0]);
-        drogue_inner_weigh(&evidence, &g.edge, &region, &expected, &g.outline, poses, &setup);
+        weigh(&evidence, &g);
         MUST(fabs(real_of_q16(evidence.doubt_q16) - grown[i][1]) < 3.0 / 65536, "%g px: %g", grown[i][0],
              real_of_q16(evidence.doubt_q16));
         ck_assert_int_lt(evidence.doubt_q16, DROGUE_Q16_ONE);
@@ -429,25 +435,16 @@ START_TEST(too_far_by_size_and_place)
               {-1, 3, 64, 0},
               {3.74, 9.5, 64, 2.88},
               {3.76, 9.5, 64, 0}};
-    const drogue_region region = {100, 200, 400, 300};
-    const pose_real p = {{0, 0, 6, 0, 0}};
-    const drogue_pose poses[2] = {pose_of(&p), pose_of(&p)};
-    const field f = usual_field();
     size_t i;
     for (i = 0; i < sizeof of / sizeof of[0]; i++) {
         const double turn = (double)i;
         finding g = usual_finding();
-        const drogue_setup setup = {&f.camera, &f.model, &g.config};
-        drogue_inner_expected expected;
         drogue_inner_evidence evidence;
-        memset(&expected, 0, sizeof expected);
-        expected.count = 1;
-        expected.disc[0] = g.expected;
         g.edge.grown_px_q16 = q16_of(of[i].grown);
         g.edge.rays = of[i].rays;
         g.edge.x_px_q16 = g.expected.xc_px_q16 + q16_of(of[i].away * cos(turn));
         g.edge.y_px_q16 = g.expected.yc_px_q16 + q16_of(of[i].away * sin(turn));
-        drogue_inner_weigh(&evidence, &g.edge, &region, &expected, &g.outline, poses, &setup);
+        weigh(&evidence, &g);
         MUST(fabs(real_of_q16(evidence.too_far_q16) - 0.75 * of[i].px / 30) < 3.0 / 65536, "%zu: %g px of %g", i,
              real_of_q16(evidence.too_far_q16) * 30 / 0.75, of[i].px);
     }
