@@ -45,10 +45,7 @@ static void find_inner(drogue_evidence *evidence, drogue_frame *f)
     if (drogue_inner_edge_find(&edge, f->workspace->rays, &f->view, &expected, outline, f->setup->config) ==
         DROGUE_OK) {
         drogue_inner_weigh(&inner, &edge, &out->region, &expected, outline, evidence->poses, f->setup);
-        evidence->inner = inner.weighed;
-        evidence->doubt_q16 = inner.doubt_q16;
-        evidence->too_far_q16 = inner.too_far_q16;
-        evidence->nearer = inner.nearer;
+        drogue_inner_testify(evidence, &inner);
         out->inner = inner.part;
         out->has_inner = inner.weighed.std_px_q16 > 0;
         out->ambiguity_q16 = inner.ambiguity_q16;
@@ -103,8 +100,8 @@ drogue_status drogue_frame_judge(drogue_frame *f)
         find_inner(&evidence, f);
     }
     status = decide(out, &evidence, f->setup);
-    if (status == DROGUE_OK && out->has_inner && out->doubt_q16 > f->doubt_q16) { /* they do, or it is too far */
-        f->doubt_q16 += CONTRADICTION_Q16;                                        /* another outline may be right */
+    if (status == DROGUE_OK && out->has_inner && out->doubt_q16 > f->doubt_q16) {
+        f->doubt_q16 += CONTRADICTION_Q16; /* or the outline is too far: another one may be right */
     }
     return status;
 }

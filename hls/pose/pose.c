@@ -74,10 +74,7 @@ static inline drogue_status solve(drogue_decision *out, drogue_inner_evidence *i
         expected.disc[1] = drogue_hls_unpack_ellipse(outline + DROGUE_HLS_O_EXPECTED + 5);
         drogue_hls_unpack_edge_words(&edge, words);
         drogue_inner_weigh(inner, &edge, &region, &expected, &ellipse, evidence->poses, &setup);
-        evidence->inner = inner->weighed;
-        evidence->nearer = inner->nearer;
-        evidence->doubt_q16 = inner->doubt_q16;
-        evidence->too_far_q16 = inner->too_far_q16;
+        drogue_inner_testify(evidence, inner);
     }
     return drogue_decide(out, evidence, &setup);
 }

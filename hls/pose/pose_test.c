@@ -42,10 +42,7 @@ static void find_pose(frame *f)
         expected.disc[1] = drogue_hls_unpack_ellipse(f->words + DROGUE_HLS_O_EXPECTED + 5);
         drogue_hls_unpack_edge_words(&edge, dark);
         drogue_inner_weigh(&inner, &edge, &f->region, &expected, &f->outline.ellipse, evidence.poses, &setup);
-        evidence.inner = inner.weighed;
-        evidence.nearer = inner.nearer;
-        evidence.doubt_q16 = inner.doubt_q16;
-        evidence.too_far_q16 = inner.too_far_q16;
+        drogue_inner_testify(&evidence, &inner);
         r->inner = inner.part;
         r->has_inner = inner.weighed.std_px_q16 > 0;
         r->ambiguity_q16 = inner.ambiguity_q16;

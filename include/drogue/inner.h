@@ -4,8 +4,8 @@
 #define DROGUE_INNER_H
 
 #include "drogue/config.h"
+#include "drogue/decide.h"
 #include "drogue/frontend.h"
-#include "drogue/joint.h"
 #include "drogue/rays.h"
 
 #ifdef __cplusplus
@@ -121,6 +121,15 @@ typedef struct drogue_inner_evidence {
 void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge *edge, const drogue_region *region,
                         const drogue_inner_expected *expected, const drogue_ellipse *outline,
                         const drogue_pose poses[2], const drogue_setup *setup);
+
+/* What the disc says, as a part of a frame's evidence. */
+static inline void drogue_inner_testify(drogue_evidence *out, const drogue_inner_evidence *inner)
+{
+    out->inner = inner->weighed;
+    out->nearer = inner->nearer;
+    out->doubt_q16 = inner->doubt_q16;
+    out->too_far_q16 = inner->too_far_q16;
+}
 
 /* Look for the inner disc about a region's middle, where no outline says where it is and how large: a dark circle of
  * which 24 of 32 rays see the edge, from the place among 13 whose rays see the steepest one. Two where another lies
