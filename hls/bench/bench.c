@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "bench.h"
 
+#include "config_words.h"
+
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -178,6 +180,17 @@ drogue_region bench_region(const conf_case *c)
     region.width_px = w[2];
     region.height_px = w[3];
     return region;
+}
+
+drogue_config bench_config(const conf_case *c)
+{
+    const conf_array *moved = bench_input(c, "config");
+    drogue_config config;
+    drogue_config_default(&config);
+    if (moved != NULL) {
+        conf_config_take(&config, bench_words32(moved));
+    }
+    return config;
 }
 
 int bench_place(drogue_region *part, drogue_mask *mask, const drogue_image *image, const drogue_region *region)

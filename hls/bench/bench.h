@@ -15,6 +15,7 @@
 #define DROGUE_HLS_BENCH_H
 
 #include "conformance.h"
+#include "drogue/config.h"
 #include "drogue/mask.h"
 
 typedef struct bench {
@@ -57,11 +58,12 @@ const conf_array *bench_expected(const conf_case *c, const char *name); /* of th
 
 static inline const int32_t *bench_words32(const conf_array *a) { return (const int32_t *)a->data; }
 
-/* Image, camera, model, region of a case of stage 'frame' (image and camera: of any stage that has them). */
+/* Image, camera, model, region, thresholds of a case of stage 'frame' (image and camera: of any stage that has them). */
 drogue_image bench_image(const conf_case *c);
 drogue_camera bench_camera(const conf_case *c);
 drogue_model bench_model(const conf_case *c);
 drogue_region bench_region(const conf_case *c);
+drogue_config bench_config(const conf_case *c);
 
 /* The part of a region within the image, its sides 0 or less when there is none, and the mask of the whole region in the
  * part's coordinates. Returns 0 when drogue_measure() takes no region of such sides. */

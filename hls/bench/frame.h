@@ -55,7 +55,7 @@ static inline int frame_read(frame *f, const conf_case *c)
     f->p.camera = bench_camera(c);
     f->p.model = bench_model(c);
     f->asked = bench_region(c);
-    drogue_config_default(&f->p.config);
+    f->p.config = bench_config(c);
     if (!frame_place(f)) {
         return 0;
     }

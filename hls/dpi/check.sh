@@ -8,7 +8,7 @@ cd "$(dirname "$0")/../.."
 root=$PWD
 work=$root/build/dpi
 mkdir -p "$work/objects"
-warnings=(-pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Wvla -Wshadow -Werror)
+warnings=(-pedantic -Wall -Wextra -Wconversion -Wsign-conversion -Wvla -Wshadow -Wno-unknown-pragmas -Werror)
 
 core_files "$root" '*.c' >"$work/sources"
 echo "$root/hls/dpi/drogue_dpi.c" >>"$work/sources"
@@ -28,9 +28,10 @@ run() {
     local size
     size=$(python3 -c 'import json, sys
 case = next(c for c in json.load(open("vectors/manifest.json"))["cases"] if c["id"] == "frame/" + sys.argv[1])
-print("+width=%(width)d +height=%(height)d" % case["inputs"][0])' "$1")
+config = " +config" * (case["inputs"][-1]["name"] == "config")
+print("+width=%(width)d +height=%(height)d" % case["inputs"][0] + config)' "$1")
     "$work/make_images" --raw "vectors/frame/$1.image.png" | od -A n -v -t x1 -w1 >"$work/image.hex"
-    # shellcheck disable=SC2086 # two words
+    # shellcheck disable=SC2086 # two words or three
     "$work/frame/frame" "+dir=$2" "+case=$1" "+image=$work/image.hex" $size
 }
 

@@ -5,11 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "drogue/drogue.h"
+#include "../words.h"
+
+/* The registers of the thresholds follow one another. */
+typedef char as_many_registers[DROGUE_HLS_P_MIN_CHI2_GAP - DROGUE_HLS_P_CANNY_LOW + 1 == DROGUE_DPI_THRESHOLDS ? 1 : -1];
 
 typedef struct model {
     drogue_workspace workspace;
     drogue_result result;
+    drogue_config config;
     int32_t width_px;
     int32_t height_px;
     uint8_t *pixels;
@@ -40,6 +44,7 @@ void *drogue_dpi_open(int width, int height)
     }
     m->width_px = width;
     m->height_px = height;
+    drogue_config_default(&m->config);
     /* A label and an edge point a pixel are the most that any image can ask for. */
     capacity.width_px = (uint32_t)width;
     capacity.edges = (uint32_t)width * (uint32_t)height;
@@ -70,6 +75,21 @@ void drogue_dpi_image(void *handle, const unsigned char *grey)
     memcpy(m->pixels, grey, (size_t)m->width_px * (size_t)m->height_px);
 }
 
+int drogue_dpi_thresholds(void *handle, const int words[DROGUE_DPI_THRESHOLDS])
+{
+    model *m = handle;
+    int32_t registers[DROGUE_HLS_PARAMETERS];
+    drogue_hls_parameters p;
+    memset(registers, 0, sizeof registers);
+    memcpy(registers + DROGUE_HLS_P_CANNY_LOW, words, DROGUE_DPI_THRESHOLDS * sizeof *registers);
+    drogue_hls_unpack_parameters(&p, registers);
+    if (!drogue_config_valid(&p.config)) {
+        return 0;
+    }
+    m->config = p.config;
+    return 1;
+}
+
 int drogue_dpi_measure(void *handle, const int camera[9], const int model_words[3], const int region_words[4])
 {
     model *m = handle;
@@ -78,12 +98,10 @@ int drogue_dpi_measure(void *handle, const int camera[9], const int model_words[
                              camera[5], camera[6], camera[7], camera[8]};
     const drogue_model drogue = {model_words[0], model_words[1], model_words[2]};
     const drogue_region region = {region_words[0], region_words[1], region_words[2], region_words[3]};
-    drogue_config config;
     drogue_setup setup;
-    drogue_config_default(&config);
     setup.camera = &c;
     setup.model = &drogue;
-    setup.config = &config;
+    setup.config = &m->config;
     return (int)drogue_measure(&m->result, &m->workspace, &setup, &image, &region);
 }
 

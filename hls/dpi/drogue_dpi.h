@@ -23,7 +23,16 @@ void drogue_dpi_put(void *handle, int x, int y, int grey);
 /* Set all pixels, width * height grey levels by rows: for callers that have them as an array. */
 void drogue_dpi_image(void *handle, const unsigned char *grey);
 
-/* Measure the image with the library's default thresholds.
+#define DROGUE_DPI_THRESHOLDS 42
+
+/* From now on measure with these thresholds instead of the defaults.
+ *
+ *  words   every one in the order of drogue_config, as 'config' of the vectors has them
+ *  return  1; 0, and nothing is changed, when one is outside its range
+ */
+int drogue_dpi_thresholds(void *handle, const int words[DROGUE_DPI_THRESHOLDS]);
+
+/* Measure the image.
  *
  *  camera  fx fy cx cy k1 k2 p1 p2 k3, Q16
  *  model   radius of the rim, of the inner part, its depth, m Q16

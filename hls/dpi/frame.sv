@@ -5,7 +5,7 @@ module frame;
     `include "drogue_dpi.svh"
 
     logic [7:0] pixels[2048 * 2048];
-    int camera[9], model[3], region[4], expected[38], ellipse[5], pose[8], alternative[8];
+    int camera[9], model[3], region[4], thresholds[42], expected[38], ellipse[5], pose[8], alternative[8];
     string dir, name, image;
     int width, height, status, wrong;
     chandle drogue;
@@ -28,6 +28,10 @@ module frame;
         $readmemh({dir, "/frame/", name, ".frame.out.hex"}, expected);
         drogue = drogue_dpi_open(width, height);
         if (drogue == null) $fatal(1, "frame: no model");
+        if ($test$plusargs("config")) begin
+            $readmemh({dir, "/frame/", name, ".config.hex"}, thresholds);
+            if (drogue_dpi_thresholds(drogue, thresholds) != 1) $fatal(1, "frame: thresholds");
+        end
         for (int y = 0; y < height; y++)
             for (int x = 0; x < width; x++)
                 drogue_dpi_put(drogue, x, y, {24'b0, pixels[y * width + x]});

@@ -178,19 +178,18 @@ static void check_frame(bench *b, const conf_case *c)
 {
     const drogue_image image = bench_image(c);
     const drogue_region region = bench_region(c);
-    drogue_config defaults;
+    const drogue_config of_case = bench_config(c);
     drogue_frontend_config config;
     drogue_region part;
     if (!bench_place(&part, &config.ring, &image, &region)) {
         bench_skip(b, "no region");
         return;
     }
-    drogue_config_default(&defaults);
-    config.canny_low = defaults.canny_low;
-    config.canny_high = defaults.canny_high;
-    config.smooth = defaults.smooth;
+    config.canny_low = of_case.canny_low;
+    config.canny_high = of_case.canny_high;
+    config.smooth = of_case.smooth;
     config.use_ring = 1;
-    config.min_arc_px = defaults.min_arc_px;
+    config.min_arc_px = of_case.min_arc_px;
     part.width_px = smaller(part.width_px, DROGUE_HLS_WIDTH);
     part.height_px = smaller(part.height_px, DROGUE_HLS_HEIGHT);
     if (part.width_px > 0 && part.height_px > 0) {

@@ -92,6 +92,10 @@ void run_case(bench *b, System *s, const conf_case *c)
     const drogue_image image = bench_image(c);
     const order o = {bench_camera(c), bench_model(c), bench_region(c), image.width_px, image.height_px};
     drogue_result result;
+    if (bench_input(c, "config") != NULL) {
+        bench_skip(b, "the firmware has the default thresholds");
+        return;
+    }
     if (image.width_px * image.height_px > WIDEST * WIDEST) {
         bench_skip(b, "larger than the frame memory");
         return;

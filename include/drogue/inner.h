@@ -104,7 +104,8 @@ typedef struct drogue_inner_evidence {
     drogue_q16 ambiguity_q16;
     /* 1: a disc is seen that would be believed but for its size, which is too large for the outline */
     int32_t too_large;
-    uint32_t nearer;        /* index of the pose whose projected inner centre is nearer, believed or not */
+    uint32_t nearer;        /* index of the pose whose projected inner centre is nearer, believed or not; 0 of a part
+                               that is smaller than min_inner_area */
     drogue_q16 doubt_q16;   /* share by which the disc's size puts the distance in doubt */
     drogue_q16 too_far_q16; /* share by which size and place say that the outline's pose is too far */
 } drogue_inner_evidence;

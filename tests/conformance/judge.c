@@ -88,6 +88,10 @@ static void judge_file(tally *t, const char *folder, const conf_array *expected,
     size_t i;
     t->files++;
     if (!find_result(path, folder, file)) {
+        if (expected->count == 0) { /* no simulator writes a memory without words */
+            t->equal++;
+            return;
+        }
         printf("MISSING %s\n", file);
         t->missing++;
         return;
@@ -111,9 +115,11 @@ static void judge_file(tally *t, const char *folder, const conf_array *expected,
     }
 }
 
-static int is_folder(const char *path)
+/* Is it a folder, and not that of the vectors, in which all that is expected is found? */
+static int is_folder(const char *path, const char *own)
 {
     struct stat s;
+    struct stat of;
     if (stat(path, &s) != 0) {
         fprintf(stderr, "conformance: %s: %s\n", path, strerror(errno));
         return 0;
@@ -122,15 +128,19 @@ static int is_folder(const char *path)
         fprintf(stderr, "conformance: %s: is no folder\n", path);
         return 0;
     }
+    if (stat(own, &of) == 0 && s.st_dev == of.st_dev && s.st_ino == of.st_ino) {
+        fprintf(stderr, "conformance: %s: is the folder of the vectors: what is expected would be judged\n", path);
+        return 0;
+    }
     return 1;
 }
 
-int judge(const vectors *v, const char *what, const char *folder)
+int judge(const vectors *v, const char *what, const char *folder, const char *own)
 {
     tally t = {0, 0, 0, 0};
     size_t i;
     int k;
-    if (!is_folder(folder)) {
+    if (!is_folder(folder, own)) {
         return 2;
     }
     for (i = 0; i < v->count; i++) {

@@ -98,6 +98,7 @@ expect 2 judge nothing "$same" : "no stage and no case is named 'nothing'"
 expect 2 judge arcs : 'usage:'
 expect 2 judge arcs "$work/nowhere" : "conformance: $work/nowhere: No such file"
 [ "$(wc -l <"$work/out")" = 1 ] || { echo 'judge: a folder that is not there gives more than a line'; status=1; }
+expect 2 judge arcs "$work/vectors" : "conformance: $work/vectors: is the folder of the vectors"
 expect 2 judge arcs "$readme" : "conformance: $readme: is no folder"
 expect 2 nonsense : 'usage:'
 expect 2 --stage nothing : 'there is no stage nothing'

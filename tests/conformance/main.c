@@ -89,7 +89,7 @@ int main(int argc, char **argv)
     if (!vectors_read(&v, directory)) {
         status = 2;
     } else if (judging) {
-        status = judge(&v, argv[optind + 1], argv[optind + 2]);
+        status = judge(&v, argv[optind + 1], argv[optind + 2], directory);
     } else {
         status = list ? list_cases(&v, stage) : run_cases(&v, stage);
     }

@@ -8,11 +8,13 @@
 #include "drogue/drogue.h"
 #include "drogue/support.h"
 
-#define STAGE_MAX_BUFFERS 8
+#define STAGE_MAX_BUFFERS 9
 
 /* Run in progress. */
 typedef struct stage_run {
     const conf_array *in;
+    int in_count;
+    drogue_image image; /* the first input, its rows apart, where the stage takes an image */
     conf_array *out;
     int out_capacity;
     int out_count;
@@ -32,9 +34,8 @@ void *stage_output(stage_run *r, const char *name, int bits, size_t count);
 int32_t *stage_output32(stage_run *r, const char *name, size_t count); /* all 0 */
 uint8_t *stage_output_image(stage_run *r, const char *name, int32_t width_px, int32_t height_px);
 
-/* Inputs: words of a 32-bit one, and the first one as an image. */
+/* Words of a 32-bit input. */
 const int32_t *stage_input32(const stage_run *r, int i);
-drogue_image stage_input_image(const stage_run *r);
 
 /* Words to structs and back; stage_put_* return where to go on. */
 drogue_ellipse stage_ellipse(const int32_t *words);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Table of the stages, check of their inputs, and the guarded static memory they run in. */
+#include "config_words.h"
 #include "stage_run.h"
 
 #include <string.h>
@@ -12,7 +13,7 @@
     (DROGUE_WORKSPACE_BYTES(DROGUE_MAX_SIDE, CONF_MAX_EDGES, CONF_MAX_LABELS, CONF_MAX_ARCS) + 12u + \
      CONF_MAX_EDGES * 32u)
 #define GRADIENT_BYTES (CONF_MAX_PIXELS * 6u)
-#define MEMORY_BYTES ((ARCS_BYTES > GRADIENT_BYTES ? ARCS_BYTES : GRADIENT_BYTES) + GUARD_SLACK)
+#define MEMORY_BYTES (CONF_MAX_IMAGE + (ARCS_BYTES > GRADIENT_BYTES ? ARCS_BYTES : GRADIENT_BYTES) + GUARD_SLACK)
 
 static union {
     int64_t align;
@@ -111,14 +112,29 @@ uint8_t *stage_output_image(stage_run *r, const char *name, int32_t width_px, in
 
 const int32_t *stage_input32(const stage_run *r, int i) { return (const int32_t *)r->in[i].data; }
 
-drogue_image stage_input_image(const stage_run *r)
+#define APART 5 /* bytes between an image's rows, which are no pixels */
+
+/* The first input as an image; 0 when it does not fit. */
+static int take_image(stage_run *r)
 {
-    drogue_image image;
-    image.data = (const uint8_t *)r->in[0].data;
-    image.width_px = r->in[0].width_px;
-    image.height_px = r->in[0].height_px;
-    image.stride = image.width_px;
-    return image;
+    const conf_array *in = &r->in[0];
+    const size_t stride = (size_t)in->width_px + APART;
+    uint8_t *rows = stride * (size_t)in->height_px <= CONF_MAX_IMAGE
+                        ? (uint8_t *)stage_take(r, stride * (size_t)in->height_px)
+                        : NULL;
+    int32_t y;
+    if (rows == NULL) {
+        return 0;
+    }
+    r->image.data = rows;
+    r->image.width_px = in->width_px;
+    r->image.height_px = in->height_px;
+    r->image.stride = in->width_px + APART;
+    for (y = 0; y < in->height_px; y++) {
+        memcpy(rows + (size_t)y * stride, (const uint8_t *)in->data + (size_t)y * (size_t)in->width_px,
+               (size_t)in->width_px);
+    }
+    return 1;
 }
 
 drogue_ellipse stage_ellipse(const int32_t *words)
@@ -186,12 +202,15 @@ int stage_mask(drogue_mask *mask, const int32_t *words)
 
 /* --- table of the stages --- */
 
-/* An input: an image (bits 0), a fixed number of words, or a list of items of 'words' words each. */
+typedef enum input_kind { FIXED, LIST, OPTIONAL } input_kind;
+
+/* An input: an image (bits 0), a fixed number of words, a list of items of 'words' words each, or a fixed number that a
+ * case may lack, behind all others. */
 typedef struct input_spec {
     const char *name;
     int bits;
     uint32_t words;
-    int list;
+    input_kind kind;
 } input_spec;
 
 typedef struct stage_spec {
@@ -201,31 +220,37 @@ typedef struct stage_spec {
 } stage_spec;
 
 static const stage_spec stages[] = {
-    {"smooth", stage_smooth, {{"image", 0, 0, 0}}},
-    {"gradient", stage_gradient, {{"image", 0, 0, 0}}},
-    {"canny", stage_canny, {{"image", 0, 0, 0}, {"params", 32, 3, 0}}},
-    {"mask", stage_mask_images, {{"params", 32, 5, 0}}},
-    {"arcs", stage_arcs, {{"image", 0, 0, 0}, {"params", 32, 8, 0}}},
-    {"constraints", stage_constraints, {{"points", 16, 2, 1}, {"params", 32, 5, 0}}},
-    {"select", stage_select, {{"points", 16, 2, 1}, {"arcs", 32, 2, 1}, {"params", 32, 5, 0}}},
-    {"ellipse", stage_ellipse_fit, {{"points", 16, 2, 1}, {"params", 32, 1, 0}}},
-    {"quality", stage_quality, {{"ellipse", 32, 5, 0}, {"points", 32, 2, 1}, {"params", 32, 3, 0}}},
-    {"support", stage_support, {{"ellipse", 32, 5, 0}, {"edges", 32, 4, 1}, {"params", 32, 4, 0}}},
-    {"cluster", stage_cluster, {{"candidates", 32, 7, 1}, {"config", 32, 5, 0}}},
-    {"eigen", stage_eigen, {{"matrix", 64, 6, 0}}},
-    {"undistort", stage_undistort, {{"camera", 32, 9, 0}, {"points", 32, 2, 1}}},
-    {"pose", stage_pose, {{"ellipse", 32, 5, 0}, {"camera", 32, 9, 0}, {"params", 32, 4, 0}}},
-    {"joint", stage_joint, {{"ellipse", 32, 5, 0}, {"camera", 32, 9, 0}, {"bins", 32, 64, 0}, {"params", 32, 15, 0}}},
-    {"kalman", stage_kalman, {{"params", 32, 26, 0}, {"frames", 32, 10, 1}}},
-    {"frame", stage_frame, {{"image", 0, 0, 0}, {"camera", 32, 9, 0}, {"model", 32, 3, 0}, {"region", 32, 4, 0}}},
-    {"decide", stage_decide, {{"ellipse", 32, 5, 0}, {"camera", 32, 9, 0}, {"bins", 32, 64, 0}, {"params", 32, 30, 0}}},
-    {"look", stage_look, {{"image", 0, 0, 0}, {"camera", 32, 9, 0}, {"model", 32, 3, 0}, {"params", 32, 9, 0}}},
-    {"rim", stage_rim, {{"image", 0, 0, 0}, {"disc", 32, 4, 0}}},
-    {"search", stage_search, {{"image", 0, 0, 0}, {"params", 32, 1, 0}}},
-    {"acquire", stage_acquire, {{"image", 0, 0, 0}, {"camera", 32, 9, 0}, {"model", 32, 3, 0}, {"params", 32, 8, 0}}},
+    {"smooth", stage_smooth, {{"image", 0, 0, FIXED}}},
+    {"gradient", stage_gradient, {{"image", 0, 0, FIXED}}},
+    {"canny", stage_canny, {{"image", 0, 0, FIXED}, {"params", 32, 3, FIXED}}},
+    {"mask", stage_mask_images, {{"params", 32, 5, FIXED}}},
+    {"arcs", stage_arcs, {{"image", 0, 0, FIXED}, {"params", 32, 8, FIXED}}},
+    {"constraints", stage_constraints, {{"points", 16, 2, LIST}, {"params", 32, 5, FIXED}}},
+    {"select", stage_select, {{"points", 16, 2, LIST}, {"arcs", 32, 2, LIST}, {"params", 32, 5, FIXED}}},
+    {"ellipse", stage_ellipse_fit, {{"points", 16, 2, LIST}, {"params", 32, 1, FIXED}}},
+    {"quality", stage_quality, {{"ellipse", 32, 5, FIXED}, {"points", 32, 2, LIST}, {"params", 32, 3, FIXED}}},
+    {"support", stage_support, {{"ellipse", 32, 5, FIXED}, {"edges", 32, 4, LIST}, {"params", 32, 4, FIXED}}},
+    {"cluster", stage_cluster, {{"candidates", 32, 7, LIST}, {"config", 32, 5, FIXED}}},
+    {"eigen", stage_eigen, {{"matrix", 64, 6, FIXED}}},
+    {"undistort", stage_undistort, {{"camera", 32, 9, FIXED}, {"points", 32, 2, LIST}}},
+    {"pose", stage_pose, {{"ellipse", 32, 5, FIXED}, {"camera", 32, 9, FIXED}, {"params", 32, 4, FIXED}}},
+    {"joint", stage_joint, {{"ellipse", 32, 5, FIXED}, {"camera", 32, 9, FIXED}, {"bins", 32, 64, FIXED}, {"params", 32, 15, FIXED}}},
+    {"kalman", stage_kalman, {{"params", 32, 26, FIXED}, {"frames", 32, 10, LIST}}},
+    {"frame",
+     stage_frame,
+     {{"image", 0, 0, FIXED},
+      {"camera", 32, 9, FIXED},
+      {"model", 32, 3, FIXED},
+      {"region", 32, 4, FIXED},
+      {"config", 32, CONF_CONFIG_WORDS, OPTIONAL}}},
+    {"decide", stage_decide, {{"ellipse", 32, 5, FIXED}, {"camera", 32, 9, FIXED}, {"bins", 32, 64, FIXED}, {"params", 32, 30, FIXED}}},
+    {"look", stage_look, {{"image", 0, 0, FIXED}, {"camera", 32, 9, FIXED}, {"model", 32, 3, FIXED}, {"params", 32, 9, FIXED}}},
+    {"rim", stage_rim, {{"image", 0, 0, FIXED}, {"disc", 32, 4, FIXED}}},
+    {"search", stage_search, {{"image", 0, 0, FIXED}, {"params", 32, 1, FIXED}}},
+    {"acquire", stage_acquire, {{"image", 0, 0, FIXED}, {"camera", 32, 9, FIXED}, {"model", 32, 3, FIXED}, {"params", 32, 8, FIXED}}},
     {"track",
      stage_track,
-     {{"setup", 32, 16, 0}, {"config", 32, 24, 0}, {"frames", 32, 17, 1}, {"covariance", 64, 15, 1}}},
+     {{"setup", 32, 16, FIXED}, {"config", 32, 24, FIXED}, {"frames", 32, 17, LIST}, {"covariance", 64, 15, LIST}}},
 };
 
 int conf_stage_count(void) { return (int)(sizeof stages / sizeof stages[0]); }
@@ -244,13 +269,16 @@ static int input_meets(const conf_array *a, const input_spec *spec)
     if (a->bits != spec->bits || a->width_px != 0 || a->height_px != 0) {
         return 0;
     }
-    return spec->list ? a->count % spec->words == 0 : a->count == spec->words;
+    return spec->kind == LIST ? a->count % spec->words == 0 : a->count == spec->words;
 }
 
 static int inputs_meet(const conf_array *inputs, int count, const stage_spec *spec)
 {
     int i;
     for (i = 0; i < CONF_MAX_INPUTS && spec->inputs[i].name != NULL; i++) {
+        if (i >= count && spec->inputs[i].kind == OPTIONAL) {
+            return 1;
+        }
         if (i >= count || !input_meets(&inputs[i], &spec->inputs[i])) {
             return 0;
         }
@@ -270,8 +298,12 @@ int conf_run_stage(const char *stage, const conf_array *inputs, int input_count,
     }
     memset(&r, 0, sizeof r);
     r.in = inputs;
+    r.in_count = input_count;
     r.out = outputs;
     r.out_capacity = output_capacity;
+    if (stages[i].inputs[0].bits == 0 && !take_image(&r)) {
+        return CONF_E_MEMORY;
+    }
     failure = stages[i].run(&r);
     if (!guards_hold(&r)) {
         return CONF_E_GUARD;

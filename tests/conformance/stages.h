@@ -17,6 +17,7 @@ extern "C" {
 #define CONF_MAX_LABELS 8192
 #define CONF_MAX_ARCS 1024
 #define CONF_MAX_PIXELS 65536 /* image of the stages that write one: smooth, gradient, canny, mask */
+#define CONF_MAX_IMAGE 262144 /* bytes of an input image whose rows are apart */
 #define CONF_MAX_CANDIDATES 64
 
 /* Array of words: input of a stage, its output, or an expected output. */
@@ -47,7 +48,7 @@ enum {
     CONF_E_GUARD = -3      /* the library wrote behind a buffer */
 };
 
-#define CONF_MAX_INPUTS 4
+#define CONF_MAX_INPUTS 5
 #define CONF_MAX_OUTPUTS 4
 
 /* Run a stage. All words are 32 bits wide where no width is given; Q16 where no format is given.
@@ -82,7 +83,7 @@ enum {
  *  cluster      candidates: xc yc a b angle reliability polarity each; config: centre a b angle round
  *               -> winner: index members
  *  eigen        matrix (64 bits): a00 a01 a02 a11 a12 a22
- *               -> values: 3, matrix's unit * 2^30; vectors: 3 x 3, Q30; full (64 bits): both unrounded, vectors Q60
+ *               -> values: 3, matrix's unit * 2^30; vectors: 3 x 3, Q30; full: mantissa and exponent of each value
  *  undistort    camera: fx fy cx cy k1 k2 p1 p2 k3; points: x y
  *               -> undistorted: status x y each; distorted: status x y each; on failure x y as given
  *  pose         ellipse; camera; params: radius depth inner_x inner_y
@@ -96,7 +97,7 @@ enum {
  *               frames: value 5, std 5 each (all five std 0: frame missed, predicted only)
  *               -> states: per frame value 5, rate 5, acceleration 5; parameters in the order x y z pitch yaw
  *  frame        image; camera; model: rim_radius inner_radius inner_depth; region: x y width height (px);
- *               default thresholds
+ *               config, where they are not the defaults: every threshold in the order of drogue_config
  *               -> frame: status, ellipse 5, ideal 5, polarity, bit set of quadrants with an arc, refit_points,
  *                  has_inner, inner x y area threshold spread, pose 8, alternative 8, resolved, ambiguity;
  *                  detail: region 4, edge_count arc_count, arc of each quadrant (-1: none),

@@ -6,7 +6,7 @@
 
 int stage_smooth(stage_run *r)
 {
-    const drogue_image image = stage_input_image(r);
+    const drogue_image image = r->image;
     uint8_t *out = stage_output_image(r, "image", image.width_px, image.height_px);
     uint16_t *column = (uint16_t *)stage_take(r, (size_t)image.width_px * sizeof *column);
     if (out == NULL || column == NULL) {
@@ -17,7 +17,7 @@ int stage_smooth(stage_run *r)
 
 int stage_gradient(stage_run *r)
 {
-    const drogue_image image = stage_input_image(r);
+    const drogue_image image = r->image;
     size_t count = r->in[0].count;
     int16_t *gx = (int16_t *)stage_output(r, "gx", 16, count);
     int16_t *gy = (int16_t *)stage_output(r, "gy", 16, count);
@@ -45,7 +45,7 @@ static drogue_status run_frontend(drogue_edge_list *list, drogue_workspace *work
 
 int stage_canny(stage_run *r)
 {
-    const drogue_image image = stage_input_image(r);
+    const drogue_image image = r->image;
     const int32_t *p = stage_input32(r, 1);
     uint8_t *map = stage_output_image(r, "map", image.width_px, image.height_px);
     drogue_workspace workspace;
@@ -97,7 +97,7 @@ int stage_mask_images(stage_run *r)
 
 int stage_arcs(stage_run *r)
 {
-    const drogue_image image = stage_input_image(r);
+    const drogue_image image = r->image;
     const int32_t *p = stage_input32(r, 1);
     drogue_workspace workspace;
     drogue_frontend_config config;

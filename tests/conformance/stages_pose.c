@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Adapters of the stages behind the ellipse, and of the whole frame: undistort, pose, kalman, frame. */
+#include "config_words.h"
 #include "stage_run.h"
 
 #include <string.h>
@@ -186,7 +187,7 @@ void stage_put_result(int32_t frame[38], int32_t detail[18], int64_t covariance[
 
 int stage_frame(stage_run *r)
 {
-    const drogue_image image = stage_input_image(r);
+    const drogue_image image = r->image;
     const drogue_camera camera = stage_camera(stage_input32(r, 1));
     const int32_t *model_words = stage_input32(r, 2);
     const int32_t *region_words = stage_input32(r, 3);
@@ -211,6 +212,9 @@ int stage_frame(stage_run *r)
         return CONF_E_MEMORY;
     }
     drogue_config_default(&config);
+    if (r->in_count > 4) {
+        conf_config_take(&config, stage_input32(r, 4));
+    }
     (void)drogue_measure(&result, &workspace, &(drogue_setup){&camera, &model, &config}, &image, &region);
     stage_put_result(frame, detail, covariance, std, &result);
     return 0;

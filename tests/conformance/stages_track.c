@@ -37,7 +37,7 @@ static drogue_model model_of(const int32_t *words)
 
 int stage_rim(stage_run *r)
 {
-    const drogue_image image = stage_input_image(r);
+    const drogue_image image = r->image;
     const int32_t *p = stage_input32(r, 1);
     int32_t *out = stage_output32(r, "rims", 1 + 4 * DROGUE_RIMS);
     uint8_t *rows = (uint8_t *)stage_take(r, (size_t)image.width_px * DROGUE_SEARCH_ROWS);
@@ -53,7 +53,9 @@ int stage_rim(stage_run *r)
         return CONF_E_MALFORMED;
     }
     memset(&level, 0, sizeof level);
-    memcpy(rows, image.data, (size_t)image.width_px * (size_t)image.height_px);
+    for (i = 0; i < image.height_px; i++) {
+        memcpy(rows + i * image.width_px, drogue_image_row(&image, i), (size_t)image.width_px);
+    }
     level.rows = rows;
     level.width = image.width_px;
     level.rows_in = image.height_px;
@@ -94,7 +96,7 @@ static void put_sightings(int32_t *out, const drogue_sighting *sightings, int32_
 
 int stage_search(stage_run *r)
 {
-    const drogue_image image = stage_input_image(r);
+    const drogue_image image = r->image;
     int32_t *out = stage_output32(r, "sightings", 4 + 8 * (DROGUE_SEARCH_MAX + DROGUE_SEARCH_DARK));
     drogue_search search;
     int32_t y;
@@ -213,7 +215,7 @@ static int capacity_workspace(stage_run *r, drogue_workspace *workspace, const i
 
 int stage_look(stage_run *r)
 {
-    const drogue_image image = stage_input_image(r);
+    const drogue_image image = r->image;
     const drogue_camera camera = stage_camera(stage_input32(r, 1));
     const drogue_model model = model_of(stage_input32(r, 2));
     const int32_t *p = stage_input32(r, 3);
@@ -241,7 +243,7 @@ int stage_look(stage_run *r)
 
 int stage_acquire(stage_run *r)
 {
-    drogue_image image = stage_input_image(r);
+    drogue_image image = r->image;
     const drogue_camera camera = stage_camera(stage_input32(r, 1));
     const drogue_model model = model_of(stage_input32(r, 2));
     const int32_t *p = stage_input32(r, 3);

@@ -26,6 +26,8 @@ STATUSES = ['ok', 'argument', 'region', 'workspace', 'labels_full', 'edges_full'
 DEMO = drogue.Camera(1465.5, 1465.5, 403.5, 143.5)
 MODEL = drogue.Model(0.35, 0.12, 0.25)
 REGION = (152, 134, 214, 214)
+WHOLE = ('canny_low', 'canny_high', 'canny_least', 'smooth', 'transfer', 'min_arc_px', 'polarity', 'refit_rounds',
+         'min_inner_area_px', 'min_inner_contrast')
 
 
 def q(value, bits=16):
@@ -67,13 +69,20 @@ def digest(arrays):
     return sha.hexdigest()
 
 
+def thresholds_of(case):
+    """What a case says of the thresholds, which come in the order of the package's table."""
+    return {name: int(word) if name in WHOLE else word / 65536
+            for name, word in zip(drogue.thresholds(), case.inputs.get('config', []))}
+
+
 def test_every_frame_of_the_vectors_has_the_librarys_digest():
     ours, theirs, count = [], [], 0
     for case in drogue.vectors.load(VECTORS, stage='frame'):
         camera = drogue.Camera(*(case.inputs['camera'] / 65536))
         words = case.inputs['model'] / 65536
         try:
-            result = drogue.measure(case.inputs['image'], camera, drogue.Model(*words), case.inputs['region'].tolist())
+            result = drogue.measure(case.inputs['image'], camera, drogue.Model(*words), case.inputs['region'].tolist(),
+                                    thresholds_of(case))
         except ValueError:
             assert STATUSES[case.exact['frame'][0]] in ('argument', 'region'), case.id
             continue  # what the package refuses before the library can

@@ -63,6 +63,9 @@ public:
     accuracy::Random random(const std::string &name) const { return accuracy::Random(seed_of(stage_ + "/" + name)); }
     void add(const std::string &name, Tier tier, Flags flags, std::vector<Array> inputs);
 
+    /* What the C library answers to inputs of that stage. */
+    std::vector<Array> run(const std::vector<Array> &inputs) const;
+
     const std::vector<Case> &cases() const { return cases_; }
     /* Prints how far the C library is from the reference, stage by stage; false when a bound does not hold. */
     bool report() const;
@@ -102,6 +105,7 @@ void add_pose(Set &set);
 void add_joint(Set &set);
 void add_kalman(Set &set);
 void add_frame(Set &set, const std::string &scenes_folder);
+void add_config(Set &set); /* of stage frame, after its other cases */
 void add_decide(Set &set);
 void add_look(Set &set);
 void add_rim(Set &set);

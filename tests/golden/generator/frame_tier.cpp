@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "config_words.h"
 #include "frame_words.hpp"
 
 namespace vectors {
@@ -339,7 +340,12 @@ std::vector<Expected> frame_tier(const std::vector<Array> &in, const std::vector
         throw std::runtime_error("the frame stage's outputs are not those expected");
     }
     const Words &g = in[3].words;
-    const FrameWords f = frame_words::of(frame_words::task_of(in, {g[0], g[1], g[2], g[3]}), library_of(exact));
+    mirror::Task task = frame_words::task_of(in, {g[0], g[1], g[2], g[3]});
+    if (in.size() > 4) {
+        const std::vector<int32_t> words(in[4].words.begin(), in[4].words.end());
+        conf_config_take(&task.config, words.data());
+    }
+    const FrameWords f = frame_words::of(task, library_of(exact));
     const auto part = [](const auto &all, size_t from, size_t to) {
         return std::decay_t<decltype(all)>(all.begin() + static_cast<long>(from), all.begin() + static_cast<long>(to));
     };

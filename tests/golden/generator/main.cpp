@@ -153,6 +153,7 @@ int main(int argc, char **argv)
         add_joint(set);
         add_kalman(set);
         add_frame(set, (folder / "frame").string());
+        add_config(set);
         add_decide(set);
         add_look(set);
         add_rim(set);

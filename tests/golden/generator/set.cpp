@@ -238,6 +238,8 @@ double normal(accuracy::Random &random)
     return radius * std::cos(2 * CV_PI * accuracy::unit(random.next()));
 }
 
+std::vector<Array> Set::run(const std::vector<Array> &inputs) const { return run_library(stage_, stage_, inputs); }
+
 void Set::add(const std::string &name, Tier tier, Flags flags, std::vector<Array> inputs)
 {
     Case c{stage_, name, tier, std::move(flags), seed_of(stage_ + "/" + name), std::move(inputs), {}, {}};
