@@ -186,6 +186,7 @@ enum drogue_hls_result_word {
     DROGUE_HLS_R_TOO_LARGE, /* 1: the inner disc is too large for the outline, which drogue_measure() refuses unless
                                another try finds better */
     DROGUE_HLS_R_DOUBT,     /* share of the distance that is in the covariance */
+    DROGUE_HLS_R_HALVED,    /* so often are the covariance's entries halved */
     DROGUE_HLS_RESULT_WORDS
 };
 

@@ -66,6 +66,7 @@ static drogue_status decide(drogue_result *out, const drogue_evidence *evidence,
         out->alternative = decision.alternative;
         out->orientation_resolved = decision.orientation_resolved;
         memcpy(out->covariance_q48, decision.covariance_q48, sizeof out->covariance_q48);
+        out->covariance_halved = decision.covariance_halved;
         memcpy(out->position_std_m_q32, decision.position_std_m_q32, sizeof out->position_std_m_q32);
         out->axis_std_rad_q32 = decision.axis_std_rad_q32;
         out->doubt_q16 = decision.doubt_q16;

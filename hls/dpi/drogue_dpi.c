@@ -8,7 +8,8 @@
 #include "../words.h"
 
 /* The registers of the thresholds follow one another. */
-typedef char as_many_registers[DROGUE_HLS_P_MIN_CHI2_GAP - DROGUE_HLS_P_CANNY_LOW + 1 == DROGUE_DPI_THRESHOLDS ? 1 : -1];
+typedef char
+    as_many_registers[DROGUE_HLS_P_MIN_CHI2_GAP - DROGUE_HLS_P_CANNY_LOW + 1 == DROGUE_DPI_THRESHOLDS ? 1 : -1];
 
 typedef struct model {
     drogue_workspace workspace;

@@ -47,6 +47,7 @@ static inline void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covarianc
     words[DROGUE_HLS_R_AMBIGUITY] = inner->ambiguity_q16;
     words[DROGUE_HLS_R_TOO_LARGE] = inner->too_large;
     words[DROGUE_HLS_R_DOUBT] = r->doubt_q16;
+    words[DROGUE_HLS_R_HALVED] = r->covariance_halved;
     for (i = 0; i < 5; i++) {
         for (j = 0; j <= i; j++) {
             covariance[i * (i + 1) / 2 + j] = r->covariance_q48[i][j];

@@ -57,6 +57,7 @@ static void find_pose(frame *f)
         r->alternative = decision.alternative;
         r->orientation_resolved = decision.orientation_resolved;
         memcpy(r->covariance_q48, decision.covariance_q48, sizeof r->covariance_q48);
+        r->covariance_halved = decision.covariance_halved;
         memcpy(r->position_std_m_q32, decision.position_std_m_q32, sizeof r->position_std_m_q32);
         r->axis_std_rad_q32 = decision.axis_std_rad_q32;
         r->doubt_q16 = decision.doubt_q16;
@@ -83,6 +84,7 @@ static void compare(bench *b, const drogue_result *r)
     expected[DROGUE_HLS_R_AMBIGUITY] = r->ambiguity_q16;
     expected[DROGUE_HLS_R_TOO_LARGE] = too_large;
     expected[DROGUE_HLS_R_DOUBT] = r->doubt_q16;
+    expected[DROGUE_HLS_R_HALVED] = r->covariance_halved;
     for (i = 0; i < DROGUE_HLS_RESULT_WORDS; i++) {
         (void)bench_word(b, "result", result[i], expected[i]);
     }

@@ -27,8 +27,8 @@ typedef struct drogue_decision {
     drogue_pose alternative;      /* the other one that the outline allows */
     int32_t orientation_resolved; /* 1: the inner part decided between the two */
     drogue_q16 doubt_q16;         /* that is in the covariance, by drogue_doubt_add() */
-    int64_t covariance_q48[5][5]; /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric; a variance of 2^15 or more halves
-                                      all entries until it fits */
+    int32_t covariance_halved;    /* so often are all entries halved, for a variance of 2^15 or more to fit; mostly 0 */
+    int64_t covariance_q48[5][5]; /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric */
     int64_t position_std_m_q32[3]; /* roots of its first three diagonal entries, not halved, Q32 */
     int64_t axis_std_rad_q32;      /* root mean square angle between measured and true axis, Q32 */
 } drogue_decision;

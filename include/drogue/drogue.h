@@ -81,10 +81,10 @@ typedef struct drogue_result {
     drogue_pose pose;         /* the pose chosen; unresolved: the one nearer to what is dark inside, unproved */
     drogue_pose alternative;  /* the other one that the outline allows */
     int32_t orientation_resolved; /* 1: the inner part decided between the two */
-    drogue_q16 doubt_q16;     /* share of the distance that is in doubt by the inner part, [0, 1): in the covariance */
-    drogue_q16 ambiguity_q16; /* [0, 1]: nearer over farther distance of the projected inner centres; 1 without one */
-    int64_t covariance_q48[5][5]; /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric; a variance of 2^15 or more halves
-                                      all entries until it fits */
+    drogue_q16 doubt_q16;      /* share of the distance that is in doubt by the inner part, [0, 1): in the covariance */
+    drogue_q16 ambiguity_q16;  /* [0, 1]: nearer over farther distance of the projected inner centres; 1 without one */
+    int32_t covariance_halved; /* so often are all entries halved, for a variance of 2^15 or more to fit; mostly 0 */
+    int64_t covariance_q48[5][5];  /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric */
     int64_t position_std_m_q32[3]; /* roots of its first three diagonal entries, not halved, Q32 */
     int64_t axis_std_rad_q32;      /* root mean square angle between measured and true axis, Q32 */
 } drogue_result;

@@ -11,7 +11,7 @@ extern "C" {
 typedef enum drogue_status {
     DROGUE_OK = 0,
     DROGUE_E_ARGUMENT,    /* an argument is outside its documented range */
-    DROGUE_E_REGION,      /* the region does not meet the image, exceeds DROGUE_MAX_SIDE, or ends beyond pixel 32767 */
+    DROGUE_E_REGION,      /* the region does not meet the image, exceeds DROGUE_MAX_SIDE, or ends beyond pixel 32766 */
     DROGUE_E_WORKSPACE,   /* the workspace is too small for the region */
     DROGUE_E_LABELS_FULL, /* more components or arcs than the workspace holds */
     DROGUE_E_EDGES_FULL,  /* more edge points than the workspace holds */

@@ -58,6 +58,9 @@ static int read_matrix(drogue_camera *out, const keys *k, const form *f, const c
             return EXIT_BAD;
         }
     }
+    if (place_value(k, f->matrix, i) != NULL) {
+        return complain(path, "%s has more than %d numbers", f->matrix, i);
+    }
     if (f->is_matrix && (m[1] != 0 || m[3] != 0 || m[6] != 0 || m[7] != 0 || m[8] != DROGUE_Q16_ONE)) {
         return complain(path, "%s is not fx 0 cx 0 fy cy 0 0 1: skew is not modelled", f->matrix);
     }

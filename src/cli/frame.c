@@ -14,10 +14,8 @@ enum {
 /* Pixels of [start, start + size) inside [0, limit). */
 static int32_t overlap(int32_t start, int32_t size, int32_t limit)
 {
-    int64_t end = (int64_t)start + size;
-    int64_t first = start > 0 ? start : 0;
-    int64_t last = end < limit ? end : limit;
-    return last > first ? (int32_t)(last - first) : 0;
+    drogue_clip(&start, &size, limit);
+    return size;
 }
 
 int frame_workspace_fit(frame_workspace *w, const char *path, int32_t width_px, int32_t height_px, uint32_t min_arc_px)
@@ -163,7 +161,6 @@ int frame_measure(drogue_result *out, int *searched, frame_workspace *w, const o
     const drogue_setup setup = setup_of(o);
     drogue_image image = frame_image(grey);
     const int32_t width = overlap(region->x_px, region->width_px, grey->width_px);
-    drogue_result own;
     *searched = 0;
     if (frame_workspace_fit(w, path, room_for(region, grey->width_px), room_for(region, grey->height_px),
                             o->config.min_arc_px)) {
@@ -173,14 +170,12 @@ int frame_measure(drogue_result *out, int *searched, frame_workspace *w, const o
     if (!is_worth_searching(out->status)) {
         return EXIT_MEASURED;
     }
-    own = *out;
     if (fit_search(w, path, width)) {
         return EXIT_BAD;
     }
     (void)drogue_acquire(out, &w->search, &w->workspace, &setup, &image, region);
     *searched = out->status == DROGUE_OK;
     if (!*searched) { /* again, so that the workspace holds its points */
-        *out = own;
         (void)drogue_measure(out, &w->workspace, &setup, &image, region);
     }
     return EXIT_MEASURED;

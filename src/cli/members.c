@@ -122,7 +122,7 @@ static void put_uncertainty(const member_sink *s, const drogue_result *r, int kn
     for (i = 0; i < 5; i++) {
         s->begin(s->state, NULL, 1, known);
         for (j = 0; j < 5; j++) {
-            put_binary(s, r->covariance_q48[i][j], 48, known);
+            put_binary(s, r->covariance_q48[i][j], 48 - r->covariance_halved, known);
         }
         s->end(s->state);
     }

@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <getopt.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -245,7 +246,9 @@ static int parse_option(options *out, uint64_t thresholds[2], int option, const 
     case OPTION_MIN_RELIABILITY: return parse_share(&out->min_reliability_q16, "--min-reliability", value);
     case OPTION_SET: return settings_set(&out->config, value);
     case OPTION_RAW: return raw_parse(&out->raw, value);
-    case OPTION_OVERLAY: out->overlay = value; return EXIT_MEASURED;
+    case OPTION_OVERLAY:
+        out->overlay = value;
+        return *value != '\0' ? EXIT_MEASURED : complain("--overlay", "has no name");
     case OPTION_FPS: return parse_rate(&out->rate, value);
     case OPTION_MAX_MISSED: out->max_missed_given = 1; return parse_max_missed(&out->max_missed, value);
     case OPTION_LOW: return numbers_billionths(&thresholds[0], "--low", value);
@@ -300,6 +303,7 @@ int options_parse(options *out, int argc, char **argv)
     out->model.rim_radius_m_q16 = DROGUE_Q16_ONE;
     out->rate = 30 * BILLION;
     opterr = 0;
+    (void)unsetenv("POSIXLY_CORRECT"); /* by which options end at the first operand */
     drogue_config_default(&out->config);
     while ((option = getopt_long(argc, argv, SHORT_OPTIONS, LONG_OPTIONS, NULL)) != -1) {
         switch (option) {

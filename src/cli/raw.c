@@ -27,6 +27,7 @@ int raw_parse(raw_format *out, const char *text)
         return complain("--raw", "%dx%d pixels are more than the %u that are read", out->width_px, out->height_px,
                         PICTURE_MAX_PIXELS);
     }
+    out->kind = RAW_NONE;
     for (kind = RAW_GRAY8; kind <= RAW_YUYV; kind++) {
         if (strcmp(name + 1, NAMES[kind]) == 0) {
             out->kind = (raw_kind)kind;

@@ -21,10 +21,11 @@ static void put_covariance(drogue_decision *out, const drogue_joint *joint)
         const int32_t own = joint->covariance[DROGUE_PACKED(i, i)].exponent + 31;
         top = own > top ? own : top;
     }
+    out->covariance_halved = top - MOST_BITS;
     for (i = 0; i < 5; i++) {
         for (j = 0; j < 5; j++) {
             out->covariance_q48[i][j] =
-                drogue_real_to_s64(joint->covariance[DROGUE_PACKED(i, j)], 48 + MOST_BITS - top);
+                drogue_real_to_s64(joint->covariance[DROGUE_PACKED(i, j)], 48 - out->covariance_halved);
         }
     }
     for (i = 0; i < 3; i++) {

@@ -168,7 +168,8 @@ py::dict from_result(const drogue_result &r)
     }
     for (int i = 0; i < 5; i++) {
         for (int j = 0; j < 5; j++) {
-            covariance.mutable_at(i, j) = std::ldexp(static_cast<double>(r.covariance_q48[i][j]), -48);
+            covariance.mutable_at(i, j) =
+                std::ldexp(static_cast<double>(r.covariance_q48[i][j]), r.covariance_halved - 48);
         }
     }
     for (int i = 0; i < 3; i++) {

@@ -16,11 +16,13 @@ void drogue_sightings_keep(drogue_sighting *best, int32_t *count, int32_t most, 
 {
     int32_t lowest = 0;
     int32_t i;
+    for (i = 0; i < *count; i++) {
+        if (best[i].score >= c->score && same_outline(&best[i], c)) {
+            return;
+        }
+    }
     for (i = *count - 1; i >= 0; i--) {
         if (same_outline(&best[i], c)) {
-            if (best[i].score >= c->score) {
-                return;
-            }
             (*count)--;
             best[i] = best[*count];
         }

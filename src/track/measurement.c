@@ -25,10 +25,10 @@ static void configured_noise(drogue_measurement *m, const drogue_track_config *c
 static const int order[DROGUE_PARAMETERS] = {0, 1, 2, 4, 3};
 
 /* What an unresolved result's covariance holds of the two poses' distance (decide.h): half the product of two of its
- * components, Q48. */
-static int64_t half_product_q48(const int64_t apart_q16[DROGUE_PARAMETERS], int p, int q)
+ * components, Q48, halved as often as the covariance. */
+static int64_t half_product_q48(const int64_t apart_q16[DROGUE_PARAMETERS], int p, int q, const drogue_result *result)
 {
-    return apart_q16[p] * apart_q16[q] * (1 << 15);
+    return drogue_shr_round_s64(apart_q16[p] * apart_q16[q] * (1 << 15), result->covariance_halved);
 }
 
 static int64_t clamped(int64_t v, int64_t most) { return v < -most ? -most : v > most ? most : v; }
@@ -53,7 +53,7 @@ static void twins_apart(int64_t apart_q16[DROGUE_PARAMETERS], const drogue_resul
         apart_q16[p] = clamped(apart_q16[p], most);
     }
     for (p = 0; p < DROGUE_PARAMETERS; p++) {
-        if (result->covariance_q48[order[p]][order[p]] <= half_product_q48(apart_q16, p, p)) {
+        if (result->covariance_q48[order[p]][order[p]] <= half_product_q48(apart_q16, p, p, result)) {
             memset(apart_q16, 0, DROGUE_PARAMETERS * sizeof *apart_q16);
             return;
         }
@@ -64,12 +64,13 @@ static void twins_apart(int64_t apart_q16[DROGUE_PARAMETERS], const drogue_resul
 static void doubt_held(drogue_real doubt[DROGUE_DOUBT_PACKED], const drogue_result *result,
                        const int64_t apart_q16[DROGUE_PARAMETERS], drogue_q16 rim_radius_m_q16)
 {
+    const int exponent = result->covariance_halved - 48;
     int p;
     memset(doubt, 0, DROGUE_DOUBT_PACKED * sizeof *doubt);
     drogue_doubt_add(doubt, result->pose.position_m_q16, result->doubt_q16, rim_radius_m_q16);
     for (p = 0; p < 3; p++) {
         drogue_real own;
-        drogue_real_set(&own, result->covariance_q48[p][p] - half_product_q48(apart_q16, p, p), -48);
+        drogue_real_set(&own, result->covariance_q48[p][p] - half_product_q48(apart_q16, p, p, result), exponent);
         if (drogue_real_order(&doubt[DROGUE_PACKED(p, p)], &own) >= 0) {
             memset(doubt, 0, DROGUE_DOUBT_PACKED * sizeof *doubt);
             return;
@@ -83,6 +84,7 @@ static void doubt_held(drogue_real doubt[DROGUE_DOUBT_PACKED], const drogue_resu
 static void measured_noise(drogue_measurement *m, const drogue_result *result, int twin, drogue_q16 rim_radius_m_q16,
                            const drogue_track_config *c)
 {
+    const int exponent = result->covariance_halved - 48;
     int64_t apart_q16[DROGUE_PARAMETERS];
     drogue_real doubt[DROGUE_DOUBT_PACKED];
     int p;
@@ -93,12 +95,12 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
         const int64_t own_q48 = result->covariance_q48[order[p]][order[p]];
         drogue_real *variance = &m->noise[DROGUE_PACKED(p, p)];
         drogue_real own;
-        drogue_real_set(&m->apart[p], half_product_q48(apart_q16, p, p), -48);
+        drogue_real_set(&m->apart[p], half_product_q48(apart_q16, p, p, result), exponent);
         drogue_real_set_q16(variance,
                             drogue_at_least_one(p == DROGUE_PITCH || p == DROGUE_YAW ? c->angle_floor_rad_q16
                                                                                      : c->position_floor_m_q16));
         drogue_real_product(variance, variance, variance);
-        drogue_real_set(&own, own_q48 > 0 ? own_q48 : 0, -48);
+        drogue_real_set(&own, own_q48 > 0 ? own_q48 : 0, exponent);
         drogue_real_difference(&own, &own, &m->apart[p]);
         if (p < DROGUE_PITCH) {
             m->doubt[p] = doubt[DROGUE_PACKED(p, p)];
@@ -109,8 +111,8 @@ static void measured_noise(drogue_measurement *m, const drogue_result *result, i
         m->std_q16[p] = drogue_at_least_one(drogue_real_to_q16(own));
         for (q = 0; q < p && !(twin && p > DROGUE_Z); q++) {
             drogue_real *both = &m->noise[DROGUE_PACKED(p, q)];
-            drogue_real_set(both, result->covariance_q48[order[p]][order[q]], -48);
-            drogue_real_set(&own, half_product_q48(apart_q16, p, q), -48);
+            drogue_real_set(both, result->covariance_q48[order[p]][order[q]], exponent);
+            drogue_real_set(&own, half_product_q48(apart_q16, p, q, result), exponent);
             drogue_real_difference(both, both, &own);
             if (p < DROGUE_PITCH) {
                 drogue_real_difference(both, both, &doubt[DROGUE_PACKED(p, q)]);

@@ -267,7 +267,8 @@ static int predicted_region(drogue_region *region, drogue_track *track)
     drogue_real_set_q16(&semi_axis_px, track->model.rim_radius_m_q16);
     drogue_real_set_q16(&scale, predicted.position_m_q16[2]);
     drogue_real_quotient(&semi_axis_px, &semi_axis_px, &scale);
-    drogue_real_set_q16(&scale, track->camera.fx_px_q16);
+    drogue_real_set_q16(&scale, track->camera.fx_px_q16 > track->camera.fy_px_q16 ? track->camera.fx_px_q16
+                                                                                  : track->camera.fy_px_q16);
     drogue_real_product(&semi_axis_px, &scale, &semi_axis_px);
     predicted_spread(&spread, &predicted, track);
     hold_second(&x, &y, &spread, track, &semi_axis_px);
@@ -341,18 +342,20 @@ static void look(drogue_result *result, const drogue_region *region, const drogu
     (void)drogue_acquire(&search->found, search, workspace, setup, image, lost ? NULL : &track->reach);
     if (drogue_measurement_counts(&search->found, &track->config) || region->width_px <= 0) {
         *result = search->found;
+        return;
     }
+    memset(&result->list, 0, sizeof result->list); /* the workspace holds the search's */
+    memset(result->arcs, 0xFF, sizeof result->arcs);
 }
 
 /* Is it time to look whether the drogue is elsewhere? */
 static int in_doubt(drogue_track *track)
 {
     if (track->state == DROGUE_LOST || track->model.inner_radius_m_q16 <= 0 || track->config.reconsider_frames == 0 ||
-        track->open_frames < track->config.reconsider_frames) {
+        track->open_frames == 0 || track->missed > 0) {
         return 0;
     }
-    track->open_frames = 0;
-    return 1;
+    return track->open_frames % track->config.reconsider_frames == 0;
 }
 
 /* Would a workspace's width, which a predicted region is made as wide as, still hold the rim: two semi-axes? In a

@@ -224,7 +224,7 @@ double nees_of(const drogue_result &r, const Pose &truth)
     for (int i = 0; i < 5; i++) {
         e(i) = i < 3 ? error[i] : std::remainder(error[i], turns);
         for (int j = 0; j < 5; j++) {
-            c(i, j) = std::ldexp(static_cast<double>(r.covariance_q48[i][j]), -48);
+            c(i, j) = std::ldexp(static_cast<double>(r.covariance_q48[i][j]), r.covariance_halved - 48);
         }
     }
     return cv::solve(c, e, solved, cv::DECOMP_CHOLESKY) ? e.dot(solved) : 1e6;

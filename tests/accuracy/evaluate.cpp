@@ -49,7 +49,7 @@ void add_nees(Outcome &o, const drogue_result &raw)
     cv::Matx<double, 5, 5> c;
     for (int i = 0; i < 5; i++) {
         for (int j = 0; j < 5; j++) {
-            c(i, j) = std::ldexp(static_cast<double>(raw.covariance_q48[i][j]), -48);
+            c(i, j) = std::ldexp(static_cast<double>(raw.covariance_q48[i][j]), raw.covariance_halved - 48);
         }
     }
     o.nees = mahalanobis(c, e, 0, 5);

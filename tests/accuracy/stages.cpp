@@ -139,6 +139,7 @@ void put_pose(drogue_result &result, const RegionEdges &edges, const drogue_elli
         result.alternative = decision.alternative;
         result.orientation_resolved = decision.orientation_resolved;
         std::memcpy(result.covariance_q48, decision.covariance_q48, sizeof result.covariance_q48);
+        result.covariance_halved = decision.covariance_halved;
         std::memcpy(result.position_std_m_q32, decision.position_std_m_q32, sizeof result.position_std_m_q32);
         result.axis_std_rad_q32 = decision.axis_std_rad_q32;
     }

@@ -114,6 +114,8 @@ refused kalibr.yaml 's/pinhole/omni/' omni
 refused kalibr.yaml 's/^cam0:/cam1:/' 'has no camera_matrix'
 refused kalibr.yaml '$a cam1: {camera_model: pinhole}' 'more than one'
 refused kalibr.yaml '/intrinsics/d' 'has no camera_matrix'
+refused kalibr.yaml '/intrinsics/s/\]/, 1]/' 'has more than 4 numbers'
+refused opencv.yaml '0,/ 1. \]/s/ 1. \]/ 1., 0. ]/' 'has more than 9 numbers'
 refused opencv.yaml 's/^flags: 0/fisheye_model: 1/' fisheye_model
 refused opencv.yaml '/distortion_coefficients/,/data/d' 'has no distortion_coefficients'
 refused opencv.yaml 's/-1.0000000000000001e-01/-2.561e+02/' 'a coefficient of distortion is beyond 256'

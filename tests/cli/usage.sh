@@ -110,6 +110,11 @@ for rate in 0 -1 nan '' 30,30 1e-9 0.0001 0.000499999 1e9 1000000.1 30fps 1e99; 
     run 2 track scene.png $camera --fps "$rate"
     says '--fps'
 done
+run 2 track scene.png $camera --raw 1,1,gray8 --raw 1,1,gray9
+says 'is not gray8'
+run 2 track scene.png $camera --overlay ''
+says 'drogue: --overlay: has no name'
+POSIXLY_CORRECT=1 "$drogue" measure scene.png $camera $roi >out 2>err || fail "options behind the image: $(cat err)"
 for raw in 16384,16384,gray8 32767,2049,yuyv 0,1,gray8 1,1,gray9 1,1 3,2,yuyv; do
     run 2 track scene.png $camera --raw $raw
     says 'drogue: --raw: '

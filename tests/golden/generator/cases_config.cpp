@@ -85,7 +85,8 @@ std::string name_of(size_t which)
     if (thresholds[which].real) {
         name.erase(name.find("_q16"));
     }
-    std::replace_if(name.begin(), name.end(), [](char c) { return c == '_' || c == '.'; }, '-');
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '_' || c == '.'; }, '-');
     return "config-" + name;
 }
 

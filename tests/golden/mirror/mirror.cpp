@@ -442,8 +442,7 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
             from.trusted = in_its_place(out.part, expected, out.outline.ellipse, task.config);
             out.inner = {out.part.x + out.region.x, out.part.y + out.region.y};
             from.inner = {out.inner, inner_std(out, expected, task.config)};
-            from.placed =
-                out.area >= task.config.min_inner_area_px && reference::undistort(camera, from.inner.at);
+            from.placed = out.area >= task.config.min_inner_area_px && reference::undistort(camera, from.inner.at);
             from.trusted = from.trusted && from.placed;
             out.too_large = from.trusted && out.part.grown > room_of(expected, task.config);
             from.trusted = from.trusted && !out.too_large;

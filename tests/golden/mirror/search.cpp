@@ -244,11 +244,12 @@ bool same_outline(const Sighting &a, const Sighting &b)
 /* The best so far; of the same outline the better. */
 void keep(std::vector<Sighting> &best, size_t most, const Sighting &s)
 {
+    const auto same = [&s](const Sighting &other) { return same_outline(other, s); };
+    if (std::any_of(best.begin(), best.end(), [&](const Sighting &o) { return same(o) && o.score >= s.score; })) {
+        return;
+    }
     for (size_t i = best.size(); i-- > 0;) {
-        if (same_outline(best[i], s)) {
-            if (best[i].score >= s.score) {
-                return;
-            }
+        if (same(best[i])) {
             best[i] = best.back();
             best.pop_back();
         }

@@ -164,7 +164,7 @@ bool Tracker::place(drogue_region &region)
     if (!pixel(seen, at)) {
         return false;
     }
-    const Real semi_axis = radius / seen[2] * real(camera_.fx_px_q16);
+    const Real semi_axis = radius / seen[2] * real(std::max(camera_.fx_px_q16, camera_.fy_px_q16));
     Real spread = real(config_.region_sigmas_q16) * (std::max(std[0], std[1]) / radius + std[2] / seen[2]);
     for (size_t p = 0; p < 5; p++) {
         seen[p] = rounded(second_.parameter[p].state[0]);
@@ -223,7 +223,7 @@ Measured Tracker::read(const drogue_result &r, bool twin) const
     };
     const auto entry = [&r](size_t p, size_t q) {
         const size_t i = std::max(order[p], order[q]), j = std::min(order[p], order[q]);
-        return std::ldexp(static_cast<Real>(r.covariance_q48[i][j]), -48);
+        return std::ldexp(static_cast<Real>(r.covariance_q48[i][j]), r.covariance_halved - 48);
     };
     Measured m;
     m.value = values(pose);

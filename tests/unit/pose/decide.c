@@ -382,6 +382,12 @@ START_TEST(large_variances_keep_the_correlations)
                     sqrt((double)s.result.covariance_q48[i][i] * (double)s.result.covariance_q48[j][j]);
             }
         }
+        for (i = 0; i < 3; i++) { /* the entries say how often they are halved */
+            const double variance = ldexp((double)s.result.covariance_q48[i][i], s.result.covariance_halved - 48);
+            ck_assert_double_eq_tol(sqrt(variance), (double)s.result.position_std_m_q32[i] / 0x1p32,
+                                    1e-6 * sqrt(variance));
+        }
+        ck_assert(k == 0 || s.result.covariance_halved > 0);
         std[k] = (double)s.result.position_std_m_q32[2] / 4294967296.0;
         ck_assert(k == 0 || std[k] > 1000);
     }

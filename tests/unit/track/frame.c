@@ -97,12 +97,20 @@ START_TEST(what_is_believed_while_uncertain)
         drogue_result result;
         drogue_track_state state;
         expected = covered(0, cases[i].cover_percent, cases[i].has_inner);
+        expected.list.edge_count = 7;
+        expected.list.arc_count = 1;
+        expected.arcs[0] = 0;
         expected.inner.area_px = 9331; /* 1.5 px off its radius: about its size, but not so that it needs no cover */
         state = frame(&result, &t);
         MUST(state == (cases[i].believed ? DROGUE_TRACKING : DROGUE_COASTING) &&
                  result.status == (cases[i].believed ? DROGUE_OK : DROGUE_E_UNSURE),
              "case %d: %s, %s", (int)i, drogue_track_state_name(state), drogue_status_name(result.status));
         MUST(!cases[i].believed || calls == 1, "case %d: looked at %d places", (int)i, calls);
+        /* where something else was looked at after it the workspace holds that */
+        MUST(result.list.edge_count == (cases[i].believed ? 7u : 0u) &&
+                 result.list.arc_count == (cases[i].believed ? 1u : 0u) &&
+                 result.arcs[0] == (cases[i].believed ? 0 : DROGUE_NO_ARC),
+             "case %d: %u edges", (int)i, (unsigned)result.list.edge_count);
     }
 }
 END_TEST
@@ -160,6 +168,36 @@ START_TEST(reconsidered_once_in_a_while)
 }
 END_TEST
 
+/* What is known of the orientation goes after known_frames, though the frame is searched more often. */
+START_TEST(forgotten_though_reconsidered)
+{
+    const drogue_result hit = covered(0, 100, 1);
+    drogue_track t = steady_track(&hit);
+    drogue_result result;
+    unsigned k;
+    memset(pixels, 220, sizeof pixels);
+    draw(200, 200);
+    t.config.reconsider_frames = 10;
+    expected = hit;
+    expected.orientation_resolved = 0;
+    expected.alternative = seen(0, 0, 12, -0.3, 0.05).pose;
+    elsewhere = missed(DROGUE_E_NO_ELLIPSE);
+    for (k = 1; k <= t.config.known_frames; k++) {
+        ck_assert_int_eq(t.orientation_known, 1);
+        ck_assert_int_eq(frame(&result, &t), DROGUE_TRACKING);
+        MUST((calls > 1) == (k == 11 || k == 21), "frame %u: looked at %d places", k, calls);
+    }
+    ck_assert_int_eq(t.orientation_known, 0);
+    for (; k < 31; k++) {
+        ck_assert_int_eq(frame(&result, &t), DROGUE_TRACKING);
+    }
+    expected = missed(DROGUE_E_NO_ELLIPSE); /* frames without a measurement are not counted again */
+    ck_assert_int_eq(frame(&result, &t), DROGUE_COASTING);
+    elsewhere = covered(-8, 100, 1);
+    ck_assert_int_eq(frame(&result, &t), DROGUE_COASTING);
+}
+END_TEST
+
 /* Where the predicted region is wider than the workspace, its middle is measured, as wide as that, if the rim still fits:
  * four fifths of a region of 2.5 semi-axes. The first region is the caller's. */
 START_TEST(no_wider_than_the_workspace)
@@ -199,4 +237,4 @@ START_TEST(no_wider_than_the_workspace)
 END_TEST
 
 SUITE_MAIN("frame", no_wider_than_the_workspace, what_is_believed_while_uncertain, search_ends_at_reach,
-           reconsidered_once_in_a_while)
+           reconsidered_once_in_a_while, forgotten_though_reconsidered)

@@ -74,6 +74,36 @@ START_TEST(orientation_is_forgotten)
 }
 END_TEST
 
+/* A covariance whose entries are halved is what it says, whether it holds the distance of the twins or not. */
+START_TEST(halved_covariances)
+{
+    int open;
+    for (open = 0; open < 2; open++) {
+        drogue_result whole = seen(0, 0, 8, 0.3, 0);
+        drogue_result halved;
+        drogue_track a = new_track();
+        drogue_track b = a;
+        int i, k;
+        whole.orientation_resolved = !open;
+        whole.alternative = seen(0.25, 0, 8.25, -0.25, 0.125).pose;
+        for (i = 0; i < 5; i++) {
+            for (k = 0; k < 5; k++) {
+                whole.covariance_q48[i][k] = (INT64_C(1) << 47) / (i == k ? 1 : 16);
+            }
+        }
+        halved = whole;
+        halved.covariance_halved = 3;
+        for (i = 0; i < 25; i++) {
+            halved.covariance_q48[i / 5][i % 5] /= 8;
+        }
+        for (k = 0; k < 5; k++) {
+            ck_assert_int_eq(step(&a, &whole), step(&b, &halved));
+            ck_assert_mem_eq(&a, &b, sizeof a);
+        }
+    }
+}
+END_TEST
+
 /* An unresolved result's covariance holds the distance of the twins: the filter follows one of them without it, and its
  * estimate's standard deviation keeps it while the orientation is open. */
 START_TEST(distance_of_twins)
@@ -211,6 +241,6 @@ START_TEST(correlations_are_not_the_twins)
 }
 END_TEST
 
-SUITE_MAIN("orientation", twins_go_by_continuity, orientation_is_forgotten, distance_of_twins,
+SUITE_MAIN("orientation", twins_go_by_continuity, orientation_is_forgotten, distance_of_twins, halved_covariances,
            the_first_resolved_frame_turns_open_twins, what_turns_open_twins_is_where_the_track_is,
            correlations_are_not_the_twins)

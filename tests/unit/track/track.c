@@ -212,6 +212,22 @@ START_TEST(region_follows_a_steady_drogue)
 }
 END_TEST
 
+/* Pixels that are no squares: the longer semi-axis counts. */
+START_TEST(region_of_the_larger_focal_length)
+{
+    int k;
+    for (k = 0; k < 2; k++) {
+        const drogue_camera camera = pinhole(k == 0 ? 1000 : 500, k == 0 ? 500 : 1000, 640, 512);
+        drogue_track t = new_track(&camera);
+        drogue_result hit = seen(0, 0, 5, 0.1, 0.1);
+        drogue_region region;
+        ck_assert_int_eq(step(&t, &hit), DROGUE_TRACKING);
+        drogue_track_begin(&region, &t, 20000);
+        must_be_about(&region, 640, 512, 175);
+    }
+}
+END_TEST
+
 START_TEST(region_is_clamped)
 {
     const drogue_camera camera = pinhole(1000, 1000, 640, 512);
@@ -415,7 +431,7 @@ START_TEST(unresolved_poses_go_by_the_predicted_axis)
 END_TEST
 
 SUITE_MAIN("track", defaults_are_the_documented_ones, each_limit, names_of_states, states_in_turn,
-           every_failure_is_a_miss, no_miss_allowed, region_follows_a_steady_drogue, region_is_clamped,
-           region_leads_a_moving_drogue, region_allows_for_distortion, region_grows_with_uncertainty,
+           every_failure_is_a_miss, no_miss_allowed, region_follows_a_steady_drogue, region_of_the_larger_focal_length,
+           region_is_clamped, region_leads_a_moving_drogue, region_allows_for_distortion, region_grows_with_uncertainty,
            without_a_first_region_the_whole_frame, lost_when_it_flies_behind_the_camera, lost_beyond_the_lens,
            pitch_ends_at_a_right_angle, unresolved_poses_go_by_the_predicted_axis)
