@@ -12,11 +12,6 @@
  * region, too, outline and disc contradict each other by what is not flat, thin or evenly lit. */
 #define CONTRADICTION_Q16 DROGUE_Q16(1, 200)
 
-static drogue_q16 shifted(drogue_q16 v_px_q16, int32_t by_px)
-{
-    return drogue_q16_add(v_px_q16, drogue_q16_from_int(by_px));
-}
-
 static void describe(drogue_result *out, const drogue_outline *outline)
 {
     memcpy(out->arcs, outline->arcs, sizeof out->arcs);
@@ -25,9 +20,7 @@ static void describe(drogue_result *out, const drogue_outline *outline)
     out->cluster_members = outline->cluster_members;
     out->refit_points = outline->refit_points;
     out->cover_q16 = outline->cover_q16;
-    out->ellipse = outline->ellipse;
-    out->ellipse.xc_px_q16 = shifted(out->ellipse.xc_px_q16, out->region.x_px);
-    out->ellipse.yc_px_q16 = shifted(out->ellipse.yc_px_q16, out->region.y_px);
+    out->ellipse = drogue_frame_moved(&outline->ellipse, out->region.x_px, out->region.y_px);
     out->ideal = out->ellipse;
 }
 

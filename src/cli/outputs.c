@@ -88,10 +88,8 @@ static int check_all(const options *o, const inputs *in)
     if (o->command == COMMAND_MEASURE) {
         return check(in, o->overlay);
     }
-    for (i = 0; i < o->file_count; i++) {
-        if (o->raw.kind != RAW_NONE || strcmp(o->files[i], "-") == 0) {
-            count = MOST_FRAMES;
-        }
+    if (o->raw.kind != RAW_NONE || strcmp(o->files[0], "-") == 0) { /* a stream stands alone */
+        count = MOST_FRAMES;
     }
     for (i = 0; i < count && !bad; i++) {
         char *path = output_numbered(o->overlay, i + 1);

@@ -4,17 +4,23 @@
 
 #define RINGS 14 /* about the outline, each larger than the one before by a fortieth: to 1.4 times its size */
 
+/* How much of a ring is covered; negative when it is no plausible ellipse. */
+static drogue_q16 cover_of(const drogue_ellipse *ring, drogue_refit_context *c)
+{
+    if (!drogue_refit_plausible(c, ring) || drogue_refit_look(c, ring, 0) != DROGUE_OK) {
+        return -1;
+    }
+    return drogue_support_cover(&c->room->support);
+}
+
 /* Look for an outline on a ring: is enough of it covered? Negative when it is no plausible ellipse. */
 static int ring_covered(const drogue_ellipse *ring, drogue_refit_context *c)
 {
-    uint32_t bright_bins = 0;
-    if (!drogue_refit_plausible(c, ring) || drogue_refit_look(c, ring, bright_bins) != DROGUE_OK) {
-        return -1;
+    const drogue_q16 cover_q16 = cover_of(ring, c);
+    const uint32_t bright_bins = c->room->support.bright_bins;
+    if (cover_q16 < c->config->min_cover_q16) {
+        return cover_q16 < 0 ? -1 : 0;
     }
-    if (drogue_support_cover(&c->room->support) < c->config->min_cover_q16) {
-        return 0;
-    }
-    bright_bins = c->room->support.bright_bins;
     return c->looked_as == bright_bins || drogue_refit_look(c, ring, bright_bins) == DROGUE_OK;
 }
 
@@ -22,11 +28,10 @@ drogue_q16 drogue_outline_covered(const drogue_ellipse *ring, const drogue_works
                                   const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config)
 {
     drogue_refit_context c;
+    drogue_q16 cover_q16;
     drogue_refit_begin(&c, workspace, list, mask, config);
-    if (!drogue_refit_plausible(&c, ring) || drogue_refit_look(&c, ring, 0) != DROGUE_OK) {
-        return 0;
-    }
-    return drogue_support_cover(&c.room->support);
+    cover_q16 = cover_of(ring, &c);
+    return cover_q16 > 0 ? cover_q16 : 0;
 }
 
 /* As fitted and with what blur took put back. */

@@ -328,11 +328,11 @@ static void look(drogue_result *result, const drogue_region *region, const drogu
                  const drogue_image *image)
 {
     const int lost = track->state == DROGUE_LOST;
-    drogue_result_clear(result);
-    result->status = DROGUE_E_REGION;
-    if (region->width_px > 0) {
-        (void)drogue_measure(result, workspace, setup, image, region);
+    if (region->width_px <= 0) { /* lost, and the first region is the whole frame */
+        (void)drogue_acquire(result, search, workspace, setup, image, NULL);
+        return;
     }
+    (void)drogue_measure(result, workspace, setup, image, region);
     if (result->status == DROGUE_OK && !lost && track->search && !whole(result, &track->model)) {
         result->status = DROGUE_E_UNSURE;
     }
@@ -340,7 +340,7 @@ static void look(drogue_result *result, const drogue_region *region, const drogu
         return;
     }
     (void)drogue_acquire(&search->found, search, workspace, setup, image, lost ? NULL : &track->reach);
-    if (drogue_measurement_counts(&search->found, &track->config) || region->width_px <= 0) {
+    if (drogue_measurement_counts(&search->found, &track->config)) {
         *result = search->found;
         return;
     }

@@ -185,7 +185,6 @@ static int range_fits(const drogue_kalman *filter, const drogue_measurement *m)
 {
     drogue_real off;
     drogue_real most;
-    int order;
     if (m->solid) {
         return 1;
     }
@@ -193,8 +192,7 @@ static int range_fits(const drogue_kalman *filter, const drogue_measurement *m)
     drogue_real_product(&off, &off, &off);
     drogue_real_set_q16(&most, m->value_q16[DROGUE_Z] / 20);
     drogue_real_product(&most, &most, &most);
-    order = drogue_real_order(&off, &most);
-    return order <= 0;
+    return drogue_real_order(&off, &most) <= 0;
 }
 
 /* A new filter begins. */
