@@ -2,7 +2,7 @@
 /* Drogue: the pose of a refuelling drogue from one camera image, in fixed point.
  *
  * drogue_measure() does a frame in one call; each stage can be called alone through its own header. State lives
- * in structs of the caller, memory in a workspace of the caller (frontend.h):
+ * in structs of the caller, memory in a workspace of the caller (workspace.h):
  *
  *     static uint32_t memory[DROGUE_WORKSPACE_BYTES_FOR(256) / 4 + 1];
  *     const drogue_capacity capacity = DROGUE_CAPACITY_FOR(256);
@@ -38,7 +38,7 @@ extern "C" {
 /* "MAJOR.MINOR.PATCH" of the library. */
 const char *drogue_version(void);
 
-/* Initialiser of a drogue_capacity that suits a region of the given longest side: frontend.h. */
+/* Initialiser of a drogue_capacity that suits a region of the given longest side: workspace.h. */
 #define DROGUE_CAPACITY_FOR(side_px)                                                                    \
     {                                                                                                   \
         (uint32_t)(side_px), (uint32_t)DROGUE_EDGES_FOR(side_px), (uint32_t)DROGUE_LABELS_FOR(side_px), \
