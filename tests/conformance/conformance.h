@@ -53,7 +53,7 @@ typedef struct conf_stage_report {
     uint64_t worst_percent; /* of a word's own bound */
 } conf_stage_report;
 
-#define CONF_MAX_STAGES 23
+#define CONF_MAX_STAGES 24
 
 /* What the words of one row of conf_measures gave. */
 typedef struct conf_words_report {

@@ -40,6 +40,9 @@ const int32_t *stage_input32(const stage_run *r, int i);
 /* Words to structs and back; stage_put_* return where to go on. */
 drogue_ellipse stage_ellipse(const int32_t *words);
 drogue_camera stage_camera(const int32_t *words);
+drogue_model stage_model(const int32_t *words);
+drogue_region stage_region(const int32_t *words);
+int32_t *stage_put_region(int32_t *at, const drogue_region *r);
 int32_t *stage_put_ellipse(int32_t *at, const drogue_ellipse *e);
 int32_t *stage_put_pose(int32_t *at, const drogue_pose *p);
 
@@ -79,6 +82,7 @@ int stage_search(stage_run *r);
 int stage_decide(stage_run *r);
 int stage_look(stage_run *r);
 int stage_acquire(stage_run *r);
+int stage_follow(stage_run *r);
 int stage_track(stage_run *r);
 
 #endif

@@ -153,6 +153,34 @@ int stage_angle_valid(const drogue_ellipse *e)
     return e->angle_rad_q16 >= -DROGUE_Q16_HALF_PI && e->angle_rad_q16 <= DROGUE_Q16_HALF_PI;
 }
 
+drogue_region stage_region(const int32_t *words)
+{
+    drogue_region r;
+    r.x_px = words[0];
+    r.y_px = words[1];
+    r.width_px = words[2];
+    r.height_px = words[3];
+    return r;
+}
+
+int32_t *stage_put_region(int32_t *at, const drogue_region *r)
+{
+    at[0] = r->x_px;
+    at[1] = r->y_px;
+    at[2] = r->width_px;
+    at[3] = r->height_px;
+    return at + 4;
+}
+
+drogue_model stage_model(const int32_t *words)
+{
+    drogue_model m;
+    m.rim_radius_m_q16 = words[0];
+    m.inner_radius_m_q16 = words[1];
+    m.inner_depth_m_q16 = words[2];
+    return m;
+}
+
 drogue_camera stage_camera(const int32_t *words)
 {
     drogue_camera c;
@@ -256,6 +284,9 @@ static const stage_spec stages[] = {
     {"acquire",
      stage_acquire,
      {{"image", 0, 0, FIXED}, {"camera", 32, 9, FIXED}, {"model", 32, 3, FIXED}, {"params", 32, 8, FIXED}}},
+    {"follow",
+     stage_follow,
+     {{"image", 0, 0, FIXED}, {"camera", 32, 9, FIXED}, {"model", 32, 3, FIXED}, {"params", 32, 14, FIXED}}},
     {"track",
      stage_track,
      {{"setup", 32, 16, FIXED}, {"config", 32, 24, FIXED}, {"frames", 32, 17, LIST}, {"covariance", 64, 15, LIST}}},

@@ -115,6 +115,10 @@ enum {
  *               -> sightings (whole): status count, then x y radius score and region 4 of each, 0 behind the last of 12
  *  acquire      image; camera; model; params (whole): 1 when there is a region, that (x y width height), the search's
  *               width, the workspace's, min_contrast -> found: status, region used 4, has_inner resolved, ellipse 5, pose 8
+ *  follow       image: frames of one size, one below the other; camera; model; params (whole): number of frames, dt_us,
+ *               first region 4 (width 0: none), the workspace's width edges labels arcs, the search's width, max_missed
+ *               reconsider_frames known_frames -> states (whole): per frame of drogue_track_frame() state, status, region asked
+ *               for 4, region used 4, edge_count arc_count, has_inner resolved, missed gated; estimates: as of 'track'
  *  track        setup: camera 9, model 3, first region 4 (px; width 0: none); config: max_missed agree_frames
  *               reconsider_frames known_frames min_region max_region (whole) gate position_gate region_scale region_sigmas
  *               lateral depth angle (std) position angle (floor) process std 5 process_step lasting_share start std of rate

@@ -50,6 +50,8 @@ static const struct layout {
                {"rim", "rims", ".|ppp."},
                {"search", "sightings", "|."},
                {"acquire", "found", ".......ppppammmrrrrr"},
+               {"follow", "states", "|?"},
+               {"follow", "estimates", "|?"},
                {"track", "states", "|."},
                {"track", "estimates", "|mmmvvvrrrrr."},
                {"track", "std", "|t"}};

@@ -111,6 +111,7 @@ void add_look(Set &set);
 void add_rim(Set &set);
 void add_search(Set &set);
 void add_acquire(Set &set);
+void add_follow(Set &set);
 void add_track(Set &set);
 
 } // namespace vectors

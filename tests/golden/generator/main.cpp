@@ -159,6 +159,7 @@ int main(int argc, char **argv)
         add_rim(set);
         add_search(set);
         add_acquire(set);
+        add_follow(set);
         add_track(set);
         const Files files = files_of(set, version_of(folder));
         const bool good = set.report();

@@ -443,7 +443,7 @@ Tiers reference_of(const std::string &stage, const Arrays &inputs, const Arrays 
                                                       {"joint", joint_tier},         {"decide", decide_tier},
                                                       {"look", look_tier},           {"rim", rim_tier},
                                                       {"search", search_tier},       {"acquire", acquire_tier},
-                                                      {"track", track_tier}};
+                                                      {"track", track_tier},         {"follow", follow_tier}};
     return tiers.at(stage)(inputs, exact);
 }
 

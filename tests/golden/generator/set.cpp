@@ -79,6 +79,8 @@ int format_of(const std::string &stage, const std::string &output)
                                                        {"rim/rims", 4},
                                                        {"search/sightings", 0},
                                                        {"acquire/found", 16},
+                                                       {"follow/states", 0},
+                                                       {"follow/estimates", 16},
                                                        {"track/states", 0},
                                                        {"track/estimates", 16},
                                                        {"track/std", 32}};

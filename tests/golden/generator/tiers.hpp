@@ -47,5 +47,6 @@ Tiers rim_tier(const Arrays &inputs, const Arrays &exact);
 Tiers search_tier(const Arrays &inputs, const Arrays &exact);
 Tiers acquire_tier(const Arrays &inputs, const Arrays &exact);
 Tiers track_tier(const Arrays &inputs, const Arrays &exact);
+Tiers follow_tier(const Arrays &inputs, const Arrays &exact);
 
 } // namespace vectors
