@@ -7,6 +7,7 @@
 
 #include "drogue/drogue.h"
 #include "drogue/support.h"
+#include "drogue/track.h"
 
 #define STAGE_MAX_BUFFERS 9
 
@@ -45,6 +46,7 @@ drogue_region stage_region(const int32_t *words);
 int32_t *stage_put_region(int32_t *at, const drogue_region *r);
 int32_t *stage_put_ellipse(int32_t *at, const drogue_ellipse *e);
 int32_t *stage_put_pose(int32_t *at, const drogue_pose *p);
+int32_t *stage_put_estimate(int32_t *at, const drogue_track_estimate *e); /* without standard deviations */
 
 /* Is the angle within [-pi/2, pi/2], what the library takes? */
 int stage_angle_valid(const drogue_ellipse *e);

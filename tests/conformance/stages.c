@@ -218,6 +218,17 @@ int32_t *stage_put_pose(int32_t *at, const drogue_pose *p)
     return at + 8;
 }
 
+int32_t *stage_put_estimate(int32_t *at, const drogue_track_estimate *e)
+{
+    memcpy(at, e->position_m_q16, sizeof e->position_m_q16);
+    memcpy(at + 3, e->velocity_mps_q16, sizeof e->velocity_mps_q16);
+    memcpy(at + 6, e->axis_q16, sizeof e->axis_q16);
+    at[9] = e->yaw_rad_q16;
+    at[10] = e->pitch_rad_q16;
+    at[11] = e->orientation_resolved;
+    return at + 12;
+}
+
 int stage_mask(drogue_mask *mask, const int32_t *words)
 {
     const int32_t far_px = 1 << 22;

@@ -222,13 +222,7 @@ int stage_follow(stage_run *r)
             drogue_track_frame(&result, &asked, &track, &workspace, &search, &config, &image, (uint32_t)p[1]);
         state = put_states(state, now, &result, &asked, &track);
         drogue_track_get(&e, &track);
-        memcpy(estimate, e.position_m_q16, sizeof e.position_m_q16);
-        memcpy(estimate + 3, e.velocity_mps_q16, sizeof e.velocity_mps_q16);
-        memcpy(estimate + 6, e.axis_q16, sizeof e.axis_q16);
-        estimate[9] = e.yaw_rad_q16;
-        estimate[10] = e.pitch_rad_q16;
-        estimate[11] = e.orientation_resolved;
-        estimate += 12;
+        estimate = stage_put_estimate(estimate, &e);
     }
     return 0;
 }

@@ -189,13 +189,7 @@ int stage_track(stage_run *r)
         *out++ = (int32_t)track.agreeing;
         *out++ = track.second_known;
         drogue_track_get(&e, &track);
-        memcpy(estimate, e.position_m_q16, sizeof e.position_m_q16);
-        memcpy(estimate + 3, e.velocity_mps_q16, sizeof e.velocity_mps_q16);
-        memcpy(estimate + 6, e.axis_q16, sizeof e.axis_q16);
-        estimate[9] = e.yaw_rad_q16;
-        estimate[10] = e.pitch_rad_q16;
-        estimate[11] = e.orientation_resolved;
-        estimate += 12;
+        estimate = stage_put_estimate(estimate, &e);
         memcpy(std, e.position_std_m_q32, sizeof e.position_std_m_q32);
         std[3] = e.yaw_std_rad_q32;
         std[4] = e.pitch_std_rad_q32;

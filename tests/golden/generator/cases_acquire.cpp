@@ -5,7 +5,7 @@
 #include "drogue/config.h"
 #include "images.hpp"
 #include "processing.hpp"
-#include "scene.hpp"
+#include "sky_scene.hpp"
 #include "varied.hpp"
 
 namespace vectors {
@@ -34,14 +34,8 @@ std::vector<Array> inputs_of(const Picture &p, std::vector<int64_t> params)
 /* A drogue of 500 px focal length before the sky, in a frame of the given size. */
 Picture picture(uint64_t seed, int width, int height, double x, double y, double z, double yaw, double pitch)
 {
-    accuracy::Scene s;
+    const accuracy::Scene s = sky_scene(seed, x, y, z, yaw, pitch);
     Picture p;
-    s.seed = seed;
-    s.camera = {500, 500, 1023.5, 1023.5};
-    s.pose = {{x, y, z}, accuracy::axis_of(yaw, pitch)};
-    s.look = accuracy::Look::dark();
-    s.background = accuracy::Background::sky();
-    s.sensor.noise = 1;
     const cv::Rect part(1024 - width / 2, 1024 - height / 2, width, height);
     p.image = accuracy::render(s, part);
     p.camera = s.camera.cropped(part.tl());

@@ -5,7 +5,7 @@
 
 #include "drogue/track.h"
 #include "images.hpp"
-#include "scene.hpp"
+#include "sky_scene.hpp"
 #include "tiers.hpp"
 
 namespace vectors {
@@ -16,25 +16,13 @@ constexpr int WIDTH = 112, HEIGHT = 84;
 
 int64_t q16(double v) { return static_cast<int64_t>(std::floor(v * 65536 + 0.5)); }
 
-accuracy::Scene scene_at(uint64_t seed, double x, double y, double z, double yaw, double pitch)
-{
-    accuracy::Scene s;
-    s.seed = seed;
-    s.camera = {500, 500, 1023.5, 1023.5};
-    s.pose = {{x, y, z}, accuracy::axis_of(yaw, pitch)};
-    s.look = accuracy::Look::dark();
-    s.background = accuracy::Background::sky();
-    s.sensor.noise = 1;
-    return s;
-}
-
 cv::Rect part() { return {1024 - WIDTH / 2, 1024 - HEIGHT / 2, WIDTH, HEIGHT}; }
 
 cv::Mat blank() { return constant(WIDTH, HEIGHT, 215); }
 
 struct Sequence {
     std::vector<cv::Mat> frames;
-    accuracy::Camera camera = scene_at(0, 0, 0, 0, 0, 0).camera.cropped(part().tl());
+    accuracy::Camera camera = sky_scene(0, 0, 0, 0, 0, 0).camera.cropped(part().tl());
     cv::Rect first = {0, 0, 0, 0};
     int dt_us = 40000, room = 128, max_missed = 10, reconsider_frames = 50, known_frames = 25;
 };
@@ -62,7 +50,7 @@ Sequence approach(uint64_t seed, int frames, int gone, int back, double aside)
     Sequence s;
     for (int k = 0; k < frames; k++) {
         const double x = -0.1 + 0.012 * k + (k >= back ? aside : 0), z = 7 - 0.05 * k;
-        const accuracy::Scene scene = scene_at(seed + static_cast<uint64_t>(k), x, 0.04, z, 0.12, -0.08 + 0.01 * k);
+        const accuracy::Scene scene = sky_scene(seed + static_cast<uint64_t>(k), x, 0.04, z, 0.12, -0.08 + 0.01 * k);
         s.frames.push_back(k >= gone && k < back ? blank() : accuracy::render(scene, part()));
     }
     return s;
@@ -73,8 +61,8 @@ Sequence unresolved_then_another()
 {
     Sequence s;
     for (int k = 0; k < 12; k++) {
-        accuracy::Scene shy = scene_at(70 + static_cast<uint64_t>(k), 0, 0, 8, 0.2, 0.1);
-        accuracy::Scene other = scene_at(90 + static_cast<uint64_t>(k), 8 * WIDTH / 500.0, 0.02, 8, -0.1, 0.2);
+        accuracy::Scene shy = sky_scene(70 + static_cast<uint64_t>(k), 0, 0, 8, 0.2, 0.1);
+        accuracy::Scene other = sky_scene(90 + static_cast<uint64_t>(k), 8 * WIDTH / 500.0, 0.02, 8, -0.1, 0.2);
         cv::Rect beside = part();
         cv::Mat both;
         beside.x += WIDTH;
