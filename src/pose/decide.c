@@ -188,6 +188,23 @@ static void doubt_outline(drogue_joint_outline *outline)
 
 static int has_inner(const drogue_evidence *evidence) { return evidence->inner.std_px_q16 > 0; }
 
+/* The outline as what is solved for takes it. */
+static drogue_status weigh_outline(drogue_joint_outline *outline, const drogue_evidence *evidence,
+                                   const drogue_setup *setup)
+{
+    drogue_status status;
+    outline->ellipse = evidence->ideal;
+    status = drogue_joint_outline_covariance(outline, evidence->support, setup->config->outline_shading_q16,
+                                             setup->config->optics_blur_std_px2_q16);
+    if (status != DROGUE_OK) {
+        return status;
+    }
+    if (setup->model->inner_radius_m_q16 > 0 && !has_inner(evidence)) {
+        doubt_outline(outline);
+    }
+    return drogue_joint_outline_weigh(outline);
+}
+
 /* Of the distance: an inner part that contradicts the outline counts as if it were so far off its size. */
 static drogue_q16 doubt_of(const drogue_evidence *evidence, int agree)
 {
@@ -228,15 +245,7 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
     drogue_q16 nearer_q16 = 0;
     memset(&joint, 0, sizeof joint);
     out->orientation_resolved = 0;
-    outline.ellipse = evidence->ideal;
-    if (drogue_joint_outline_covariance(&outline, evidence->support, setup->config->outline_shading_q16,
-                                        setup->config->optics_blur_std_px2_q16) != DROGUE_OK) {
-        return DROGUE_E_DOMAIN;
-    }
-    if (setup->model->inner_radius_m_q16 > 0 && !has_inner(evidence)) {
-        doubt_outline(&outline);
-    }
-    if (drogue_joint_outline_weigh(&outline) != DROGUE_OK) {
+    if (weigh_outline(&outline, evidence, setup) != DROGUE_OK) {
         return DROGUE_E_DOMAIN;
     }
     if (has_inner(evidence)) {
