@@ -20,7 +20,8 @@ static void describe(drogue_result *out, const drogue_outline *outline)
     out->cluster_members = outline->cluster_members;
     out->refit_points = outline->refit_points;
     out->cover_q16 = outline->cover_q16;
-    out->ellipse = drogue_frame_moved(&outline->ellipse, out->region.x_px, out->region.y_px);
+    out->ellipse = outline->ellipse;
+    drogue_frame_move(&out->ellipse, out->region.x_px, out->region.y_px);
     out->ideal = out->ellipse;
 }
 

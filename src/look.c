@@ -177,12 +177,10 @@ drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region)
     return first;
 }
 
-drogue_ellipse drogue_frame_moved(const drogue_ellipse *e, int32_t x_px, int32_t y_px)
+void drogue_frame_move(drogue_ellipse *e, int32_t x_px, int32_t y_px)
 {
-    drogue_ellipse m = *e;
-    m.xc_px_q16 = drogue_q16_add(m.xc_px_q16, drogue_q16_from_int(x_px));
-    m.yc_px_q16 = drogue_q16_add(m.yc_px_q16, drogue_q16_from_int(y_px));
-    return m;
+    e->xc_px_q16 = drogue_q16_add(e->xc_px_q16, drogue_q16_from_int(x_px));
+    e->yc_px_q16 = drogue_q16_add(e->yc_px_q16, drogue_q16_from_int(y_px));
 }
 
 drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
@@ -194,7 +192,8 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
     drogue_ellipse about;
     (void)place_view(f, region); /* where the outline was found */
     drogue_outline_clear(outline);
-    about = drogue_frame_moved(was, -f->out->region.x_px, -f->out->region.y_px);
+    about = *was;
+    drogue_frame_move(&about, -f->out->region.x_px, -f->out->region.y_px);
     outline->fitted = about;
     about.a_px_q16 = drogue_q16_add(about.a_px_q16, by_px_q16);
     about.b_px_q16 = drogue_q16_add(about.b_px_q16, by_px_q16);
@@ -258,7 +257,7 @@ drogue_status drogue_frame_ring(drogue_ellipse *ring, drogue_frame *f, const dro
     memset(ring, 0, sizeof *ring);
     count = status == DROGUE_OK ? drogue_inner_seek(disc, f->workspace->rays, &f->view, &f->mask, f->setup) : 0;
     for (i = 0; i < count; i++) {
-        disc[i] = drogue_frame_moved(&disc[i], out->region.x_px, out->region.y_px);
+        drogue_frame_move(&disc[i], out->region.x_px, out->region.y_px);
         if (!drogue_inner_sight_of(&sight[i], &disc[i], f->setup->camera)) {
             count = i;
         }

@@ -34,8 +34,8 @@ typedef struct drogue_frame {
                                too large for the outline; more: no outline */
 } drogue_frame;
 
-/* An ellipse in coordinates whose origin is moved the other way by so much. */
-drogue_ellipse drogue_frame_moved(const drogue_ellipse *e, int32_t x_px, int32_t y_px);
+/* Move an ellipse. */
+void drogue_frame_move(drogue_ellipse *e, int32_t x_px, int32_t y_px);
 
 /* Find the edges of a region by the frame's thresholds; the view becomes the region's pixels. */
 drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region);

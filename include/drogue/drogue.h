@@ -65,8 +65,10 @@ typedef struct drogue_result {
     drogue_region region;           /* the region used: the one asked for, that of a better second look, or with
                                  DROGUE_TRIED_DISC one that suits the disc; clipped to the image */
     drogue_edge_list list;    /* edges and arcs in the workspace, in coordinates of the region; where no try gave an
-                                 outline those of the last one */
-    uint32_t arcs[4];         /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC */
+                                 outline those of the last one; empty where drogue_track_frame() has looked elsewhere
+                                 since */
+    uint32_t arcs[4];         /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC; of a list that may
+                                 be gone */
     int32_t tried;            /* what stands, drogue_tried */
     drogue_ellipse ellipse;   /* outline of the end plane, as seen (distorted) */
     drogue_ellipse ideal;     /* the same without distortion: what the pose is computed from; the inner part may bring

@@ -345,7 +345,6 @@ static void look(drogue_result *result, const drogue_region *region, const drogu
         return;
     }
     memset(&result->list, 0, sizeof result->list); /* the workspace holds the search's */
-    memset(result->arcs, 0xFF, sizeof result->arcs);
 }
 
 /* Is it time to look whether the drogue is elsewhere? */
