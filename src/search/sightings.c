@@ -14,15 +14,19 @@ static int same_outline(const drogue_sighting *b, const drogue_sighting *c)
 
 void drogue_sightings_keep(drogue_sighting *best, int32_t *count, int32_t most, const drogue_sighting *c)
 {
+    uint32_t same = 0; /* a bit for each that is about the same outline */
     int32_t lowest = 0;
     int32_t i;
     for (i = 0; i < *count; i++) {
-        if (best[i].score >= c->score && same_outline(&best[i], c)) {
-            return;
+        if (same_outline(&best[i], c)) {
+            if (best[i].score >= c->score) {
+                return;
+            }
+            same |= 1u << i;
         }
     }
     for (i = *count - 1; i >= 0; i--) {
-        if (same_outline(&best[i], c)) {
+        if ((same >> i & 1u) != 0) {
             (*count)--;
             best[i] = best[*count];
         }

@@ -5,7 +5,7 @@
 
 #include "drogue/search.h"
 
-/* Keep a sighting if it is among the best 'most'; of two of the same outline the better. */
+/* Keep a sighting if it is among the best 'most', at most 32; of two of the same outline the better. */
 void drogue_sightings_keep(drogue_sighting *best, int32_t *count, int32_t most, const drogue_sighting *c);
 
 /* The score that a sighting must exceed to be among the best. */

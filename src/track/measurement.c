@@ -24,11 +24,14 @@ static void configured_noise(drogue_measurement *m, const drogue_track_config *c
 /* Order of a result's covariance: it ends with yaw, pitch. */
 static const int order[DROGUE_PARAMETERS] = {0, 1, 2, 4, 3};
 
+/* How often a covariance is halved: any result's, whatever it holds, is one that can be read. */
+static int halved(const drogue_result *result) { return result->covariance_halved & 63; }
+
 /* What an unresolved result's covariance holds of the two poses' distance (decide.h): half the product of two of its
  * components, Q48, halved as often as the covariance. */
 static int64_t half_product_q48(const int64_t apart_q16[DROGUE_PARAMETERS], int p, int q, const drogue_result *result)
 {
-    return drogue_shr_round_s64(apart_q16[p] * apart_q16[q] * (1 << 15), result->covariance_halved);
+    return drogue_shr_round_s64(apart_q16[p] * apart_q16[q] * (1 << 15), halved(result));
 }
 
 static int64_t clamped(int64_t v, int64_t most) { return v < -most ? -most : v > most ? most : v; }
@@ -64,7 +67,7 @@ static void twins_apart(int64_t apart_q16[DROGUE_PARAMETERS], const drogue_resul
 static void doubt_held(drogue_real doubt[DROGUE_DOUBT_PACKED], const drogue_result *result,
                        const int64_t apart_q16[DROGUE_PARAMETERS], drogue_q16 rim_radius_m_q16)
 {
-    const int exponent = result->covariance_halved - 48;
+    const int exponent = halved(result) - 48;
     int p;
     memset(doubt, 0, DROGUE_DOUBT_PACKED * sizeof *doubt);
     drogue_doubt_add(doubt, result->pose.position_m_q16, result->doubt_q16, rim_radius_m_q16);
@@ -84,7 +87,7 @@ static void doubt_held(drogue_real doubt[DROGUE_DOUBT_PACKED], const drogue_resu
 static void measured_noise(drogue_measurement *m, const drogue_result *result, int twin, drogue_q16 rim_radius_m_q16,
                            const drogue_track_config *c)
 {
-    const int exponent = result->covariance_halved - 48;
+    const int exponent = halved(result) - 48;
     int64_t apart_q16[DROGUE_PARAMETERS];
     drogue_real doubt[DROGUE_DOUBT_PACKED];
     int p;
