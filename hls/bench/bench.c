@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "bench.h"
 
-#include "config_words.h"
+#include "case_words.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -145,42 +145,11 @@ drogue_image bench_image(const conf_case *c)
     return image;
 }
 
-drogue_camera bench_camera(const conf_case *c)
-{
-    const int32_t *w = bench_words32(bench_input(c, "camera"));
-    drogue_camera camera;
-    camera.fx_px_q16 = w[0];
-    camera.fy_px_q16 = w[1];
-    camera.cx_px_q16 = w[2];
-    camera.cy_px_q16 = w[3];
-    camera.k1_q16 = w[4];
-    camera.k2_q16 = w[5];
-    camera.p1_q16 = w[6];
-    camera.p2_q16 = w[7];
-    camera.k3_q16 = w[8];
-    return camera;
-}
+drogue_camera bench_camera(const conf_case *c) { return conf_camera(bench_words32(bench_input(c, "camera"))); }
 
-drogue_model bench_model(const conf_case *c)
-{
-    const int32_t *w = bench_words32(bench_input(c, "model"));
-    drogue_model model;
-    model.rim_radius_m_q16 = w[0];
-    model.inner_radius_m_q16 = w[1];
-    model.inner_depth_m_q16 = w[2];
-    return model;
-}
+drogue_model bench_model(const conf_case *c) { return conf_model(bench_words32(bench_input(c, "model"))); }
 
-drogue_region bench_region(const conf_case *c)
-{
-    const int32_t *w = bench_words32(bench_input(c, "region"));
-    drogue_region region;
-    region.x_px = w[0];
-    region.y_px = w[1];
-    region.width_px = w[2];
-    region.height_px = w[3];
-    return region;
-}
+drogue_region bench_region(const conf_case *c) { return conf_region(bench_words32(bench_input(c, "region"))); }
 
 drogue_config bench_config(const conf_case *c)
 {

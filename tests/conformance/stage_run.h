@@ -3,6 +3,7 @@
 #ifndef DROGUE_TESTS_STAGE_RUN_H
 #define DROGUE_TESTS_STAGE_RUN_H
 
+#include "case_words.h"
 #include "stages.h"
 
 #include "drogue/drogue.h"
@@ -40,9 +41,6 @@ const int32_t *stage_input32(const stage_run *r, int i);
 
 /* Words to structs and back; stage_put_* return where to go on. */
 drogue_ellipse stage_ellipse(const int32_t *words);
-drogue_camera stage_camera(const int32_t *words);
-drogue_model stage_model(const int32_t *words);
-drogue_region stage_region(const int32_t *words);
 int32_t *stage_put_region(int32_t *at, const drogue_region *r);
 int32_t *stage_put_ellipse(int32_t *at, const drogue_ellipse *e);
 int32_t *stage_put_pose(int32_t *at, const drogue_pose *p);

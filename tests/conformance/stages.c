@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Table of the stages, check of their inputs, and the guarded static memory they run in. */
-#include "config_words.h"
 #include "stage_run.h"
 
 #include <string.h>
@@ -153,16 +152,6 @@ int stage_angle_valid(const drogue_ellipse *e)
     return e->angle_rad_q16 >= -DROGUE_Q16_HALF_PI && e->angle_rad_q16 <= DROGUE_Q16_HALF_PI;
 }
 
-drogue_region stage_region(const int32_t *words)
-{
-    drogue_region r;
-    r.x_px = words[0];
-    r.y_px = words[1];
-    r.width_px = words[2];
-    r.height_px = words[3];
-    return r;
-}
-
 int32_t *stage_put_region(int32_t *at, const drogue_region *r)
 {
     at[0] = r->x_px;
@@ -170,30 +159,6 @@ int32_t *stage_put_region(int32_t *at, const drogue_region *r)
     at[2] = r->width_px;
     at[3] = r->height_px;
     return at + 4;
-}
-
-drogue_model stage_model(const int32_t *words)
-{
-    drogue_model m;
-    m.rim_radius_m_q16 = words[0];
-    m.inner_radius_m_q16 = words[1];
-    m.inner_depth_m_q16 = words[2];
-    return m;
-}
-
-drogue_camera stage_camera(const int32_t *words)
-{
-    drogue_camera c;
-    c.fx_px_q16 = words[0];
-    c.fy_px_q16 = words[1];
-    c.cx_px_q16 = words[2];
-    c.cy_px_q16 = words[3];
-    c.k1_q16 = words[4];
-    c.k2_q16 = words[5];
-    c.p1_q16 = words[6];
-    c.p2_q16 = words[7];
-    c.k3_q16 = words[8];
-    return c;
 }
 
 int32_t *stage_put_ellipse(int32_t *at, const drogue_ellipse *e)

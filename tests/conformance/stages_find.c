@@ -112,10 +112,10 @@ static int capacity_workspace(stage_run *r, drogue_workspace *workspace, const i
 int stage_look(stage_run *r)
 {
     const drogue_image image = r->image;
-    const drogue_camera camera = stage_camera(stage_input32(r, 1));
-    const drogue_model model = stage_model(stage_input32(r, 2));
+    const drogue_camera camera = conf_camera(stage_input32(r, 1));
+    const drogue_model model = conf_model(stage_input32(r, 2));
     const int32_t *p = stage_input32(r, 3);
-    const drogue_region region = stage_region(p);
+    const drogue_region region = conf_region(p);
     int32_t *out = stage_output32(r, "looked", 15);
     drogue_workspace workspace;
     drogue_config config;
@@ -140,10 +140,10 @@ int stage_look(stage_run *r)
 int stage_acquire(stage_run *r)
 {
     drogue_image image = r->image;
-    const drogue_camera camera = stage_camera(stage_input32(r, 1));
-    const drogue_model model = stage_model(stage_input32(r, 2));
+    const drogue_camera camera = conf_camera(stage_input32(r, 1));
+    const drogue_model model = conf_model(stage_input32(r, 2));
     const int32_t *p = stage_input32(r, 3);
-    const drogue_region region = stage_region(p + 1);
+    const drogue_region region = conf_region(p + 1);
     int32_t *out = stage_output32(r, "found", 20);
     drogue_workspace workspace;
     drogue_search search;
@@ -183,10 +183,10 @@ static int32_t *put_states(int32_t *at, drogue_track_state state, const drogue_r
 
 int stage_follow(stage_run *r)
 {
-    const drogue_camera camera = stage_camera(stage_input32(r, 1));
-    const drogue_model model = stage_model(stage_input32(r, 2));
+    const drogue_camera camera = conf_camera(stage_input32(r, 1));
+    const drogue_model model = conf_model(stage_input32(r, 2));
     const int32_t *p = stage_input32(r, 3);
-    const drogue_region first = stage_region(p + 2);
+    const drogue_region first = conf_region(p + 2);
     int32_t *state = stage_output32(r, "states", p[0] > 0 ? 16u * (size_t)p[0] : 0);
     int32_t *estimate = stage_output32(r, "estimates", p[0] > 0 ? 12u * (size_t)p[0] : 0);
     drogue_image image = r->image;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Adapters of the stages behind the ellipse, and of the whole frame: undistort, pose, kalman, frame. */
-#include "config_words.h"
 #include "stage_run.h"
 
 #include <string.h>
@@ -10,7 +9,7 @@
 
 int stage_undistort(stage_run *r)
 {
-    const drogue_camera camera = stage_camera(stage_input32(r, 0));
+    const drogue_camera camera = conf_camera(stage_input32(r, 0));
     const int32_t *points = stage_input32(r, 1);
     size_t count = r->in[1].count / 2;
     int32_t *undistorted = stage_output32(r, "undistorted", 3 * count);
@@ -34,7 +33,7 @@ int stage_undistort(stage_run *r)
 int stage_pose(stage_run *r)
 {
     const drogue_ellipse ellipse = stage_ellipse(stage_input32(r, 0));
-    const drogue_camera camera = stage_camera(stage_input32(r, 1));
+    const drogue_camera camera = conf_camera(stage_input32(r, 1));
     const int32_t *p = stage_input32(r, 2);
     int32_t *out = stage_output32(r, "pose", 21);
     drogue_pose poses[2];
@@ -188,25 +187,16 @@ void stage_put_result(int32_t frame[38], int32_t detail[18], int64_t covariance[
 int stage_frame(stage_run *r)
 {
     const drogue_image image = r->image;
-    const drogue_camera camera = stage_camera(stage_input32(r, 1));
-    const int32_t *model_words = stage_input32(r, 2);
-    const int32_t *region_words = stage_input32(r, 3);
+    const drogue_camera camera = conf_camera(stage_input32(r, 1));
+    const drogue_model model = conf_model(stage_input32(r, 2));
+    const drogue_region region = conf_region(stage_input32(r, 3));
     int32_t *frame = stage_output32(r, "frame", 38);
     int32_t *detail = stage_output32(r, "detail", 18);
     int64_t *covariance = (int64_t *)stage_output(r, "covariance", 64, 15);
     int64_t *std = (int64_t *)stage_output(r, "std", 64, 4);
-    drogue_model model;
-    drogue_region region;
     drogue_workspace workspace;
     drogue_config config;
     drogue_result result;
-    region.x_px = region_words[0];
-    region.y_px = region_words[1];
-    region.width_px = region_words[2];
-    region.height_px = region_words[3];
-    model.rim_radius_m_q16 = model_words[0];
-    model.inner_radius_m_q16 = model_words[1];
-    model.inner_depth_m_q16 = model_words[2];
     if (frame == NULL || detail == NULL || covariance == NULL || std == NULL ||
         !stage_workspace(r, &workspace, region.width_px)) {
         return CONF_E_MEMORY;

@@ -149,7 +149,7 @@ static void put_joint(int32_t *out, const drogue_joint *joint)
 
 int stage_joint(stage_run *r)
 {
-    const drogue_camera camera = stage_camera(stage_input32(r, 1));
+    const drogue_camera camera = conf_camera(stage_input32(r, 1));
     const int32_t *p = stage_input32(r, 3);
     const drogue_model model = {p[0], p[1], p[2]};
     const drogue_joint_inner inner = {p[8], p[9], p[10]};

@@ -34,9 +34,9 @@ static void put_covariance(int64_t *covariance, int64_t *std, const drogue_decis
 
 int stage_decide(stage_run *r)
 {
-    const drogue_camera camera = stage_camera(stage_input32(r, 1));
+    const drogue_camera camera = conf_camera(stage_input32(r, 1));
     const int32_t *p = stage_input32(r, 3);
-    const drogue_model model = stage_model(p);
+    const drogue_model model = conf_model(p);
     int32_t *out = stage_output32(r, "decision", 19);
     int64_t *covariance = (int64_t *)stage_output(r, "covariance", 64, 15);
     int64_t *std = (int64_t *)stage_output(r, "std", 64, 4);
@@ -144,9 +144,9 @@ int stage_track(stage_run *r)
     const int32_t *frame = stage_input32(r, 2);
     const int64_t *covariance = (const int64_t *)r->in[3].data;
     const size_t count = r->in[2].count / 17;
-    const drogue_camera camera = stage_camera(s);
-    const drogue_model model = stage_model(s + 9);
-    const drogue_region first = stage_region(s + 12);
+    const drogue_camera camera = conf_camera(s);
+    const drogue_model model = conf_model(s + 9);
+    const drogue_region first = conf_region(s + 12);
     int32_t *out = stage_output32(r, "states", 19 * count);
     int32_t *estimate = stage_output32(r, "estimates", 12 * count);
     int64_t *std = (int64_t *)stage_output(r, "std", 64, 6 * count);

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "case.hpp"
-#include "config_words.h"
+#include "case_words.h"
 #include "stages_words.h"
 
 namespace vectors {
@@ -91,18 +91,18 @@ std::string name_of(size_t which)
 }
 
 /* The smallest frame that notices a threshold, best one that is measured with both values. */
-void add_threshold(Set &set, const std::vector<const Case *> &bases, size_t which)
+void add_threshold(Set &set, const std::vector<Case> &bases, size_t which)
 {
     drogue_config config;
     for (const bool measured : {true, false}) {
-        for (const Case *base : bases) {
+        for (const Case &base : bases) {
             for (const int64_t value : values_of(which)) {
-                std::vector<Array> inputs = base->inputs;
+                std::vector<Array> inputs = base.inputs;
                 if (!moved(config, which, value)) {
                     continue;
                 }
                 inputs.push_back(config_array(config));
-                if (changes(set, *base, inputs, measured)) {
+                if (changes(set, base, inputs, measured)) {
                     set.add(name_of(which), Tier::boundary, {"config"}, std::move(inputs));
                     return;
                 }
@@ -116,16 +116,11 @@ void add_threshold(Set &set, const std::vector<const Case *> &bases, size_t whic
 
 void add_config(Set &set)
 {
-    std::vector<Case> own; /* which adding to the set does not move */
-    std::vector<const Case *> bases;
-    std::copy_if(set.cases().begin(), set.cases().end(), std::back_inserter(own),
+    std::vector<Case> bases; /* which adding to the set does not move */
+    std::copy_if(set.cases().begin(), set.cases().end(), std::back_inserter(bases),
                  [](const Case &c) { return c.stage == "frame" && !is_circle(c); });
-    for (const Case &c : own) {
-        bases.push_back(&c);
-    }
-    std::stable_sort(bases.begin(), bases.end(), [](const Case *a, const Case *b) {
-        return a->inputs[0].words.size() < b->inputs[0].words.size();
-    });
+    std::stable_sort(bases.begin(), bases.end(),
+                     [](const Case &a, const Case &b) { return a.inputs[0].words.size() < b.inputs[0].words.size(); });
     set.begin("frame");
     for (size_t which = 0; which < CONF_CONFIG_WORDS; which++) {
         add_threshold(set, bases, which);

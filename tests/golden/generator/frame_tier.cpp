@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "config_words.h"
+#include "case_words.h"
 #include "frame_words.hpp"
 
 namespace vectors {

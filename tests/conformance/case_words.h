@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* Every threshold of the method as a word of a case, in the order of drogue_config. */
-#ifndef DROGUE_TESTS_CONFIG_WORDS_H
-#define DROGUE_TESTS_CONFIG_WORDS_H
+/* Words of a case as the library's structs: camera, model, region, and every threshold of the method in the order of
+ * drogue_config. Of the stages' adapters and of the test benches for hardware, which are built without these. */
+#ifndef DROGUE_TESTS_CASE_WORDS_H
+#define DROGUE_TESTS_CASE_WORDS_H
 
 #include "drogue/config.h"
 
@@ -9,7 +10,41 @@
 extern "C" {
 #endif
 
-/* Type and member of each. */
+static inline drogue_camera conf_camera(const int32_t *words)
+{
+    drogue_camera c;
+    c.fx_px_q16 = words[0];
+    c.fy_px_q16 = words[1];
+    c.cx_px_q16 = words[2];
+    c.cy_px_q16 = words[3];
+    c.k1_q16 = words[4];
+    c.k2_q16 = words[5];
+    c.p1_q16 = words[6];
+    c.p2_q16 = words[7];
+    c.k3_q16 = words[8];
+    return c;
+}
+
+static inline drogue_model conf_model(const int32_t *words)
+{
+    drogue_model m;
+    m.rim_radius_m_q16 = words[0];
+    m.inner_radius_m_q16 = words[1];
+    m.inner_depth_m_q16 = words[2];
+    return m;
+}
+
+static inline drogue_region conf_region(const int32_t *words)
+{
+    drogue_region r;
+    r.x_px = words[0];
+    r.y_px = words[1];
+    r.width_px = words[2];
+    r.height_px = words[3];
+    return r;
+}
+
+/* Type and member of each threshold. */
 /* clang-format off */
 #define CONF_CONFIG_LIST(W)                \
     W(int32_t, canny_low)                  \
