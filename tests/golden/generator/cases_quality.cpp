@@ -63,7 +63,7 @@ void add_ordinary_scores(Set &set)
     for (const Shape &s : shapes) {
         accuracy::Random random = set.random(s.name);
         Scored scored;
-        scored.ellipse = {q16(s.xc), q16(s.yc), q16(s.a), q16(s.b), q16(s.angle)};
+        scored.ellipse = Words{q16(s.xc), q16(s.yc), q16(s.a), q16(s.b), q16(s.angle)};
         scored.points = points_about(scored.ellipse, random, s.count, 0.8);
         add_scored(set, s.name, Tier::ordinary, s.xc < 0 ? Flags{"rounding-negative"} : Flags{}, scored);
     }
@@ -79,10 +79,10 @@ void add_scores_near_ties(Set &set)
         Scored s;
         double off = 1;
         while (off > 0.002) { /* LSB */
-            s.ellipse = {0, 0, between(random, 9, 400) * ONE + between(random, 0, 65535), 0, 0};
+            s.ellipse = Words{0, 0, between(random, 9, 400) * ONE + between(random, 0, 65535), 0, 0};
             s.ellipse[3] =
                 ONE + static_cast<int64_t>(random.uniform(0.35, 0.98) * static_cast<double>(s.ellipse[2] - ONE));
-            s.points = {s.ellipse[2], 0};
+            s.points = Words{s.ellipse[2], 0};
             s.k1 = k * ONE * 2 + between(random, 0, 131071);
             s.k2 = between(random, 0, 15000);
             const auto real = [](int64_t word) { return static_cast<reference::Real>(word) / 65536; };
@@ -103,10 +103,10 @@ void add_magnified_angles(Set &set)
         const std::string name = "sine-and-cosine-" + std::to_string(k);
         accuracy::Random random = set.random(name);
         Scored s;
-        s.ellipse = {between(random, -99999, 99999), between(random, -99999, 99999), ONE + 3 * k, ONE,
-                     k == 0   ? HALF_PI
-                     : k == 1 ? -HALF_PI
-                              : between(random, -102943, 102943)};
+        s.ellipse = Words{between(random, -99999, 99999), between(random, -99999, 99999), ONE + 3 * k, ONE,
+                          k == 0   ? HALF_PI
+                          : k == 1 ? -HALF_PI
+                                   : between(random, -102943, 102943)};
         for (int i = 0; i < 50; i++) {
             const double t = random.uniform(0, 2 * CV_PI);
             s.points.push_back(s.ellipse[0] + q16(15.5 * std::cos(t)));
@@ -126,10 +126,10 @@ void add_quality(Set &set)
     add_magnified_angles(set);
     accuracy::Random random = set.random("quality");
     Scored circle;
-    circle.ellipse = {100 * ONE, 100 * ONE, 64 * ONE, 64 * ONE, 0};
+    circle.ellipse = Words{100 * ONE, 100 * ONE, 64 * ONE, 64 * ONE, 0};
     /* deviation of (64 + d) px along an axis is 2 d / 64 + (d / 64)^2; thresholds 2 / 64 met, missed by one LSB */
-    circle.points = {164 * ONE, 100 * ONE, 100 * ONE, 164 * ONE, 36 * ONE,        100 * ONE, 165 * ONE, 100 * ONE,
-                     163 * ONE, 100 * ONE, 100 * ONE, 100 * ONE, 164 * ONE + 512, 100 * ONE, 100 * ONE, 35 * ONE};
+    circle.points = Words{164 * ONE, 100 * ONE, 100 * ONE, 164 * ONE, 36 * ONE,        100 * ONE, 165 * ONE, 100 * ONE,
+                          163 * ONE, 100 * ONE, 100 * ONE, 100 * ONE, 164 * ONE + 512, 100 * ONE, 100 * ONE, 35 * ONE};
     add_scored(set, "circle", Tier::ordinary, {}, circle);
     circle.fit_error = 32 * (2 * 1024 + 16); /* threshold equal to the deviation at 65 px: 1 / 32 + 1 / 4096 */
     add_scored(set, "threshold-met", Tier::boundary, {"tie", "threshold-met"}, circle);
@@ -141,7 +141,7 @@ void add_quality(Set &set)
     add_scored(set, "largest-tolerance", Tier::boundary, {"saturation"}, circle);
 
     Scored s;
-    s.ellipse = {50 * ONE, 60 * ONE, 45 * ONE, 39 * ONE, 40000};
+    s.ellipse = Words{50 * ONE, 60 * ONE, 45 * ONE, 39 * ONE, 40000};
     s.points = points_about(s.ellipse, random, 30, 0.5);
     for (const int64_t k1 : {INT64_C(0), INT64_C(1), ONE, 64 * ONE}) {
         s.k1 = k1;
@@ -160,9 +160,9 @@ void add_quality(Set &set)
         add_scored(set, "exponential-" + std::to_string(k), Tier::ordinary, {"exponential"}, s);
     }
     s = Scored();
-    s.ellipse = {50 * ONE, 50 * ONE, 12 * ONE, 9 * ONE, -30000};
-    s.points = {4000 * ONE,  50 * ONE, 50 * ONE,  -9000 * ONE, -32768 * ONE, -32768 * ONE, 32767 * ONE,
-                32767 * ONE, 50 * ONE, 242 * ONE, 242 * ONE,   50 * ONE,     50 * ONE,     50 * ONE};
+    s.ellipse = Words{50 * ONE, 50 * ONE, 12 * ONE, 9 * ONE, -30000};
+    s.points = Words{4000 * ONE,  50 * ONE, 50 * ONE,  -9000 * ONE, -32768 * ONE, -32768 * ONE, 32767 * ONE,
+                     32767 * ONE, 50 * ONE, 242 * ONE, 242 * ONE,   50 * ONE,     50 * ONE,     50 * ONE};
     add_scored(set, "points-far-away", Tier::stress, {"saturation"}, s);
     s.points = points_about(s.ellipse, random, 200, 0.2);
     add_scored(set, "more-points-than-circumference", Tier::boundary, {"saturation"}, s);
@@ -183,8 +183,8 @@ void add_quality(Set &set)
         const int64_t a = between(random, 3 * 65536, 300 * 65536);
         const int64_t b = ONE + static_cast<int64_t>(random.next() % static_cast<uint64_t>(a - ONE));
         Scored any;
-        any.ellipse = {between(random, -100000, 9000000), between(random, -100000, 9000000), a, b,
-                       between(random, -102944, 102944)};
+        any.ellipse = Words{between(random, -100000, 9000000), between(random, -100000, 9000000), a, b,
+                            between(random, -102944, 102944)};
         any.points = points_about(any.ellipse, random, 25, 1.5);
         any.fit_error = between(random, 10000, 150000);
         any.k1 = between(random, 0, 20 * 65536);
