@@ -32,7 +32,7 @@ static void forget(drogue_result *out)
 
 #define SURE_Q16 DROGUE_Q16(1, 256)    /* of less doubt nothing else is tried */
 #define LEAST_Q16 DROGUE_Q16(2, 100)   /* by less the disc is too large for no other outline along rays */
-#define BEYOND_Q16 DROGUE_Q16(15, 100) /* by more than this it is too large for anything beyond the outline */
+#define BEYOND_Q16 DROGUE_Q16(20, 100) /* by more than this it is too large for anything beyond the outline */
 #define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 

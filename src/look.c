@@ -9,7 +9,8 @@
 
 /* Parts of a semi-axis within which one ellipse is the other. */
 #define SAME_AGAIN 3  /* of a second look: the first one's arcs were cut, and tell its size roughly */
-#define AS_ALLOWED 16 /* of a disc's outline: the guess that was settled is good to some per cent */
+#define AS_ALLOWED 16 /* of a disc's outline: the guess that was settled is good to some per cent of its size, */
+#define THERE 8       /* and to this part in its place */
 
 /* Clip the region to the image; the mask stays that of the region asked for, in the clipped one's coordinates. */
 static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, const drogue_image *image,
@@ -118,15 +119,17 @@ static drogue_status find_outline(drogue_frame *f, const drogue_region *region)
                : status;
 }
 
-/* Is one ellipse about where the other is, and about as large: within a part of its semi-axis? Each in the coordinates
+/* Is one ellipse about where the other is, and about as large: within parts of its semi-axis? Each in the coordinates
  * of its own region, of which the one's lies (x, y) beside the other's. */
-static int about_the_same(const drogue_ellipse *e, const drogue_ellipse *was, int32_t x_px, int32_t y_px, int32_t part)
+static int about_the_same(const drogue_ellipse *e, const drogue_ellipse *was, int32_t x_px, int32_t y_px, int32_t there,
+                          int32_t as_large)
 {
-    const drogue_q16 most = was->a_px_q16 / part;
+    const drogue_q16 away = was->a_px_q16 / there;
+    const drogue_q16 most = was->a_px_q16 / as_large;
     const drogue_q16 dx = drogue_sat_s32((int64_t)e->xc_px_q16 - was->xc_px_q16 + (int64_t)x_px * DROGUE_Q16_ONE);
     const drogue_q16 dy = drogue_sat_s32((int64_t)e->yc_px_q16 - was->yc_px_q16 + (int64_t)y_px * DROGUE_Q16_ONE);
     const int64_t da = (int64_t)e->a_px_q16 - was->a_px_q16;
-    return da <= most && da >= -most && drogue_square_sum(dx, dy) <= drogue_square_sum(most, 0);
+    return da <= most && da >= -most && drogue_square_sum(dx, dy) <= drogue_square_sum(away, 0);
 }
 
 /* Look for an outline once more, in a region that suits what was found. */
@@ -147,7 +150,7 @@ static drogue_second_look look_again(drogue_frame *f, const drogue_outline *was)
     }
     return f->outline.cover_q16 >= was->cover_q16 &&
                    about_the_same(&f->outline.ellipse, &was->ellipse, f->out->region.x_px - x_px,
-                                  f->out->region.y_px - y_px, SAME_AGAIN)
+                                  f->out->region.y_px - y_px, SAME_AGAIN, SAME_AGAIN)
                ? DROGUE_SECOND_BETTER
                : DROGUE_SECOND_NO_MORE;
 }
@@ -289,7 +292,7 @@ drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *regi
     }
     f->ring_px_q16 = ring.a_px_q16;
     return drogue_outline_settle(&f->outline, &ring, f->workspace, &f->held.list, &f->mask, f->setup->config) &&
-                   about_the_same(&f->outline.ellipse, &ring, 0, 0, AS_ALLOWED)
+                   about_the_same(&f->outline.ellipse, &ring, 0, 0, THERE, AS_ALLOWED)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;
 }

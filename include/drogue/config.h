@@ -64,7 +64,8 @@ typedef struct drogue_config {
     /* 0.85: an outline covered less that the ring mask cuts is looked for again in a region about it; 0: never */
     drogue_q16 recentre_cover_q16;
     drogue_q16 optics_blur_px_q16;  /* 0.6 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
-                                      draws a curved edge inward, which is put back (outline.h) */
+                                      draws a curved edge inward, and one whose bright side is cut off to the dark
+                                      side, which are put back (outline.h) */
     uint32_t min_inner_area_px;     /* 9 px: smaller inner parts are noise */
     int32_t min_inner_contrast;     /* 6 grey levels, [0, 255]: less contrast with its surround is no inner part */
     drogue_q16 inner_gate_px_q16;   /* 1.5 px: the inner part is believed within this and inner_gate of where a pose

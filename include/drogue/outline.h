@@ -48,12 +48,19 @@ typedef struct drogue_outline_room {
     drogue_support support;                             /* of that */
     drogue_outline trial;                               /* being refined */
     drogue_outline best;                                /* of those so far, when a larger one is looked for */
+    drogue_q16 outer_px_q16[DROGUE_SUPPORT_BINS];       /* where another edge lies outside it, by bins */
 } drogue_outline_room;
 
 /* With the four bytes that alignment may take. */
 typedef char drogue_assume_outline_fits[sizeof(drogue_outline_room) + 4 <= DROGUE_SCRATCH_BYTES ? 1 : -1];
 
 /* Find the outline.
+ *
+ * Of a rim that is a band of another grey the outer edge: edge points 1 px and more outside, to 3 px or a twentieth of
+ * the semi-axis, up to 17 px, are taken by bins (support.h). Where six bins and more are covered, least squares over
+ * them, then over the nearer of both edges, give an ellipse that is larger and shifted. Where it passes six
+ * tenths of the bins that show either edge, six of them outside, it is refitted, and is the outline if it stays larger
+ * and 13/16 of it are covered; arcs and quality stay those of the inner edge.
  *
  *  out        outline; on failure what is known of the best candidate, zero when there is none
  *  workspace  edges and arcs as the front end left them
@@ -93,6 +100,10 @@ void drogue_outline_clear(drogue_outline *outline);
  * Where motion blurs the outline (by more than half a px^2 of variance more along it than across, and 24 px and more of
  * b), its edges have no steepest place: the middle of their slopes counts then, less half of what the motion is longer
  * than the bright band is wide that the outline ends, and all of that is put back.
+ * Where the grey is 254 and more as near as 1.5 px beside it, the sensor has cut off what would be brighter, and the
+ * edge lies towards the dark side: by half the optics' blur, in the share of the rays where it is so, which is right of
+ * light 1.2 to 1.5 times what the sensor bears and half of it at 2. White that is not cut off is so near only where
+ * there is less blur than is configured.
  *
  *  outline  in: found or enlarged; out: ellipse, and support.pull_q24 with the coefficients that were put back: at most
  *           an eighth of the semi-axis; support.smear_px2_q16 with the motion blur that the edge's widths show. Below 1

@@ -34,7 +34,7 @@ typedef struct drogue_capacity {
 #define DROGUE_ROWS_BYTES(width_px)                      \
     ((size_t)(width_px) * (sizeof(drogue_merge) + 16u) + \
      DROGUE_HALF(width_px) * (5u * 2u + 3u * 4u + 4u * 4u + 32u + 4u) + 5u * 4u + 7u * 8u)
-#define DROGUE_SCRATCH_BYTES ((size_t)6656) /* that the outline, the candidates and the rays need at most */
+#define DROGUE_SCRATCH_BYTES ((size_t)4608) /* that the outline, the candidates and the rays need at most */
 #define DROGUE_KEPT_BYTES ((size_t)472)     /* a result, wherever the memory begins: drogue.h checks that it fits */
 
 /* Bytes of memory for a workspace: usable in a static array's size. */

@@ -29,6 +29,17 @@ drogue_status drogue_collection_fit(drogue_ellipse *out, const drogue_collection
     return status;
 }
 
+void drogue_ellipse_shift(drogue_ellipse *e, drogue_q16 along_px_q16, drogue_q16 across_px_q16)
+{
+    int32_t s_q30;
+    int32_t c_q30;
+    int64_t moved_px_q16[2];
+    drogue_sincos_of_q16(&s_q30, &c_q30, e->angle_rad_q16);
+    drogue_rotate_q30(moved_px_q16, along_px_q16, across_px_q16, c_q30, s_q30);
+    e->xc_px_q16 = drogue_sat_s32(e->xc_px_q16 + moved_px_q16[0]);
+    e->yc_px_q16 = drogue_sat_s32(e->yc_px_q16 + moved_px_q16[1]);
+}
+
 void drogue_undo_blur(drogue_ellipse *e, const drogue_config *config)
 {
     drogue_real own;

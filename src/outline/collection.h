@@ -16,6 +16,9 @@ void drogue_collection_begin(drogue_collection *c, const drogue_ellipse *e, int6
 /* Fit the points of a collection. As drogue_ellipse_fit(). */
 drogue_status drogue_collection_fit(drogue_ellipse *out, const drogue_collection *c);
 
+/* Shift an ellipse along its axes; its centre saturates. */
+void drogue_ellipse_shift(drogue_ellipse *e, drogue_q16 along_px_q16, drogue_q16 across_px_q16);
+
 /* Put back what blur takes: an edge of curvature c under blur of variance v shows v c / 2 further in. The front end's
  * own share of v / 2 is measured on discs of 20 to 160 px. Curvature is a / b^2 at the ends of the major axis, b / a^2
  * at those of the minor. */

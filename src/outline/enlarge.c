@@ -4,33 +4,13 @@
 
 #define RINGS 14 /* about the outline, each larger than the one before by a fortieth: to 1.4 times its size */
 
-/* How much of a ring is covered; negative when it is no plausible ellipse. */
-static drogue_q16 cover_of(const drogue_ellipse *ring, drogue_refit_context *c)
-{
-    if (!drogue_refit_plausible(c, ring) || drogue_refit_look(c, ring, 0) != DROGUE_OK) {
-        return -1;
-    }
-    return drogue_support_cover(&c->room->support);
-}
-
-/* Look for an outline on a ring: is enough of it covered? Negative when it is no plausible ellipse. */
-static int ring_covered(const drogue_ellipse *ring, drogue_refit_context *c)
-{
-    const drogue_q16 cover_q16 = cover_of(ring, c);
-    const uint32_t bright_bins = c->room->support.bright_bins;
-    if (cover_q16 < c->config->min_cover_q16) {
-        return cover_q16 < 0 ? -1 : 0;
-    }
-    return c->looked_as == bright_bins || drogue_refit_look(c, ring, bright_bins) == DROGUE_OK;
-}
-
 drogue_q16 drogue_outline_covered(const drogue_ellipse *ring, const drogue_workspace *workspace,
                                   const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config)
 {
     drogue_refit_context c;
     drogue_q16 cover_q16;
     drogue_refit_begin(&c, workspace, list, mask, config);
-    cover_q16 = cover_of(ring, &c);
+    cover_q16 = drogue_refit_cover(ring, &c);
     return cover_q16 > 0 ? cover_q16 : 0;
 }
 
@@ -47,7 +27,7 @@ int drogue_outline_settle(drogue_outline *out, const drogue_ellipse *ring, const
     drogue_refit_context c;
     drogue_refit_begin(&c, workspace, list, mask, config);
     drogue_outline_clear(out);
-    if (ring_covered(ring, &c) <= 0) {
+    if (drogue_refit_covers(ring, &c) <= 0) {
         return 0;
     }
     out->ellipse = *ring;
@@ -79,7 +59,7 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
         int covered;
         ring.a_px_q16 = drogue_q16_add(ring.a_px_q16, ring.a_px_q16 / 40);
         ring.b_px_q16 = drogue_q16_add(ring.b_px_q16, ring.b_px_q16 / 40);
-        covered = ring_covered(&ring, &c);
+        covered = drogue_refit_covers(&ring, &c);
         if (covered < 0) {
             break;
         }

@@ -2,6 +2,8 @@
 /* How far an ellipse was moved and bent. */
 #include "harmonics.h"
 
+#include "collection.h"
+
 #include "drogue/fixed.h"
 
 #define GROUPS DROGUE_EDGE_GROUPS
@@ -131,17 +133,11 @@ void drogue_outline_put_back(drogue_ellipse *e, const int32_t pull_q24[5])
     const int64_t u = -drogue_shr_round_s64((int64_t)e->a_px_q16 * pull_q24[1], 24);
     const int64_t v = -drogue_shr_round_s64((int64_t)e->b_px_q16 * pull_q24[2], 24);
     const int32_t apart = (int32_t)drogue_isqrt_u64((uint64_t)(half * half + cross * cross));
-    int32_t s_q30;
-    int32_t c_q30;
-    int64_t moved_px_q16[2];
     int64_t angle;
     if (pull_q24[0] == 0 && pull_q24[1] == 0 && pull_q24[2] == 0 && pull_q24[3] == 0 && pull_q24[4] == 0) {
         return;
     }
-    drogue_sincos_of_q16(&s_q30, &c_q30, e->angle_rad_q16);
-    drogue_rotate_q30(moved_px_q16, drogue_sat_s32(u), drogue_sat_s32(v), c_q30, s_q30);
-    e->xc_px_q16 = drogue_sat_s32(e->xc_px_q16 + moved_px_q16[0]);
-    e->yc_px_q16 = drogue_sat_s32(e->yc_px_q16 + moved_px_q16[1]);
+    drogue_ellipse_shift(e, drogue_sat_s32(u), drogue_sat_s32(v));
     e->a_px_q16 = (drogue_q16)((a + b) / 2 + apart);
     e->b_px_q16 = (drogue_q16)((a + b) / 2 - apart);
     angle = e->angle_rad_q16 + drogue_shr_round_s64(drogue_atan2_q29(cross, half), 14);

@@ -4,7 +4,9 @@
  * Shading that runs up to the outline, or another edge nearby as that of a narrow wall, moves the place where the grey
  * changes fastest, the farther the more blur there is. So the edge is looked for at two blurs along rays: as the front
  * end sees it, and sharpened. It goes from the one towards the other. Where grey levels are encoded, the sharpened edge
- * is that of the light. */
+ * is that of the light. Where the sensor is saturated beside it, what would be brighter is cut off and the edge lies
+ * towards the dark side: by half the optics' blur where the light is about one and a half times what the sensor bears.
+ * What is white without being cut off is white farther out. */
 #include "drogue/outline.h"
 
 #include <string.h>
@@ -21,13 +23,18 @@
 #define TWO_SETS DROGUE_Q16(24, 1) /* px: of a larger outline twice as many rays are read */
 #define SMEARED_Q32 (1u << 30)     /* px^4: square of a smear of half a px^2; of less an edge has a steepest place */
 #define Q20_OF_Q16 16
+#define WHITE_Q8 (254 * 256) /* a level that is saturated, but for noise of processing */
+#define BESIDE 3             /* samples from the outline to where only an edge that is cut off is white, 1.5 px */
 
 /* Add grey, or the light that a transfer function makes of it, along a group's rays where the outline has points,
- * 'middle' samples and one of them within it, so that it falls outwards: as it is or negative, as its bin. */
-static void add_grey(int32_t sum[], int32_t samples, int32_t middle, const drogue_ray rays[DROGUE_RAYS], int32_t group,
-                     const drogue_image *view, drogue_transfer transfer, const drogue_support *support)
+ * 'middle' samples and one of them within it, so that it falls outwards: as it is or negative, as its bin. Returns how
+ * many of the rays are saturated outside, less those that are inside. */
+static int32_t add_grey(int32_t sum[], int32_t samples, int32_t middle, const drogue_ray rays[DROGUE_RAYS],
+                        int32_t group, const drogue_image *view, drogue_transfer transfer,
+                        const drogue_support *support)
 {
     int32_t grey[DROGUE_SMEARED_SLOPES + 2];
+    int32_t white = 0;
     int32_t i;
     int32_t k;
     for (k = group * GROUP; k < (group + 1) * GROUP; k++) {
@@ -40,14 +47,16 @@ static void add_grey(int32_t sum[], int32_t samples, int32_t middle, const drogu
             for (i = 0; i < samples; i++) { /* bound: DROGUE_SMEARED_SLOPES + 2 */
                 sum[i] += sign * grey[i];
             }
+            white += (grey[middle + 1 + BESIDE] >= WHITE_Q8) - (grey[middle + 1 - BESIDE] >= WHITE_Q8);
         }
     }
+    return white;
 }
 
 /* Slopes of a group and of the one across, the mean over the sets of rays that the outline is large for: the noise of a
- * few rays is more than that of its edge points. */
-static void read_slopes(int32_t slope[2][SLOPES], const drogue_outline *outline, drogue_ray rays[DROGUE_RAYS],
-                        int32_t group, const drogue_image *view, drogue_transfer transfer)
+ * few rays is more than that of its edge points. And what add_grey() returns, of 16 rays. */
+static void read_slopes(int32_t slope[2][SLOPES], int32_t white[2], const drogue_outline *outline,
+                        drogue_ray rays[DROGUE_RAYS], int32_t group, const drogue_image *view, drogue_transfer transfer)
 {
     const int32_t shift = outline->fitted.a_px_q16 >= TWO_SETS;
     int32_t sum[2][SLOPES + 2];
@@ -55,14 +64,16 @@ static void read_slopes(int32_t slope[2][SLOPES], const drogue_outline *outline,
     int32_t across;
     int32_t i;
     memset(sum, 0, sizeof sum);
+    white[0] = white[1] = 0;
     for (set = 0; set < 1 << shift; set++) { /* bound: 2 */
         drogue_rays_aim(rays, &outline->fitted, (8 * set + 4) >> shift, group * GROUP, (group + 1) * GROUP);
         for (across = 0; across < 2; across++) {
-            add_grey(sum[across], SLOPES + 2, MIDDLE, rays, group + across * (GROUPS / 2), view, transfer,
-                     &outline->support);
+            white[across] += add_grey(sum[across], SLOPES + 2, MIDDLE, rays, group + across * (GROUPS / 2), view,
+                                      transfer, &outline->support);
         }
     }
     for (across = 0; across < 2; across++) {
+        white[across] *= 2 >> shift;
         for (i = 0; i < SLOPES; i++) {
             slope[across][i] = (int32_t)drogue_shr_round_s64(sum[across][i] - sum[across][i + 2], shift);
         }
@@ -88,7 +99,7 @@ static void find_smeared(int32_t moved_q20[GROUPS], const drogue_ray rays[DROGUE
         int32_t slope[DROGUE_SMEARED_SLOPES + 2];
         int32_t k;
         memset(slope, 0, sizeof slope);
-        add_grey(slope, DROGUE_SMEARED_SLOPES + 2, DROGUE_SMEARED_MIDDLE, rays, i, view, transfer, support);
+        (void)add_grey(slope, DROGUE_SMEARED_SLOPES + 2, DROGUE_SMEARED_MIDDLE, rays, i, view, transfer, support);
         for (k = 0; k < DROGUE_SMEARED_SLOPES; k++) {
             slope[k] -= slope[k + 2];
         }
@@ -101,9 +112,11 @@ static void find_smeared(int32_t moved_q20[GROUPS], const drogue_ray rays[DROGUE
 }
 
 static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
-                 drogue_transfer transfer)
+                 const drogue_config *config)
 {
+    const drogue_transfer transfer = config->transfer;
     int32_t moved_q20[GROUPS];
+    int32_t cut_q20[GROUPS];
     int32_t noise_px_q24[GROUPS];
     int32_t variance_px2_q16[GROUPS];
     int smeared;
@@ -111,14 +124,17 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
     int32_t i;
     for (i = 0; i < GROUPS / 2; i++) {
         int32_t slope[2][SLOPES];
+        int32_t white[2];
         drogue_seen_edge edge[2];
-        read_slopes(slope, outline, rays, i, view, DROGUE_TRANSFER_LINEAR);
+        read_slopes(slope, white, outline, rays, i, view, DROGUE_TRANSFER_LINEAR);
         for (across = 0; across < 2; across++) {
+            const int32_t group = i + across * (GROUPS / 2);
             drogue_see_edge(&edge[across], slope[across]);
-            variance_px2_q16[i + across * (GROUPS / 2)] = edge[across].variance_px2_q16;
+            variance_px2_q16[group] = edge[across].variance_px2_q16;
+            cut_q20[group] = white[across] * config->optics_blur_px_q16; /* of 16 rays half of it, in half pixels */
         }
         if (transfer != DROGUE_TRANSFER_LINEAR) {
-            read_slopes(slope, outline, rays, i, view, transfer);
+            read_slopes(slope, white, outline, rays, i, view, transfer);
         }
         for (across = 0; across < 2; across++) {
             const int32_t group = i + across * (GROUPS / 2);
@@ -130,6 +146,9 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
     if (smeared) {
         drogue_rays_aim(rays, &outline->fitted, 4, 0, DROGUE_RAYS / 2);
         find_smeared(moved_q20, rays, view, transfer, &outline->support);
+    }
+    for (i = 0; i < GROUPS; i++) {
+        moved_q20[i] -= cut_q20[i];
     }
     drogue_turn_wave(outline->support.smear_px2_q16, outline->fitted.angle_rad_q16);
     drogue_find_harmonics(outline->support.pull_q24, moved_q20, smeared ? NULL : noise_px_q24, &outline->fitted);
@@ -145,7 +164,7 @@ void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], 
         return;
     }
     if (outline->support.points > 0) {
-        pull(outline, rays, view, config->transfer);
+        pull(outline, rays, view, config);
         drogue_outline_put_back(&outline->ellipse, outline->support.pull_q24);
     }
     drogue_undo_blur(&outline->ellipse, config);

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define LOOKS 512 /* a candidate is scored by so many edge points, evenly taken */
+#define LOOKS 512 /* a candidate is scored by so many edge points at most, evenly taken */
 
 void drogue_refit_begin(drogue_refit_context *c, const drogue_workspace *workspace, const drogue_edge_list *list,
                         const drogue_mask *mask, const drogue_config *config)
@@ -15,6 +15,7 @@ void drogue_refit_begin(drogue_refit_context *c, const drogue_workspace *workspa
     c->list = list;
     c->mask = mask;
     c->config = config;
+    c->looks = LOOKS;
     drogue_collection_of_region(&c->room->sum);
 }
 
@@ -25,18 +26,21 @@ int drogue_refit_plausible(const drogue_refit_context *c, const drogue_ellipse *
            a <= (int64_t)c->config->max_size_q16 * c->mask->longest_px;
 }
 
-/* Band about an ellipse: the configured one, or a share of the semi-axis where that is wider. */
-static drogue_band band_about(const drogue_ellipse *e, const drogue_config *config)
+/* Band about an ellipse: the one asked for; else the configured one, or a share of the semi-axis where that is
+ * wider. */
+static drogue_band band_about(const drogue_ellipse *e, const drogue_refit_context *c)
 {
+    const drogue_config *config = c->config;
     const drogue_q16 wide = drogue_q16_mul(e->a_px_q16, config->search_band_q16);
     const drogue_q16 most = DROGUE_Q16(8, 1);
-    return drogue_band_of(config->refit_band_px_q16 > wide ? config->refit_band_px_q16
-                          : wide > most                    ? most
-                                                           : wide,
+    return drogue_band_of(c->band_px_q16 > 0                 ? c->band_px_q16
+                          : config->refit_band_px_q16 > wide ? config->refit_band_px_q16
+                          : wide > most                      ? most
+                                                             : wide,
                           config->refit_cos_q16);
 }
 
-static uint32_t stride_of(const drogue_refit_context *c) { return c->list->edge_count / LOOKS + 1; }
+uint32_t drogue_refit_stride(const drogue_refit_context *c) { return c->list->edge_count / c->looks + 1; }
 
 /* Collect the edge points that belong to an ellipse, every one or every so many of them: counts by bin, residuals, and
  * moments, where all count from those of the arcs. Bins have the given polarities until they are judged by the
@@ -74,9 +78,27 @@ static drogue_status collect(drogue_refit_context *c, const drogue_ellipse *elli
 
 drogue_status drogue_refit_look(drogue_refit_context *c, const drogue_ellipse *ellipse, uint32_t bright_bins)
 {
-    const drogue_band band = band_about(ellipse, c->config);
+    const drogue_band band = band_about(ellipse, c);
     c->looked_as = bright_bins;
-    return collect(c, ellipse, &band, bright_bins, stride_of(c));
+    return collect(c, ellipse, &band, bright_bins, drogue_refit_stride(c));
+}
+
+drogue_q16 drogue_refit_cover(const drogue_ellipse *ring, drogue_refit_context *c)
+{
+    if (!drogue_refit_plausible(c, ring) || drogue_refit_look(c, ring, 0) != DROGUE_OK) {
+        return -1;
+    }
+    return drogue_support_cover(&c->room->support);
+}
+
+int drogue_refit_covers(const drogue_ellipse *ring, drogue_refit_context *c)
+{
+    const drogue_q16 cover_q16 = drogue_refit_cover(ring, c);
+    const uint32_t bright_bins = c->room->support.bright_bins;
+    if (cover_q16 < c->config->min_cover_q16) {
+        return cover_q16 < 0 ? -1 : 0;
+    }
+    return c->looked_as == bright_bins || drogue_refit_look(c, ring, bright_bins) == DROGUE_OK;
 }
 
 /* Give an outline the points about it: those looked at, or all, collected anew. */
@@ -110,7 +132,7 @@ static int fit_once(drogue_outline *outline, drogue_refit_context *c, drogue_ban
 
 void drogue_refit(drogue_outline *outline, drogue_refit_context *c)
 {
-    drogue_band band = band_about(&outline->ellipse, c->config);
+    drogue_band band = band_about(&outline->ellipse, c);
     uint32_t bright_bins = c->looked_as; /* as which the points are taken */
     uint32_t round;
     int done = 0;
@@ -118,7 +140,7 @@ void drogue_refit(drogue_outline *outline, drogue_refit_context *c)
     for (round = 0; round < c->config->refit_rounds && !done; round++) { /* bound: 16 */
         done = take_points(outline, c, &band, round == 0) != DROGUE_OK;
         if (!done && outline->support.bright_bins == bright_bins) { /* else again with those that the counts show */
-            done = fit_once(outline, c, &band, round > 0 || stride_of(c) == 1);
+            done = fit_once(outline, c, &band, round > 0 || drogue_refit_stride(c) == 1);
         }
         bright_bins = outline->support.bright_bins;
     }

@@ -15,10 +15,9 @@ static uint32_t needed_points(const drogue_ellipse *e, uint32_t k)
     return (uint32_t)((drogue_shr_round_s64(length_q16 * DROGUE_Q16(35, 100), 16) + 0xFFFF) >> 16);
 }
 
-/* Set bits of a word. */
-static uint32_t popcount(uint32_t v)
+uint32_t drogue_support_count(uint32_t bins)
 {
-    v = v - ((v >> 1) & 0x55555555u);
+    uint32_t v = bins - ((bins >> 1) & 0x55555555u);
     v = (v & 0x33333333u) + ((v >> 2) & 0x33333333u);
     v = (v + (v >> 4)) & 0x0F0F0F0Fu;
     return (v * 0x01010101u) >> 24;
@@ -36,7 +35,7 @@ static uint32_t changes(uint32_t bright, uint32_t covered)
         own |= turned(own, n) & ~known;
         known |= turned(known, n);
     }
-    return popcount(own ^ turned(own, 1));
+    return drogue_support_count(own ^ turned(own, 1));
 }
 
 /* Bins that hold enough points of each polarity. */
@@ -58,12 +57,36 @@ static void enough_points(uint32_t enough[2], const drogue_support *support, con
     }
 }
 
+static uint32_t covered_bins(const uint32_t enough[2], uint32_t bright_bins)
+{
+    return (enough[0] & ~bright_bins) | (enough[1] & bright_bins);
+}
+
+uint32_t drogue_support_covered_bins(const drogue_support *support, const drogue_ellipse *ellipse, uint32_t bright_bins,
+                                     uint32_t stride)
+{
+    uint32_t enough[2];
+    enough_points(enough, support, ellipse, stride);
+    return covered_bins(enough, bright_bins);
+}
+
 /* Covered bins when the bins have these polarities, less the changes of polarity. */
 static uint32_t covered_by(const uint32_t enough[2], uint32_t bright_bins)
 {
-    const uint32_t covered = (enough[0] & ~bright_bins) | (enough[1] & bright_bins);
+    const uint32_t covered = covered_bins(enough, bright_bins);
+    const uint32_t count = drogue_support_count(covered);
     const uint32_t lost = changes(bright_bins, covered);
-    return popcount(covered) > lost ? popcount(covered) - lost : 0;
+    return count > lost ? count - lost : 0;
+}
+
+uint32_t drogue_support_majority(const drogue_support *support)
+{
+    uint32_t bright = 0;
+    uint32_t k;
+    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        bright |= (uint32_t)(support->bin[k].count[1] > support->bin[k].count[0]) << k;
+    }
+    return bright;
 }
 
 void drogue_support_judge_as(drogue_support *support, const drogue_ellipse *ellipse, uint32_t bright_bins,
@@ -85,9 +108,7 @@ void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse
         drogue_support_judge_as(support, ellipse, bins[polarity], stride);
         return;
     }
-    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        bins[2] |= (uint32_t)(support->bin[k].count[1] > support->bin[k].count[0]) << k;
-    }
+    bins[2] = drogue_support_majority(support);
     enough_points(enough, support, ellipse, stride);
     support->bright_bins = bins[0];
     support->covered = covered_by(enough, bins[0]);

@@ -242,9 +242,9 @@ void add_regions(Set &set)
     f.region = {0, 0, 0, 40};
     add_frame(set, "region-empty", Tier::must_reject, {"degenerate"}, f);
     f.region = {0, 0, 8193, 8193};
-    add_frame(set, "region-too-large", Tier::must_reject, {"saturation"}, f);
+    add_frame(set, "region-too-large", Tier::must_reject, {}, f);
     f.region = {-1048577, 0, 64, 64};
-    add_frame(set, "region-too-far", Tier::must_reject, {"saturation"}, f);
+    add_frame(set, "region-too-far", Tier::must_reject, {}, f);
     f.region = {0, 0, 8193, 60};
     add_frame(set, "region-too-wide", Tier::must_reject, {"threshold-met"}, f);
     f.region = {0, 0, 60, 8193};
@@ -492,6 +492,59 @@ void add_conditions(Set &set)
     }
 }
 
+/* A dark cone that ends in a band, on which light falls from one side and some from all, before a ground that may be
+ * brighter than the sensor bears: 'over' is its light, 1 what is white. */
+struct Banded {
+    double rim_px, band_px, lit;
+    int cone, band, tilt;
+    double over, all_about = 0;
+};
+
+Frame banded_drogue(const Banded &b)
+{
+    constexpr int WIDTH = 160, FINE = 6;
+    Frame f;
+    f.camera = {800, 800, WIDTH / 2, WIDTH / 2};
+    const double z = f.camera.fx_px * f.radius / b.rim_px, disc_px = f.camera.fx_px * f.inner_radius / (z + f.depth);
+    f.image = image_from(WIDTH, WIDTH, [&](int x, int y) {
+        double sum = 0;
+        for (int k = 0; k < FINE * FINE; k++) { /* two pixels wide */
+            const double u = x + (k % FINE - 2.5) / 3 - WIDTH / 2, v = y + (k / FINE - 2.5) / 3 - WIDTH / 2;
+            const double r = std::hypot(u, v * (1 + b.tilt / 100.0));
+            const double light = b.all_about + (1 - b.all_about) * std::max(0.0, std::cos(std::atan2(v, u) - b.lit));
+            sum += r < disc_px                ? 12
+                   : r < b.rim_px - b.band_px ? b.cone
+                   : r < b.rim_px             ? b.cone + light * (b.band - b.cone)
+                                              : 255 * b.over;
+        }
+        return std::min(255, static_cast<int>(sum / (FINE * FINE) + 0.5));
+    });
+    const int side = cvRound(2.5 * b.rim_px);
+    f.region = {(WIDTH - side) / 2, (WIDTH - side) / 2, side, side};
+    return f;
+}
+
+/* The rim's outer edge where its inner one is clearer, and saturated ground. */
+void add_bands(Set &set)
+{
+    int k = 0;
+    for (const Banded &b :
+         {Banded{57.5, 3.2, -0.2, 90, 210, 12, 0.3, 0.6}, Banded{53, 2, -1.2, 70, 210, 12, 0.4, 0.4},
+          Banded{46.5, 2.6, -1, 90, 240, 12, 0.5, 0.8}, Banded{42.5, 1.6, -0.1, 50, 240, 16, 0.25, 0.3},
+          Banded{57, 3.5, 1.4, 70, 240, 12, 0.2, 0.5}, Banded{45.5, 2.2, -0.9, 50, 90, 12, 0.2, 0.7},
+          Banded{51, 1.7, 2.8, 90, 150, 8, 0.2, 0.5}, Banded{63, 3.9, 2.7, 70, 120, 20, 0.6, 0.8},
+          Banded{61, 3.3, -0.4, 70, 240, 12, 0.25, 0.5}, Banded{58, 3.2, 1.6, 70, 250, 0, 0.5},
+          Banded{52, 2.6, 4, 60, 220, 0, 0.5}}) { /* the last two have it at once, or on one side */
+        add_frame(set, "banded-rim-" + std::to_string(k++), Tier::stress, {}, banded_drogue(b));
+    }
+    k = 0;
+    for (const Banded &b :
+         {Banded{40, 0, 0, 80, 80, 0, 1.3}, Banded{20, 0, 0, 40, 40, 3, 2.2}, Banded{50, 8, 3, 60, 400, 0, 0.3},
+          Banded{45, 30, 2, 90, 300, 5, 1.6}, Banded{48, 0, 0, 70, 70, 2, 1}}) { /* white, but not cut off */
+        add_frame(set, "saturated-" + std::to_string(k++), Tier::stress, {}, banded_drogue(b));
+    }
+}
+
 /* Ring with an inner disc, drawn. */
 Frame drawn(int side, int radius4, int rim, int paper, int inner)
 {
@@ -602,6 +655,7 @@ void add_frame(Set &set, const std::string &scenes_folder)
     add_conditions(set);
     add_choices(set);
     add_led_by_disc(set);
+    add_bands(set);
     add_faint_rims(set);
     add_drawings(set);
 }

@@ -7,6 +7,9 @@
 #define drogue_refit_begin decisions_refit_begin
 #define drogue_refit_plausible decisions_refit_plausible
 #define drogue_refit_look decisions_refit_look
+#define drogue_refit_stride decisions_refit_stride
+#define drogue_refit_cover decisions_refit_cover
+#define drogue_refit_covers decisions_refit_covers
 #define drogue_refit decisions_refit
 drogue_status decisions_outline_find(drogue_outline *, const drogue_workspace *, const drogue_edge_list *,
                                      const drogue_mask *, const drogue_config *);
@@ -16,8 +19,8 @@ drogue_status decisions_outline_find(drogue_outline *, const drogue_workspace *,
 /* As drogue_refit(), written down on the way. */
 static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, drogue_refit_context *x)
 {
-    drogue_band band = band_about(&o->ellipse, x->config);
-    uint32_t stride = x->config->refit_rounds > 0 ? stride_of(x) : 1;
+    drogue_band band = band_about(&o->ellipse, x);
+    uint32_t stride = x->config->refit_rounds > 0 ? drogue_refit_stride(x) : 1;
     uint32_t n;
     int done = 0;
     for (n = 0; n <= x->config->refit_rounds && !done;) {
@@ -69,11 +72,12 @@ int decisions_of_refit(decisions_round rounds[DECISIONS_MAX], const drogue_works
 
 int decisions_of_ring(decisions_round rounds[DECISIONS_MAX], const drogue_workspace *workspace,
                       const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config,
-                      const drogue_ellipse *ring, uint32_t bright_bins)
+                      const drogue_ellipse *ring, drogue_q16 band_px_q16, uint32_t bright_bins)
 {
     drogue_outline outline;
     drogue_refit_context x;
     drogue_refit_begin(&x, workspace, list, mask, config);
+    x.band_px_q16 = band_px_q16;
     memset(&outline, 0, sizeof outline);
     outline.ellipse = *ring;
     outline.support.bright_bins = bright_bins;

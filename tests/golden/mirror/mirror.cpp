@@ -525,7 +525,7 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
     const Ellipse was = real_of(ring);
     const bool found = settle(out.outline, ring, *f.front, f.mask, task.config, f.follow);
     const Ellipse &e = out.outline.ellipse;
-    return found && std::fabs(e.a - was.a) <= was.a / 16 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 16;
+    return found && std::fabs(e.a - was.a) <= was.a / 16 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 8;
 }
 
 bool about_one_size(Real a, Real of, int part) { return std::fabs(a - of) <= of / part; }
@@ -667,7 +667,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         }
     }
     const bool asks_beyond = best.status == DROGUE_OK && least > SURE &&
-                             best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.15L;
+                             best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.2L;
     if (asks_beyond && task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
         room = room == DROGUE_SECOND_NONE ? DROGUE_SECOND_FULL : room;
     } else if (asks_beyond) {

@@ -42,6 +42,28 @@ std::array<Real, N> slopes(const Support &s, const drogue_ray *rays, int group, 
     return sum;
 }
 
+/* How much of a group's rays is saturated 1.5 px outside the ellipse, less what is so inside it; of all, those without
+ * points of the outline, too. */
+Real cut_off(const Support &s, const drogue_ellipse &aim, int group, const drogue_image &view)
+{
+    const int sets = aim.a_px_q16 >= 24 * 65536 ? 2 : 1;
+    std::array<drogue_ray, DROGUE_RAYS> rays;
+    int cut = 0;
+    for (int set = 0; set < sets; set++) {
+        drogue_rays_aim(rays.data(), &aim, (8 * set + 4) / sets, 0, DROGUE_RAYS / 2);
+        for (int k = group * GROUP; k < (group + 1) * GROUP; k++) {
+            const auto bin = static_cast<size_t>(k * reference::SUPPORT_BINS / DROGUE_RAYS);
+            int32_t inside, outside;
+            if (s.count[bin][s.bright >> bin & 1] > 0) {
+                drogue_ray_read(&inside, &rays[k], &view, -3 * 32768, 1);
+                drogue_ray_read(&outside, &rays[k], &view, 3 * 32768, 1);
+                cut += (outside >= 254 * 256) - (inside >= 254 * 256);
+            }
+        }
+    }
+    return static_cast<Real>(cut) / (sets * GROUP);
+}
+
 /* The mean over as many sets of rays as the outline is large for, in whole numbers. */
 Curve mean_slopes(const Support &s, const drogue_ellipse &aim, int group, const drogue_image &view,
                   drogue_transfer transfer)
@@ -334,7 +356,7 @@ std::array<Real, 5> turned(const std::array<Real, 5> &p, Real turn)
 
 void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const drogue_config &config)
 {
-    std::array<Real, GROUPS> off, variance;
+    std::array<Real, GROUPS> off, variance, cut;
     Real noise = 64 / 65536.0L;
     o.ellipse = o.fitted;
     o.support.pull = {};
@@ -346,6 +368,7 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
             off[static_cast<size_t>(g)] = edge.by;
             noise += edge.noise * edge.noise / (4 * GROUPS);
             variance[static_cast<size_t>(g)] = edge_variance(slope, seen);
+            cut[static_cast<size_t>(g)] = cut_off(o.support, aim, g, view) * config.optics_blur_px_q16 / 131072.0L;
         }
         o.support.smear = smear_of(variance);
         const bool smeared = std::hypot(o.support.smear[0], o.support.smear[1]) > 0.5L && o.fitted.b >= 24;
@@ -359,6 +382,7 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
             }
             off = smeared_offsets(lobe);
         }
+        std::transform(off.begin(), off.end(), cut.begin(), off.begin(), std::minus<Real>());
         const Real c2 = std::cos(2 * o.fitted.angle), s2 = std::sin(2 * o.fitted.angle), c = o.support.smear[0];
         o.support.smear = {c * c2 - o.support.smear[1] * s2, o.support.smear[1] * c2 + c * s2}; /* from +x */
         o.support.pull = harmonics(off, o.fitted, noise, smeared);

@@ -297,9 +297,9 @@ START_TEST(all_points_are_collected)
         drogue_arc *arc = &t.workspace.arcs[i];
         const uint32_t first = n;
         uint32_t k;
-        for (k = 0; k < arc->count; k += 2) { /* in turn 1.2 px outward and inward */
+        for (k = 0; k < arc->count; k += 2) { /* in turn 0.9 px outward and inward */
             drogue_edge p = t.workspace.edges[arc->first + k];
-            const double off = (k % 4 < 2 ? 38.4 : -38.4) / hypot(p.gx, p.gy);
+            const double off = (k % 4 < 2 ? 28.8 : -28.8) / hypot(p.gx, p.gy);
             p.x_q5 = (uint16_t)(p.x_q5 + lround(off * p.gx));
             p.y_q5 = (uint16_t)(p.y_q5 + lround(off * p.gy));
             twice[n++] = p;
@@ -594,8 +594,100 @@ START_TEST(an_arc_of_too_many_points)
 }
 END_TEST
 
+/* Points of another list, of no arc. */
+static void put_more(test_workspace *t, drogue_edge_list *list, const test_workspace *u, const drogue_edge_list *more)
+{
+    uint32_t k;
+    for (k = 0; k < more->edge_count; k++) {
+        t->workspace.edges[list->edge_count] = u->workspace.edges[k];
+        t->workspace.edges[list->edge_count++].arc = DROGUE_NO_ARC;
+    }
+}
+
+/* What lies outside is no ellipse where most bins are off one, though a band about it holds them all. */
+START_TEST(no_outer_edge_of_a_wave)
+{
+    test_workspace t = test_workspace_of(SIDE, MOST, 4096, 64);
+    test_workspace u = test_workspace_of(SIDE, MOST, 4096, 64);
+    const drogue_mask mask = drogue_mask_of_size(SIDE, SIDE);
+    const drogue_config c = plain_config();
+    const ellipse_real e = {127, 128, 100, 94, 0};
+    int wave;
+    for (wave = 0; wave < 2; wave++) {
+        drogue_edge_list list = put_ellipse(&t, &e, 0, 2 * TEST_PI, 0, NULL);
+        const ellipse_real middle = {127, 128, 102.9, 96.9, 0};
+        drogue_outline out;
+        int k;
+        for (k = 0; k < 32; k++) { /* bins; of ten it is in its place */
+            const double off = wave && k >= 10 ? (k % 2 ? 0.9 : -0.9) : 0;
+            const ellipse_real at = {127, 128, middle.a + off, middle.b + off, 0};
+            const drogue_edge_list more = put_ellipse(&u, &at, k * TEST_PI / 16, TEST_PI / 16, 1, NULL);
+            put_more(&t, &list, &u, &more);
+        }
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "not found");
+        MUST(apart(&out.ellipse, wave ? &e : &middle) < 0.4, "wave %d: a %g, b %g", wave,
+             real_of_q16(out.ellipse.a_px_q16), real_of_q16(out.ellipse.b_px_q16));
+    }
+    test_workspace_free(&t);
+    test_workspace_free(&u);
+}
+END_TEST
+
+/* A rim that is a band: of the outline that is found all edge points, of its outer edge those of a part. */
+START_TEST(outer_edge_of_a_band)
+{
+    enum { LARGE = 1024, POINTS = 16384 };
+    static const struct {
+        ellipse_real e;                                    /* what is found, about the middle */
+        double larger_px, shifted_px, towards, from, span; /* the outer edge */
+        int bright, bright_outside, taken;
+    } cases[] = {
+        {{0, 0, 100, 90, 0.3}, 3, 0, 0, 0, 6.28, 0, 1, 1},         /* all about, */
+        {{0, 0, 100, 90, 0.3}, 3, 0, 0, 0, 6.28, 0, 0, 1},         /* of the same polarity, too, */
+        {{0, 0, 100, 90, 0.3}, 3, 0, 0, 0, 6.28, 1, 0, 1},         /* and of a bright outline */
+        {{0, 0, 100, 90, 0.3}, 1.6, 0, 0, 0, 6.28, 0, 1, 1},       /* near it, */
+        {{0, 0, 100, 90, 0.3}, 4.4, 0, 0, 0, 6.28, 0, 1, 1},       /* as far as a twentieth, */
+        {{0, 0, 100, 90, 0.3}, 7, 0, 0, 0, 6.28, 0, 1, 0},         /* and farther */
+        {{0, 0, 30, 28, 0.3}, 2.4, 0, 0, 0, 6.28, 0, 1, 1},        /* of a small outline 3 px */
+        {{0, 0, 30, 28, 0.3}, 4, 0, 0, 0, 6.28, 0, 1, 0},          /* and no more, */
+        {{0, 0, 440, 430, 0.3}, 14, 0, 0, 0, 6.28, 0, 1, 1},       /* of a large one 17 px */
+        {{0, 0, 440, 430, 0.3}, 20, 0, 0, 0, 6.28, 0, 1, 0},       /* and no more */
+        {{0, 0, 100, 94, 0.7}, 1.6, 2.2, 1.4, -0.4, 3.6, 0, 1, 1}, /* on one side, the other one being common */
+        {{0, 0, 100, 94, 0.7}, 1.6, 2.2, -2, 2.7, 3.4, 0, 1, 1},
+        {{0, 0, 100, 94, -0.9}, 1.4, 2, 0.3, -1.4, 3.4, 1, 0, 1},
+        {{0, 0, 100, 90, 0.3}, 3, 0, 0, 0, 3.4, 0, 1, 0}, /* of half of it there is none, */
+        {{0, 0, 100, 90, 0.3}, 3, 0, 0, 0, 0.9, 0, 1, 0}, /* nor of a few bins */
+    };
+    test_workspace t = test_workspace_of(LARGE, POINTS, 4096, 64);
+    test_workspace u = test_workspace_of(LARGE, POINTS, 4096, 64);
+    const drogue_config c = plain_config();
+    size_t i;
+    for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const int side = (int)(2.5 * cases[i].e.a) > LARGE ? LARGE : (int)(2.5 * cases[i].e.a);
+        const drogue_mask mask = drogue_mask_of_size(side, side);
+        ellipse_real e = cases[i].e, outer;
+        drogue_edge_list list, more;
+        drogue_outline out;
+        e.xc = e.yc = side / 2;
+        outer = e;
+        outer.a += cases[i].larger_px;
+        outer.b += cases[i].larger_px;
+        outer.xc += cases[i].shifted_px * cos(cases[i].towards + e.angle);
+        outer.yc += cases[i].shifted_px * sin(cases[i].towards + e.angle);
+        list = put_ellipse(&t, &e, 0, 2 * TEST_PI, cases[i].bright, NULL);
+        more = put_ellipse(&u, &outer, cases[i].from, cases[i].span, cases[i].bright_outside, NULL);
+        put_more(&t, &list, &u, &more);
+        MUST(drogue_outline_find(&out, &t.workspace, &list, &mask, &c) == DROGUE_OK, "case %d not found", (int)i);
+        MUST(apart(&out.ellipse, cases[i].taken ? &outer : &e) < 0.4, "case %d: %g px off the outer edge, %g the other",
+             (int)i, apart(&out.ellipse, &outer), apart(&out.ellipse, &e));
+    }
+    test_workspace_free(&t);
+    test_workspace_free(&u);
+}
+END_TEST
+
 SUITE_MAIN("outline", whole_ellipses_of_both_polarities, foreign_arc_is_left_out, second_choice_of_every_quadrant,
            outline_of_mixed_polarity, bump_drops_out_of_the_band, all_points_are_collected, thresholds_decide,
            cover_is_the_share_of_the_circumference, nothing_to_find, distortion_is_removed, undistorted_without_points,
            undistorted_and_put_back, undistorted_to_a_flat_one, undistorted_to_less_than_a_pixel,
-           an_arc_of_too_many_points)
+           an_arc_of_too_many_points, no_outer_edge_of_a_wave, outer_edge_of_a_band)
