@@ -58,9 +58,9 @@ typedef char drogue_assume_outline_fits[sizeof(drogue_outline_room) + 4 <= DROGU
  *
  * Of a rim that is a band of another grey the outer edge: edge points 1 px and more outside, to 3 px or a twentieth of
  * the semi-axis, up to 17 px, are taken by bins (support.h). Where six bins and more are covered, least squares over
- * them, then over the nearer of both edges, give an ellipse that is larger and shifted. Where it passes six
- * tenths of the bins that show either edge, six of them outside, it is refitted, and is the outline if it stays larger
- * and 13/16 of it are covered; arcs and quality stay those of the inner edge.
+ * them, then over the nearer of both edges, give an ellipse that is larger and shifted. Where it passes six tenths of
+ * the bins that show either edge, six of them outside, it is refitted, and is the outline if it stays larger and 13/16
+ * of it are covered; arcs and quality stay those of the inner edge.
  *
  *  out        outline; on failure what is known of the best candidate, zero when there is none
  *  workspace  edges and arcs as the front end left them

@@ -80,26 +80,37 @@ Real support_needed(const Ellipse &e, int bin)
     return 0.35L * (e.b + (e.a - e.b) * sine * sine) * 2 * PI / SUPPORT_BINS;
 }
 
-void support_judge_as(Support &s, const Ellipse &e, uint32_t bright, int stride)
-{
-    uint32_t covered = 0;
-    for (int k = 0; k < SUPPORT_BINS; k++) {
-        const int count = s.count[static_cast<size_t>(k)][bright >> k & 1];
-        covered |= static_cast<uint32_t>(count * stride >= support_needed(e, k)) << k;
-    }
-    s.bright = bright;
-    s.covered = std::max(0, set_bits(covered) - changes(bright, covered));
-}
-
-void support_judge(Support &s, const Ellipse &e, int polarity, int stride)
+uint32_t support_majority(const Support &s)
 {
     uint32_t majority = 0;
     for (int k = 0; k < SUPPORT_BINS; k++) {
         const auto &count = s.count[static_cast<size_t>(k)];
         majority |= static_cast<uint32_t>(count[1] > count[0]) << k;
     }
+    return majority;
+}
+
+uint32_t support_covered(const Support &s, const Ellipse &e, uint32_t bright, int stride)
+{
+    uint32_t covered = 0;
+    for (int k = 0; k < SUPPORT_BINS; k++) {
+        const int count = s.count[static_cast<size_t>(k)][bright >> k & 1];
+        covered |= static_cast<uint32_t>(count * stride >= support_needed(e, k)) << k;
+    }
+    return covered;
+}
+
+void support_judge_as(Support &s, const Ellipse &e, uint32_t bright, int stride)
+{
+    const uint32_t covered = support_covered(s, e, bright, stride);
+    s.bright = bright;
+    s.covered = std::max(0, set_bits(covered) - changes(bright, covered));
+}
+
+void support_judge(Support &s, const Ellipse &e, int polarity, int stride)
+{
     support_judge_as(s, e, polarity == 1 ? UINT32_MAX : 0, stride);
-    for (const uint32_t other : {UINT32_MAX, majority}) {
+    for (const uint32_t other : {UINT32_MAX, support_majority(s)}) {
         Support t = s;
         support_judge_as(t, e, other, stride);
         if (polarity == 2 && t.covered > s.covered) {

@@ -242,9 +242,9 @@ void add_regions(Set &set)
     f.region = {0, 0, 0, 40};
     add_frame(set, "region-empty", Tier::must_reject, {"degenerate"}, f);
     f.region = {0, 0, 8193, 8193};
-    add_frame(set, "region-too-large", Tier::must_reject, {}, f);
+    add_frame(set, "region-too-large", Tier::must_reject, {"saturation"}, f);
     f.region = {-1048577, 0, 64, 64};
-    add_frame(set, "region-too-far", Tier::must_reject, {}, f);
+    add_frame(set, "region-too-far", Tier::must_reject, {"saturation"}, f);
     f.region = {0, 0, 8193, 60};
     add_frame(set, "region-too-wide", Tier::must_reject, {"threshold-met"}, f);
     f.region = {0, 0, 60, 8193};

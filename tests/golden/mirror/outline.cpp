@@ -8,6 +8,7 @@
 #include "../../band_points.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <stdexcept>
 
@@ -437,17 +438,6 @@ Real Finder::covered(const Ellipse &e, bool follow) const
     return static_cast<Real>(s.covered) / reference::SUPPORT_BINS;
 }
 
-/* The bins that points of the given polarities cover. */
-static std::array<bool, reference::SUPPORT_BINS> covered_bins(const Support &s, const Ellipse &e, uint32_t bright,
-                                                              int stride)
-{
-    std::array<bool, reference::SUPPORT_BINS> covered;
-    for (size_t k = 0; k < covered.size(); k++) {
-        covered[k] = s.count[k][bright >> k & 1] * stride >= reference::support_needed(e, static_cast<int>(k));
-    }
-    return covered;
-}
-
 /* The rim's outer edge, as drogue_outline_find() says. */
 void Finder::outer(Outline &out)
 {
@@ -459,13 +449,10 @@ void Finder::outer(Outline &out)
     ring.b += middle;
     band_ = middle - 1;
     Support s = look(ring, 0, LOOKS, follow_.library != nullptr);
-    uint32_t bright = 0;
-    for (size_t k = 0; k < BINS; k++) {
-        bright |= static_cast<uint32_t>(s.count[k][1] > s.count[k][0]) << k;
-    }
+    const uint32_t bright = reference::support_majority(s);
     s = look(ring, bright, LOOKS, follow_.library != nullptr);
-    const auto outside = covered_bins(s, ring, bright, stride_of(front_, LOOKS));
-    const auto own = covered_bins(out.support, out.ellipse, out.support.bright, 1);
+    const std::bitset<BINS> outside = reference::support_covered(s, ring, bright, stride_of(front_, LOOKS));
+    const std::bitset<BINS> own = reference::support_covered(out.support, out.ellipse, out.support.bright, 1);
     std::array<Real, BINS> at = {};
     std::array<std::array<Real, 3>, BINS> basis;
     Real v[3] = {0, 0, 0};
