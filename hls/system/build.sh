@@ -19,12 +19,14 @@ print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
 
 # firmware FOLDER SOURCE [FLAG...]: a program of the soft core, linked with the library and the driver
 firmware() {
-    # what the soft core's clocks go into; all else is small, so that it fits the RAM at 256 px
-    local hot=(src/inner/fit.c src/outline/{moments,rays,support}.c src/pose/joint*.c)
+    # what the soft core's clocks go into; all else is small, so that it fits the RAM at 256 px, and shares the code that saves
+    # registers
+    local hot=(src/frontend/noise.c src/inner/{fit,shade}.c src/outline/{constraints,moments,rays,support}.c src/pose/joint*.c
+        src/search/cells.c)
     local flags=(-march=rv32im -mabi=ilp32 -std=c99 -Os -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
     rm -rf "$1/objects"
     mkdir -p "$1/objects"
-    (cd "$1/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -c &&
+    (cd "$1/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -msave-restore -c &&
         riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 "${hot[@]/#/$root/}" -c)
     local own # what hls/system has by the units goes before the library's
     for own in fixed real near rays; do
