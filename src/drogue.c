@@ -34,6 +34,7 @@ static void forget(drogue_result *out)
 #define LEAST_Q16 DROGUE_Q16(2, 100)   /* by less the disc is too large for no other outline along rays */
 #define BEYOND_Q16 DROGUE_Q16(20, 100) /* by more than this it is too large for anything beyond the outline */
 #define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
+#define ALONE_Q16 DROGUE_Q16(7, 10)    /* least cover of an outline whose disc is not seen */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 
 /* What the best try so far gave. */
@@ -240,15 +241,15 @@ static void return_to(best_try *best, drogue_frame *f, const drogue_region *regi
     f->second_look = best->result->second_look;
 }
 
-/* Is the best outline without a disc, and does one say that it is another edge? One that is seen, but too large for it:
- * then it is an edge within the drogue, the canopy's or its wall's. Or one that was sought, whose rim is of quite
- * another size. */
+/* Is the best outline without a disc, and another edge? Because it is seen too little to stand alone; or a disc says so:
+ * one that is seen, but too large for it, which then is an edge within the drogue, the canopy's or its wall's; or one
+ * that was sought, whose rim is of quite another size. */
 static int is_another_edge(const best_try *best, const drogue_frame *f)
 {
     if (best->result->status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE) {
         return 0;
     }
-    return best->larger_q16 > 0 ||
+    return best->larger_q16 > 0 || best->result->cover_q16 < ALONE_Q16 ||
            (f->ring_px_q16 > 0 && !about_one_size(best->result->ellipse.a_px_q16, f->ring_px_q16, ANOTHER_SIZE));
 }
 

@@ -10,6 +10,7 @@
 #define EVERY 2                    /* so many-th ray will do to find a disc, and to measure a small one */
 #define SMALL DROGUE_Q16(10, 1)    /* px: semi-axis below which a disc is small */
 #define INWARD DROGUE_Q16(45, 100) /* px: a quarter of a blurred step is this far within its middle */
+#define OF_SIZE DROGUE_Q16(3, 10)  /* px, and a 32nd of it */
 #define LARGER 64 /* so many-th part of its size: a disc that is larger by more may be something else */
 
 /* The band narrows to what agrees. */
@@ -197,12 +198,43 @@ static drogue_q16 credit(const drogue_inner_edge *edge, const drogue_inner_expec
     return drogue_inner_std(edge, &expected->disc[edge->which], outline, config);
 }
 
+/* All about, and of its size. */
+static int is_the_disc(const drogue_inner_edge *edge, const drogue_inner_expected *expected)
+{
+    return 8 * edge->rays >= 7 * DROGUE_RAYS &&
+           magnitude(edge->grown_px_q16) <= drogue_q16_add(expected->disc[edge->which].a_px_q16 / 32, OF_SIZE);
+}
+
+/* Look between the discs of the two poses: of an outline seen nearly head-on a shape a little off puts both beside the
+ * disc, to either side of it, where arcs of other edges may stand for it. Returns 1 when one is seen all about; its
+ * place is told from the first one's. */
+static int look_between(first_place *out, drogue_ray rays[RAYS], const drogue_image *image,
+                        const drogue_inner_expected *expected, drogue_q16 gate_px_q16, const drogue_config *config)
+{
+    const drogue_q16 x = drogue_q16_sub(expected->disc[1].xc_px_q16, expected->disc[0].xc_px_q16) / 2;
+    const drogue_q16 y = drogue_q16_sub(expected->disc[1].yc_px_q16, expected->disc[0].yc_px_q16) / 2;
+    const drogue_q16 half = drogue_sat_s32((int64_t)drogue_isqrt_u64(drogue_square_sum(x, y)));
+    drogue_ellipse e = expected->disc[0];
+    if (half <= gate_px_q16) { /* it has been looked for there */
+        return 0;
+    }
+    e.xc_px_q16 = drogue_q16_add(e.xc_px_q16, x);
+    e.yc_px_q16 = drogue_q16_add(e.yc_px_q16, y);
+    if (!look_about(out, rays, image, &e, drogue_q16_add(gate_px_q16, half / 4), config)) {
+        return 0;
+    }
+    out->v_px_q16[0] = drogue_q16_add(out->v_px_q16[0], x);
+    out->v_px_q16[1] = drogue_q16_add(out->v_px_q16[1], y);
+    return 1;
+}
+
 drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
                                      const drogue_inner_expected *expected, const drogue_ellipse *outline,
                                      const drogue_config *config)
 {
     const drogue_q16 gate_px_q16 = drogue_inner_gate(outline, config);
     first_place first[2];
+    first_place between;
     drogue_inner_edge other;
     drogue_status status;
     uint32_t which;
@@ -211,9 +243,12 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
     if (expected->count == 0) {
         return DROGUE_E_NO_INNER_PART;
     }
-    if (!look_about(&first[0], rays, image, &expected->disc[0], gate_px_q16, config) && expected->count > 1) {
-        (void)look_about(&first[1], rays, image, &expected->disc[1], gate_px_q16, config);
-    } /* or it is seen, and the other pose's need not be sought */
+    if (!look_about(&first[0], rays, image, &expected->disc[0], gate_px_q16, config) && expected->count > 1 &&
+        !look_about(&first[1], rays, image, &expected->disc[1], gate_px_q16, config) &&
+        look_between(&between, rays, image, expected, gate_px_q16, config) &&
+        measure_at(out, rays, image, expected, 0, &between, config) == DROGUE_OK && is_the_disc(out, expected)) {
+        return DROGUE_OK;
+    } /* where it is seen, what comes after need not be sought */
     which = first[1].slopes_q8 > first[0].slopes_q8;
     if (first[which].slopes_q8 == 0) {
         return DROGUE_E_NO_INNER_PART;

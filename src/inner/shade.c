@@ -14,7 +14,8 @@
 #define LAST 9                   /* its largest place; the last of all is beyond the edge */
 #define STILL DROGUE_Q16(2, 1)   /* grey levels by which the disc may differ from itself */
 #define GREYS DROGUE_Q16(256, 1) /* no grey changes by more */
-#define SIGNIFICANT 50           /* variances of a change of grey across the disc */
+#define SIGNIFICANT 50           /* variances of a change of grey across the disc; */
+#define STEP 4                   /* and so many times as many of the step at its edge: less is found in noise */
 
 /* Where a profile about an edge begins: at a multiple of the distance of its samples, so that it does not tremble with
  * the edge's last bits. */
@@ -41,13 +42,13 @@ static int32_t median_of(int32_t *v, uint32_t count)
 }
 
 /* Grey of the disc along its edge as a plane, of the rays that fit it; a change across it must stand out of the
- * noise. */
-static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const int32_t dark_q16[RAYS])
+ * noise, of whose square that of their mean is told. */
+static int fit_dark(drogue_q16 plane_q16[3], int64_t *noise2_q16, const drogue_ray rays[RAYS],
+                    const int32_t dark_q16[RAYS])
 {
     drogue_real normal[6];
     drogue_q16 within = GREYS;
     int64_t change2;
-    int64_t noise2;
     drogue_ray_sums s;
     int round;
     int i;
@@ -72,9 +73,9 @@ static int fit_dark(drogue_q16 plane_q16[3], const drogue_ray rays[RAYS], const 
         }
     }
     change2 = (int64_t)drogue_square_sum(plane_q16[0], plane_q16[1]) >> 16;
-    noise2 = drogue_div_round_s64(s.squares_q16 * SIGNIFICANT, (int64_t)s.rays * s.rays);
-    for (i = 0; i < 2 && change2 + noise2 > 0; i++) {
-        const drogue_q16 kept = (drogue_q16)drogue_div_round_s64(plane_q16[i] * change2, change2 + noise2);
+    *noise2_q16 = drogue_div_round_s64(s.squares_q16 * SIGNIFICANT, (int64_t)s.rays * s.rays);
+    for (i = 0; i < 2 && change2 + *noise2_q16 > 0; i++) {
+        const drogue_q16 kept = (drogue_q16)drogue_div_round_s64(plane_q16[i] * change2, change2 + *noise2_q16);
         plane_q16[i] = kept;
     }
     return 1;
@@ -85,6 +86,8 @@ int drogue_inner_shade_find(drogue_inner_shade *out, const drogue_ray rays[RAYS]
 {
     int32_t dark_q16[RAYS];
     int32_t beyond_q16[RAYS];
+    int64_t noise2_q16;
+    int32_t step_q16;
     uint32_t count = 0;
     int32_t k;
     for (k = 0; k < RAYS; k++) {
@@ -102,7 +105,7 @@ int drogue_inner_shade_find(drogue_inner_shade *out, const drogue_ray rays[RAYS]
             beyond_q16[k] = between_q16(grey_q8[PROFILE - 2], grey_q8[PROFILE - 1], part_q15);
         }
     }
-    if (!fit_dark(out->dark_q16, rays, dark_q16)) {
+    if (!fit_dark(out->dark_q16, &noise2_q16, rays, dark_q16)) {
         return 0;
     }
     for (k = 0; k < RAYS; k++) {
@@ -110,8 +113,9 @@ int drogue_inner_shade_find(drogue_inner_shade *out, const drogue_ray rays[RAYS]
             beyond_q16[count++] = beyond_q16[k] - drogue_ray_along(&rays[k], out->dark_q16);
         }
     }
-    out->rise_q16 = median_of(beyond_q16, count) / 4;
-    return out->rise_q16 > 0;
+    step_q16 = median_of(beyond_q16, count);
+    out->rise_q16 = step_q16 / 4;
+    return out->rise_q16 > 0 && drogue_shr_round_s64((int64_t)step_q16 * step_q16, 16) > STEP * noise2_q16;
 }
 
 void drogue_inner_shade_cross(drogue_ray rays[RAYS], const drogue_image *image, drogue_transfer transfer,

@@ -20,6 +20,7 @@
 #define EVIDENT_RELIABILITY DROGUE_Q16(99, 100)
 #define EVIDENT_PX DROGUE_Q16(5, 1) /* radius of the inner part */
 #define MOST_SPREAD_PX DROGUE_Q16(3, 10)
+#define WITNESS_SPREAD_PX DROGUE_Q16(5, 10)
 #define WITNESS_PX DROGUE_Q16(2, 10)    /* and a 64th, of the inner part's radius: by no chance; */
 #define MOST_OFF_PX DROGUE_Q16(6, 10)   /* and a tenth, of the inner part's radius: near; */
 #define MOST_DOUBT DROGUE_Q16(1, 8)     /* in the distance: an inner part of more may be something else */
@@ -66,6 +67,7 @@ static int is_sure(const drogue_result *r, const drogue_model *model, int32_t da
     int64_t expected;
     int64_t off;
     int sharp;
+    int witness;
     if (model->inner_radius_m_q16 == 0) {
         return r->cover_q16 >= SURE_COVER && r->quality.reliability_q16 >= SURE_RELIABILITY;
     }
@@ -73,12 +75,14 @@ static int is_sure(const drogue_result *r, const drogue_model *model, int32_t da
         r->doubt_q16 > MOST_DOUBT) {
         return 0;
     }
+    witness = decided(r) && expected >= EVIDENT_PX && 64 * (off - WITNESS_PX) <= expected &&
+              r->inner.spread_px_q16 <= WITNESS_SPREAD_PX;
     if (4 * r->inner.contrast < r->inner.threshold) { /* dark for what haze leaves */
         return decided(r) && expected >= EVIDENT_PX && 25 * (off - EXACT_PX) <= expected &&
-               r->cover_q16 >= BLURRED_COVER;
+               r->cover_q16 >= (witness ? DECIDED_COVER : BLURRED_COVER);
     }
     sharp = r->inner.spread_px_q16 <= MOST_SPREAD_PX;
-    if (decided(r) && sharp && expected >= EVIDENT_PX && 64 * (off - WITNESS_PX) <= expected) {
+    if (witness) {
         return r->cover_q16 >= EXACT_COVER;
     }
     if (decided(r) && 25 * (off - EXACT_PX) <= expected) {

@@ -533,7 +533,7 @@ void add_bands(Set &set)
           Banded{46.5, 2.6, -1, 90, 240, 12, 0.5, 0.8}, Banded{42.5, 1.6, -0.1, 50, 240, 16, 0.25, 0.3},
           Banded{57, 3.5, 1.4, 70, 240, 12, 0.2, 0.5}, Banded{45.5, 2.2, -0.9, 50, 90, 12, 0.2, 0.7},
           Banded{51, 1.7, 2.8, 90, 150, 8, 0.2, 0.5}, Banded{63, 3.9, 2.7, 70, 120, 20, 0.6, 0.8},
-          Banded{61, 3.3, -0.4, 70, 240, 12, 0.25, 0.5}, Banded{58, 3.2, 1.6, 70, 250, 0, 0.5},
+          Banded{60, 3.3, -0.4, 70, 240, 12, 0.25, 0.5}, Banded{58, 3.2, 1.6, 70, 250, 0, 0.5},
           Banded{52, 2.6, 4, 60, 220, 0, 0.5}}) { /* the last two have it at once, or on one side */
         add_frame(set, "banded-rim-" + std::to_string(k++), Tier::stress, {}, banded_drogue(b));
     }
@@ -542,6 +542,26 @@ void add_bands(Set &set)
          {Banded{40, 0, 0, 80, 80, 0, 1.3}, Banded{20, 0, 0, 40, 40, 3, 2.2}, Banded{50, 8, 3, 60, 400, 0, 0.3},
           Banded{45, 30, 2, 90, 300, 5, 1.6}, Banded{48, 0, 0, 70, 70, 2, 1}}) { /* white, but not cut off */
         add_frame(set, "saturated-" + std::to_string(k++), Tier::stress, {}, banded_drogue(b));
+    }
+}
+
+/* Outlines whose shape puts both expected discs beside the one that is there; the last too far for it to be believed. And
+ * discs of noise, in which nothing is another one. */
+void add_between(Set &set)
+{
+    int k = 0;
+    for (const Banded &b : {Banded{50, 0, 0, 80, 80, 1, 0.8}, Banded{46.5, 0, 0, 60, 60, 2, 0.7},
+                            Banded{57, 0, 0, 90, 90, 1, 0.9}, Banded{36, 0, 0, 60, 60, 6, 0.8}}) {
+        add_frame(set, "between-" + std::to_string(k++), Tier::stress, {}, banded_drogue(b));
+    }
+    for (k = 0; k < 4; k++) {
+        accuracy::Random random(500 + static_cast<uint64_t>(k));
+        Frame f = banded_drogue({k < 2 ? 40.0 + k : 46.5 + 2 * k, 0, 0, 30, 30, 6 + 3 * k, 0.9});
+        const int noise = 10 + 5 * k;
+        for (auto p = f.image.begin<uint8_t>(); p != f.image.end<uint8_t>(); ++p) {
+            *p = static_cast<uint8_t>(std::clamp(std::max<int>(*p, 30) + between(random, -noise, noise), 0, 255));
+        }
+        add_frame(set, "disc-of-noise-" + std::to_string(k), Tier::stress, {}, f);
     }
 }
 
@@ -656,6 +676,7 @@ void add_frame(Set &set, const std::string &scenes_folder)
     add_choices(set);
     add_led_by_disc(set);
     add_bands(set);
+    add_between(set);
     add_faint_rims(set);
     add_drawings(set);
 }

@@ -203,7 +203,8 @@ bool find_shade(Shade &out, const Rays &rays, const drogue_image &view, drogue_t
         }
     }
     const Real change = out.dark[0] * out.dark[0] + out.dark[1] * out.dark[1];
-    const Real kept = change > 0 ? change / (change + 50 * s.squares / s.rays / s.rays) : 0;
+    const Real noise = 50 * s.squares / s.rays / s.rays;
+    const Real kept = change > 0 ? change / (change + noise) : 0;
     out.dark[0] *= kept;
     out.dark[1] *= kept;
     std::vector<Real> rises;
@@ -211,7 +212,7 @@ bool find_shade(Shade &out, const Rays &rays, const drogue_image &view, drogue_t
         rises.push_back(at.beyond - along(*at.ray, out.dark));
     }
     out.rise = median_of(rises) / 4;
-    return out.rise > 0;
+    return out.rise > 0 && 16 * out.rise * out.rise > 4 * noise; /* else it is found in noise */
 }
 
 /* Where the grey passes the level, as the rays' edges. */
@@ -335,6 +336,23 @@ bool look_about(First &out, const drogue_image &view, const drogue_ellipse &e, R
            std::hypot(out.v[0], out.v[1]) <= gate;
 }
 
+/* Look between the discs of the two poses; the place is told from the first one's. */
+bool look_between(First &out, const drogue_image &view, const drogue_inner_expected &expected, Real gate,
+                  const drogue_config &config)
+{
+    drogue_ellipse e = expected.disc[0];
+    const drogue_q16 x = (expected.disc[1].xc_px_q16 - e.xc_px_q16) / 2, y = (expected.disc[1].yc_px_q16 - e.yc_px_q16) / 2;
+    const Real half = std::hypot(real(x), real(y));
+    e.xc_px_q16 += x;
+    e.yc_px_q16 += y;
+    if (half <= gate || !look_about(out, view, e, gate + half / 4, config)) {
+        return false;
+    }
+    out.v[0] += real(x);
+    out.v[1] += real(y);
+    return true;
+}
+
 /* Measure about a first place; near the middle between two in which rays read the image, that of the library's disc is
  * taken. */
 Disc measure_at(const drogue_image &view, const drogue_inner_expected &expected, int which, const Offset &first,
@@ -397,11 +415,17 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     const auto holds = [&](const Disc &d) { return in_its_place(d, real_of(expected.disc[d.which]), rim, config); };
     std::array<First, 2> first;
     size_t which = 0;
-    for (size_t i = 0; i < expected.count; i++) {
-        const bool seen = look_about(first[i], view, expected.disc[i], gate, config);
+    bool seen = false;
+    for (size_t i = 0; i < expected.count && !seen; i++) {
+        seen = look_about(first[i], view, expected.disc[i], gate, config);
         which = first[i].slopes > first[which].slopes ? i : which;
-        if (seen && which == i) {
-            break;
+    }
+    First between;
+    if (!seen && expected.count == 2 && look_between(between, view, expected, gate, config)) {
+        const Disc d = measure_at(view, expected, 0, between.v, config, library);
+        if (d.found && 8 * d.rays >= 7 * DROGUE_RAYS &&
+            std::fabs(d.grown) <= real(expected.disc[d.which].a_px_q16) / 32 + 0.3L) {
+            return d;
         }
     }
     if (first[which].slopes == 0) {

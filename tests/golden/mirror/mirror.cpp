@@ -681,8 +681,8 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             }
         }
     }
-    const bool another =
-        best.tried != DROGUE_TRIED_RAYS && least == 1 && f.ring > 0 && !about_one_size(best.seen.a, f.ring, 8);
+    const bool another = best.tried != DROGUE_TRIED_RAYS && least == 1 &&
+                         (best.outline.cover < 0.7L || (f.ring > 0 && !about_one_size(best.seen.a, f.ring, 8)));
     const bool whole =
         best.status == DROGUE_OK && !best.too_large && !another && best.second_look <= DROGUE_SECOND_BETTER;
     if (room != DROGUE_SECOND_NONE) {
