@@ -93,7 +93,7 @@ int32_t drogue_search_end(drogue_search *search);
  * what cover is asked for; r is the radius that the model expects in this outline:
  *
  *   orientation              spread      r      radius off by at most   cover
- *   resolved, doubt < 1/64   <= 0.3 px   5 px   0.2 px + r / 64         1/2
+ *   resolved, doubt < 1/64   <= 0.5 px   5 px   0.2 px + r / 64         1/2
  *   resolved, doubt < 1/64   <= 0.3 px          0.3 px + r / 25         0.6
  *   resolved, doubt < 1/64                      0.3 px + r / 25         0.9
  *                            <= 0.3 px          0.6 px + r / 10         3/4
@@ -114,7 +114,7 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
  *
  * What is sure is what drogue_result_sure() says, and where haze or glare lifts every grey, what has its contrast
  * above the darkest 4 x 4 px of the part, as any disc has that is the darkest there itself: it must be resolved with a
- * doubt < 1/64, r >= 5 px, a radius off by at most 0.3 px + r / 25 and a cover of 0.9.
+ * doubt < 1/64, r >= 5 px, a radius off by at most 0.3 px + r / 25 and a cover of 0.9; of what fits the first row 0.6.
  *
  * The result is the one of most cover, less the share that the inner part's radius is off, among those that are sure
  * and whose inner part decides; or else that are sure; or else of all, an inner part counting as a quarter of cover,

@@ -241,6 +241,14 @@ void add_acquire(Set &set)
     p = picture(65, 120, 100, 0.2, 0.1, 5.5, 0.25, -0.2);
     p.image = 255 - p.image;
     add_ask(set, "negative-picture", Tier::stress, {"polarity"}, p, ask);
+    for (const int hidden :
+         {16, 24, 30}) { /* under haze: of an inner part that is exact less than all of the rim will do */
+        p = picture(66, 130, 120, -0.05, 0.05, 5, 0.12, -0.1);
+        p.image.convertTo(p.image, CV_8U, 0.35, 140);
+        fill(p.image, 0, 0, 130, hidden, 200);
+        fill(p.image, 0, 0, hidden, 120, 200);
+        add_ask(set, "haze-hidden-" + std::to_string(hidden), Tier::stress, {"occlusion"}, p, ask);
+    }
     ask = Ask();
     for (const int number :
          {0, 1, 10, 16, 19, 36, 42, 44, 56, 328, 363}) { /* several sighted: which settles, and which is worth more */

@@ -554,6 +554,9 @@ void add_between(Set &set)
                             Banded{57, 0, 0, 90, 90, 1, 0.9}, Banded{36, 0, 0, 60, 60, 6, 0.8}}) {
         add_frame(set, "between-" + std::to_string(k++), Tier::stress, {}, banded_drogue(b));
     }
+    Frame another = banded_drogue({50, 0, 0, 80, 80, 1, 0.8});
+    another.inner_radius = 0.113; /* what is there is larger */
+    add_frame(set, "between-larger", Tier::stress, {}, another);
     for (k = 0; k < 4; k++) {
         accuracy::Random random(500 + static_cast<uint64_t>(k));
         Frame f = banded_drogue({k < 2 ? 40.0 + k : 46.5 + 2 * k, 0, 0, 30, 30, 6 + 3 * k, 0.9});

@@ -189,7 +189,8 @@ public:
         if (seen_) { /* radii of the inner part, px: as expected, and of its area */
             expected_ = std::sqrt(r.seen.a * r.seen.b) * m.inner_radius / m.rim_radius * z / end;
             off_ = std::fabs(std::sqrt(std::floor(r.area + 0.5L) / std::acos(Real(-1))) - expected_);
-            sharp_ = r.part.rms <= 0.3L;
+            spread_ = r.part.rms;
+            sharp_ = spread_ <= 0.3L;
             dark_ = 4 * r.part.contrast >= r.part.level;
             hazy_ = !dark_ && 4 * r.part.contrast >= r.part.level - darkest;
             agrees_ = r.doubt <= 1 / 8.0L;
@@ -201,9 +202,9 @@ public:
             return ok_ && cover_ >= 0.75L && reliable_;
         }
         const bool decides = resolved_ && off_ <= 0.3L + expected_ / 25;
-        const bool witness = resolved_ && sharp_ && expected_ >= 5 && off_ <= 0.2L + expected_ / 64;
+        const bool witness = resolved_ && spread_ <= 0.5L && expected_ >= 5 && off_ <= 0.2L + expected_ / 64;
         if (seen_ && agrees_ && hazy_) {
-            return decides && expected_ >= 5 && cover_ >= 0.9L;
+            return decides && expected_ >= 5 && cover_ >= (witness ? 0.6L : 0.9L);
         }
         return seen_ && agrees_ && dark_ &&
                (witness                        ? cover_ >= 0.5L
@@ -241,7 +242,7 @@ private:
     Real cover_;
     bool resolved_;
     reference::Model model_;
-    Real expected_ = 0, off_ = 0;
+    Real expected_ = 0, off_ = 0, spread_ = 0;
 };
 
 } // namespace

@@ -286,6 +286,45 @@ START_TEST(what_is_steeper_may_be_another_edge)
 }
 END_TEST
 
+/* An outline seen nearly head-on whose shape is off puts both discs beside the one there is, which is whole between
+ * them; one of another size is not it. */
+START_TEST(what_lies_between)
+{
+    const drogue_ellipse discs[2] = {circle(84, 100, 24), circle(116, 100, 24)};
+    drogue_inner_edge e;
+    int k;
+    for (k = 0; k < 3; k++) {
+        draw_disc(101, 99, k == 0 ? 24 : k == 1 ? 25.5 : 22.5);
+        memset(&e, 0, sizeof e);
+        MUST(find(&e, discs, 2) == DROGUE_OK || k > 0, "case %d", k);
+        MUST((e.rays == DROGUE_RAYS) == (k == 0), "case %d: %u rays at %g, %g", k, e.rays, real_of_q16(e.x_px_q16),
+             real_of_q16(e.y_px_q16));
+        if (k == 0) {
+            ck_assert_double_lt(hypot(real_of_q16(e.x_px_q16) - 101, real_of_q16(e.y_px_q16) - 99), 0.1);
+            ck_assert_double_lt(fabs(real_of_q16(e.grown_px_q16)), 0.3);
+        }
+    }
+}
+END_TEST
+
+/* Rays choose what rises, in noise as well; the grey beyond such an edge is that within it. */
+START_TEST(no_disc_in_noise)
+{
+    const drogue_ellipse disc = circle(100, 100, 24);
+    uint64_t rng = 77;
+    drogue_inner_edge e;
+    int k;
+    for (k = 0; k < 20; k++) {
+        memset(pixels, 60, sizeof pixels);
+        add_noise(&rng, 4 + k);
+        MUST(find(&e, &disc, 1) == DROGUE_E_NO_INNER_PART, "case %d: %u rays", k, e.rays);
+    }
+    draw_disc(100, 100, 24);
+    add_noise(&rng, 20);
+    ck_assert_int_eq(find(&e, &disc, 1), DROGUE_OK);
+}
+END_TEST
+
 START_TEST(nothing_there)
 {
     const drogue_ellipse disc = circle(100, 100, 24);
@@ -339,4 +378,5 @@ END_TEST
 
 SUITE_MAIN("edge", place_and_size, an_encoded_disc_has_its_size, noise_shows_in_the_standard_deviation,
            what_touches_it_costs_rays_alone, neither_light_nor_a_ring_moves_it, the_size_decides_between_two_edges,
-           one_edge_of_another_size_stays, what_is_steeper_may_be_another_edge, nothing_there, rays_meet_the_edge)
+           one_edge_of_another_size_stays, what_is_steeper_may_be_another_edge, what_lies_between, no_disc_in_noise,
+           nothing_there, rays_meet_the_edge)

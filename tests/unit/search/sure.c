@@ -82,7 +82,9 @@ START_TEST(a_witness)
     r.inner.area_px = 3417; /* 32.98 px: off by 0.72 */
     ck_assert(!drogue_result_sure(&r, &model));
     r.inner.area_px = 3269;
-    r.inner.spread_px_q16 = DROGUE_Q16(31, 100);
+    r.inner.spread_px_q16 = DROGUE_Q16(1, 2); /* it need not be quite sharp */
+    ck_assert(drogue_result_sure(&r, &model));
+    r.inner.spread_px_q16++;
     ck_assert(!drogue_result_sure(&r, &model));
     r.inner.spread_px_q16 = DROGUE_Q16(1, 10);
     r.orientation_resolved = 0;
@@ -102,6 +104,7 @@ END_TEST
 START_TEST(dark_and_sharp)
 {
     drogue_result r = measured();
+    r.inner.area_px = 3100; /* 31.4 px, off by 0.9: no witness */
     r.inner.spread_px_q16 = DROGUE_Q16(31, 100);
     ck_assert(drogue_result_sure(&r, &model)); /* it decides, has its size, and the cover is 0.9 */
     r.cover_q16 = DROGUE_Q16(89, 100);
