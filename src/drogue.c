@@ -241,9 +241,9 @@ static void return_to(best_try *best, drogue_frame *f, const drogue_region *regi
     f->second_look = best->result->second_look;
 }
 
-/* Is the best outline without a disc, and another edge? Because it is seen too little to stand alone; or a disc says so:
- * one that is seen, but too large for it, which then is an edge within the drogue, the canopy's or its wall's; or one
- * that was sought, whose rim is of quite another size. */
+/* Is the best outline without a disc, and another edge? It is where too little of it shows to stand alone. Or a disc
+ * says so: one that is seen, but too large for it, which then is an edge within the drogue, the canopy's or its wall's;
+ * or one that was sought, whose rim is of quite another size. */
 static int is_another_edge(const best_try *best, const drogue_frame *f)
 {
     if (best->result->status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE) {

@@ -19,8 +19,8 @@ const char *explain_status(drogue_status status)
         return "edges, but no arc long and curved enough: --roi with the drogue about its middle and a longest side of "
                "2 to 3 major semi-axes helps, or a lower min_arc_share, min_arc_px or canny_low (--set)";
     case DROGUE_E_NO_ELLIPSE:
-        return "arcs, but no ellipse that enough edge points agree on: less than min_cover of the outline is seen, or it "
-               "is flatter than min_axis_ratio, or nothing here is a drogue";
+        return "arcs, but no ellipse that enough edge points agree on: less than min_cover of the outline is seen, or less "
+               "than 0.7 and no inner part, or it is flatter than min_axis_ratio, or nothing here is a drogue";
     case DROGUE_E_TOO_FEW_POINTS: return "fewer than the six points that a conic needs";
     case DROGUE_E_DEGENERATE: return "the points do not determine an ellipse";
     case DROGUE_E_NO_INNER_PART: return "no dark inner part of the least size";

@@ -213,14 +213,12 @@ static int look_between(first_place *out, drogue_ray rays[RAYS], const drogue_im
 {
     const drogue_q16 x = drogue_q16_sub(expected->disc[1].xc_px_q16, expected->disc[0].xc_px_q16) / 2;
     const drogue_q16 y = drogue_q16_sub(expected->disc[1].yc_px_q16, expected->disc[0].yc_px_q16) / 2;
-    const drogue_q16 half = drogue_sat_s32((int64_t)drogue_isqrt_u64(drogue_square_sum(x, y)));
+    const drogue_q16 half = drogue_q16_add(magnitude(x), magnitude(y));
     drogue_ellipse e = expected->disc[0];
-    if (half <= gate_px_q16) { /* it has been looked for there */
-        return 0;
-    }
-    e.xc_px_q16 = drogue_q16_add(e.xc_px_q16, x);
-    e.yc_px_q16 = drogue_q16_add(e.yc_px_q16, y);
-    if (!look_about(out, rays, image, &e, drogue_q16_add(gate_px_q16, half / 4), config)) {
+    e.xc_px_q16 += x; /* between the two */
+    e.yc_px_q16 += y;
+    if (half <= gate_px_q16 || /* it has been looked for there */
+        !look_about(out, rays, image, &e, drogue_q16_add(gate_px_q16, half / 4), config)) {
         return 0;
     }
     out->v_px_q16[0] = drogue_q16_add(out->v_px_q16[0], x);

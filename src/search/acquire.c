@@ -9,8 +9,8 @@
 
 /* What a search must show to be sure: where the model knows no inner part cover of the outline and reliability; else an
  * inner part that is dark, sharp and near to its size, and cover. One that decides the orientation and has its size
- * needs less of it, least where it is so sharp and so exactly of its size as nothing else is, a witness; or it need not be
- * sharp, nor need one of some pixels within an outline that is whole. */
+ * needs less of it, least where it is so sharp and so exactly of its size as nothing else is, a witness; or it need
+ * not be sharp; nor need one of some pixels within an outline that is whole. */
 #define SURE_COVER DROGUE_Q16(3, 4)
 #define SURE_RELIABILITY DROGUE_Q16(9, 10)
 #define DECIDED_COVER DROGUE_Q16(6, 10)

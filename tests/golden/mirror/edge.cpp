@@ -343,7 +343,7 @@ bool look_between(First &out, const drogue_image &view, const drogue_inner_expec
     drogue_ellipse e = expected.disc[0];
     const drogue_q16 x = (expected.disc[1].xc_px_q16 - e.xc_px_q16) / 2,
                      y = (expected.disc[1].yc_px_q16 - e.yc_px_q16) / 2;
-    const Real half = std::hypot(real(x), real(y));
+    const Real half = std::fabs(real(x)) + std::fabs(real(y));
     e.xc_px_q16 += x;
     e.yc_px_q16 += y;
     if (half <= gate || !look_about(out, view, e, gate + half / 4, config)) {
