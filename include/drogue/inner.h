@@ -75,9 +75,9 @@ static inline drogue_q16 drogue_inner_room(const drogue_ellipse *expected, const
  * disc's.
  *
  *  out      of the expected discs the one whose rays agree with the steepest edges; the other one where that is not to
- *           be believed (drogue_inner_std()), but the other is and is no larger than it should be. Where neither is seen
- *           whole, in its place, the one between them that is, and is of its size by 0.3 px and a 32nd. Zero on
- *           failure
+ *           be believed (drogue_inner_std()), but the other is and is no larger than it should be. Where neither is
+ *           seen whole, in its place, the one between them that is, and is of its size by 0.3 px and a 32nd. Zero
+ *           on failure
  *  rays     work area; the workspace has one
  *  image    the region's pixels
  *  outline  region coordinates; the centre may lie from the expected one as far as the configured gate
