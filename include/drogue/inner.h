@@ -70,7 +70,7 @@ static inline drogue_q16 drogue_inner_room(const drogue_ellipse *expected, const
  * which rays see it, where it has risen by a quarter of the usual step above the disc's own where it is and how large,
  * by a fit of place and size to the rays that agree; of an encoded image where its light has. Ribs, a wall or a probe
  * that touch the disc cost rays, not place; a ring about it or light from one side hardly move what is dark.
- * The grey beyond it must be above the disc's own by 14 standard deviations of that: rays choose what rises, in noise
+ * The grey beyond it must be above the disc's own by 12 standard deviations of that: rays choose what rises, in noise
  * as well. Where the edge that rises fastest is of another size than expected, and one of the size is beside it, that
  * one is the disc's.
  *

@@ -15,7 +15,7 @@
 #define STILL DROGUE_Q16(2, 1)   /* grey levels by which the disc may differ from itself */
 #define GREYS DROGUE_Q16(256, 1) /* no grey changes by more */
 #define SIGNIFICANT 50           /* variances of a change of grey across the disc; */
-#define STEP 4                   /* and so many times as many of the step at its edge: less is found in noise */
+#define STEP 3                   /* and so many times as many of the step at its edge: less is found in noise */
 
 /* Where a profile about an edge begins: at a multiple of the distance of its samples, so that it does not tremble with
  * the edge's last bits. */

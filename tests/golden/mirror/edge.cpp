@@ -212,7 +212,7 @@ bool find_shade(Shade &out, const Rays &rays, const drogue_image &view, drogue_t
         rises.push_back(at.beyond - along(*at.ray, out.dark));
     }
     out.rise = median_of(rises) / 4;
-    return out.rise > 0 && 16 * out.rise * out.rise > 4 * noise; /* else it is found in noise */
+    return out.rise > 0 && 16 * out.rise * out.rise > 3 * noise; /* else it is found in noise */
 }
 
 /* Where the grey passes the level, as the rays' edges. */
