@@ -241,6 +241,14 @@ static void return_to(best_try *best, drogue_frame *f, const drogue_region *regi
     f->second_look = best->result->second_look;
 }
 
+/* Is all of an ellipse in the image? What is cut off shows nowhere. */
+static int lies_within(const drogue_ellipse *e, const drogue_image *image)
+{
+    return e->xc_px_q16 >= e->a_px_q16 && e->yc_px_q16 >= e->a_px_q16 &&
+           (int64_t)e->xc_px_q16 + e->a_px_q16 < (int64_t)image->width_px * DROGUE_Q16_ONE &&
+           (int64_t)e->yc_px_q16 + e->a_px_q16 < (int64_t)image->height_px * DROGUE_Q16_ONE;
+}
+
 /* Is the best outline without a disc, and another edge? It is where too little of it shows to stand alone. Or a disc
  * says so: one that is seen, but too large for it, which then is an edge within the drogue, the canopy's or its wall's;
  * or one that was sought, whose rim is of quite another size. */
@@ -249,7 +257,8 @@ static int is_another_edge(const best_try *best, const drogue_frame *f)
     if (best->result->status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE) {
         return 0;
     }
-    return best->larger_q16 > 0 || best->result->cover_q16 < ALONE_Q16 ||
+    return best->larger_q16 > 0 ||
+           (best->result->cover_q16 < ALONE_Q16 && lies_within(&best->result->ellipse, f->image)) ||
            (f->ring_px_q16 > 0 && !about_one_size(best->result->ellipse.a_px_q16, f->ring_px_q16, ANOTHER_SIZE));
 }
 

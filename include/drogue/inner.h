@@ -70,18 +70,17 @@ static inline drogue_q16 drogue_inner_room(const drogue_ellipse *expected, const
  * which rays see it, where it has risen by a quarter of the usual step above the disc's own where it is and how large,
  * by a fit of place and size to the rays that agree; of an encoded image where its light has. Ribs, a wall or a probe
  * that touch the disc cost rays, not place; a ring about it or light from one side hardly move what is dark.
- * The grey beyond it must be above the disc's own by 12 standard deviations of that: rays choose what rises, in noise
+ * The grey beyond it must be above the disc's own by 12 standard errors of that: rays choose what rises, in noise
  * as well. Where the edge that rises fastest is of another size than expected, and one of the size is beside it, that
  * one is the disc's.
  *
  *  out      of the expected discs the one whose rays agree with the steepest edges; the other one where that is not to
  *           be believed (drogue_inner_std()), but the other is and is no larger than it should be. Where neither is
- *           seen whole, in its place, the one between them that is, and is of its size by 0.3 px and a 32nd. Zero
- *           on failure
+ *           seen whole, in its place, the one between them that is, and is to be believed. Zero on failure
  *  rays     work area; the workspace has one
  *  image    the region's pixels
  *  outline  region coordinates; the centre may lie from the expected one as far as the configured gate
- *  return   DROGUE_OK; DROGUE_E_NO_INNER_PART when fewer than eight rays agree
+ *  return   DROGUE_OK; DROGUE_E_NO_INNER_PART when fewer than eight rays agree, or noise explains what they see
  */
 drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[DROGUE_RAYS], const drogue_image *image,
                                      const drogue_inner_expected *expected, const drogue_ellipse *outline,

@@ -10,7 +10,6 @@
 #define EVERY 2                    /* so many-th ray will do to find a disc, and to measure a small one */
 #define SMALL DROGUE_Q16(10, 1)    /* px: semi-axis below which a disc is small */
 #define INWARD DROGUE_Q16(45, 100) /* px: a quarter of a blurred step is this far within its middle */
-#define OF_SIZE DROGUE_Q16(3, 10)  /* px, and a 32nd of it */
 #define LARGER 64 /* so many-th part of its size: a disc that is larger by more may be something else */
 
 /* The band narrows to what agrees. */
@@ -198,13 +197,6 @@ static drogue_q16 credit(const drogue_inner_edge *edge, const drogue_inner_expec
     return drogue_inner_std(edge, &expected->disc[edge->which], outline, config);
 }
 
-/* All about, and of its size. */
-static int is_the_disc(const drogue_inner_edge *edge, const drogue_inner_expected *expected)
-{
-    return 8 * edge->rays >= 7 * DROGUE_RAYS &&
-           magnitude(edge->grown_px_q16) <= drogue_q16_add(expected->disc[edge->which].a_px_q16 / 32, OF_SIZE);
-}
-
 /* Look between the discs of the two poses: of an outline seen nearly head-on a shape a little off puts both beside the
  * disc, to either side of it, where arcs of other edges may stand for it. Returns 1 when one is seen all about; its
  * place is told from the first one's. */
@@ -243,10 +235,13 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[RAY
     }
     if (!look_about(&first[0], rays, image, &expected->disc[0], gate_px_q16, config) && expected->count > 1 &&
         !look_about(&first[1], rays, image, &expected->disc[1], gate_px_q16, config) &&
-        look_between(&between, rays, image, expected, gate_px_q16, config) &&
-        measure_at(out, rays, image, expected, 0, &between, config) == DROGUE_OK && is_the_disc(out, expected)) {
-        return DROGUE_OK;
-    } /* where it is seen, what comes after need not be sought */
+        look_between(&between, rays, image, expected, gate_px_q16, config)) { /* where one is seen no other is sought */
+        status = measure_at(&other, rays, image, expected, 0, &between, config);
+        if (status == DROGUE_OK && credit(&other, expected, outline, config) > 0) {
+            *out = other;
+            return DROGUE_OK;
+        }
+    }
     which = first[1].slopes_q8 > first[0].slopes_q8;
     if (first[which].slopes_q8 == 0) {
         return DROGUE_E_NO_INNER_PART;

@@ -424,8 +424,7 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     First between;
     if (!seen && expected.count == 2 && look_between(between, view, expected, gate, config)) {
         const Disc d = measure_at(view, expected, 0, between.v, config, library);
-        if (d.found && 8 * d.rays >= 7 * DROGUE_RAYS &&
-            std::fabs(d.grown) <= real(expected.disc[d.which].a_px_q16) / 32 + 0.3L) {
+        if (holds(d) && d.grown <= room_of(real_of(expected.disc[d.which]), config)) {
             return d;
         }
     }

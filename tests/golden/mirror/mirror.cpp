@@ -255,6 +255,12 @@ struct Together {
     bool resolved, agree;
 };
 
+/* Is all of an outline in the image? */
+bool lies_within(const Ellipse &e, const cv::Mat &image)
+{
+    return e.xc >= e.a && e.yc >= e.a && e.xc + e.a < image.cols && e.yc + e.a < image.rows;
+}
+
 Together solve_together(const std::array<Pose, 2> &poses, size_t nearer, const Features &f,
                         const reference::Covariance &outline, const Task &task, const drogue_result *library)
 {
@@ -682,7 +688,8 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         }
     }
     const bool another = best.tried != DROGUE_TRIED_RAYS && least == 1 &&
-                         (best.outline.cover < 0.7L || (f.ring > 0 && !about_one_size(best.seen.a, f.ring, 8)));
+                         ((best.outline.cover < 0.7L && lies_within(best.seen, task.image)) ||
+                          (f.ring > 0 && !about_one_size(best.seen.a, f.ring, 8)));
     const bool whole =
         best.status == DROGUE_OK && !best.too_large && !another && best.second_look <= DROGUE_SECOND_BETTER;
     if (room != DROGUE_SECOND_NONE) {
