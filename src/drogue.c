@@ -35,6 +35,7 @@ static void forget(drogue_result *out)
 #define BEYOND_Q16 DROGUE_Q16(20, 100) /* by more than this it is too large for anything beyond the outline */
 #define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
 #define ALONE_Q16 DROGUE_Q16(7, 10)    /* least cover of an outline whose disc is not seen */
+#define OUTER_Q16 DROGUE_Q16(3, 4)     /* and of an outer edge of the rim */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 
 /* What the best try so far gave. */
@@ -198,24 +199,39 @@ static int asks_beyond(const best_try *best)
            best->larger_q16 <= BEYOND_Q16;
 }
 
-/* The outline beyond the best one that the inner disc is of the size for, along rays. */
-static void try_beyond(best_try *best, drogue_frame *f)
+/* An outline along rays about the best one, whose arcs it was found from. */
+static drogue_status judge_rays(drogue_frame *f, const drogue_result *was, drogue_status status)
 {
-    const drogue_result *was = best->result;
-    drogue_status status;
-    if (f->workspace->capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
-        drogue_note_room(&f->room, DROGUE_E_EDGES_FULL, f->second_look);
-        return;
-    }
-    begin_try(f);
-    f->second_look = was->second_look;
-    status = drogue_frame_beyond(f, &best->held.region, &was->ellipse, best->larger_q16);
     if (status == DROGUE_OK) {
-        f->outline.quality = was->quality; /* of the arcs that it was found from */
+        f->outline.quality = was->quality;
         f->outline.cluster_members = was->cluster_members;
         status = judge(f, DROGUE_TRIED_RAYS);
     }
-    consider(best, f, status);
+    return status;
+}
+
+/* The outline beyond the best one that the inner disc is of the size for. */
+static void try_beyond(best_try *best, drogue_frame *f)
+{
+    const drogue_result *was = best->result;
+    begin_try(f);
+    f->second_look = was->second_look;
+    consider(best, f, judge_rays(f, was, drogue_frame_beyond(f, &best->held.region, &was->ellipse, best->larger_q16)));
+}
+
+/* The rim's outer edge where the best outline is an inner one. It stands where most of it shows, and a disc in it where
+ * there was one, of whatever size: that of the inner edge says nothing. */
+static void try_outer(best_try *best, drogue_frame *f)
+{
+    const drogue_result *was = best->result;
+    drogue_status status;
+    begin_try(f);
+    f->second_look = was->second_look;
+    status = judge_rays(f, was, drogue_frame_outer(f, &best->held.region, &was->ellipse));
+    drogue_note_room(&f->room, status, f->second_look);
+    if (status == DROGUE_OK && f->out->cover_q16 >= OUTER_Q16 && f->out->has_inner >= was->has_inner) {
+        keep(best, f, status);
+    }
 }
 
 static int same_edges(const drogue_held *a, const drogue_held *b)
@@ -285,6 +301,9 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     }
     if (asks_beyond(&best)) {
         try_beyond(&best, f);
+    }
+    if (best.result->status == DROGUE_OK && best.result->tried != DROGUE_TRIED_RAYS) {
+        try_outer(&best, f);
     }
     return_to(&best, f, region);
     status = best.result->status;

@@ -186,27 +186,49 @@ void drogue_frame_move(drogue_ellipse *e, int32_t x_px, int32_t y_px)
     e->yc_px_q16 = drogue_q16_add(e->yc_px_q16, drogue_q16_from_int(y_px));
 }
 
-drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
-                                  drogue_q16 larger_q16)
+/* View where an outline was found; returns that in its coordinates. */
+static drogue_ellipse view_again(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was)
 {
-    drogue_outline *outline = &f->outline;
+    drogue_ellipse here = *was;
+    (void)place_view(f, region);
+    drogue_outline_clear(&f->outline);
+    drogue_frame_move(&here, -f->out->region.x_px, -f->out->region.y_px);
+    return here;
+}
+
+/* The outline along rays about an ellipse that is larger than the one found. */
+static drogue_status settle_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *about,
+                                   drogue_q16 larger_px_q16)
+{
     drogue_held *held = &f->held;
-    const drogue_q16 by_px_q16 = drogue_q16_mul(was->a_px_q16, larger_q16);
-    drogue_ellipse about;
-    (void)place_view(f, region); /* where the outline was found */
-    drogue_outline_clear(outline);
-    about = *was;
-    drogue_frame_move(&about, -f->out->region.x_px, -f->out->region.y_px);
-    outline->fitted = about;
-    about.a_px_q16 = drogue_q16_add(about.a_px_q16, by_px_q16);
-    about.b_px_q16 = drogue_q16_add(about.b_px_q16, by_px_q16);
+    if (f->workspace->capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
+        return DROGUE_E_EDGES_FULL;
+    }
     held->region = *region;
     held->canny_high = DROGUE_BY_RAYS;
     held->list.arc_count = 0;
-    held->list.edge_count = drogue_inner_beyond(f->workspace, &f->view, &about, by_px_q16);
+    held->list.edge_count = drogue_inner_beyond(f->workspace, &f->view, about, larger_px_q16);
     return held->list.edge_count > 0 &&
-                   drogue_outline_enlarge(outline, f->workspace, &held->list, &f->mask, f->setup->config)
+                   drogue_outline_settle(&f->outline, about, f->workspace, &held->list, &f->mask, f->setup->config)
                ? DROGUE_OK
+               : DROGUE_E_NO_ELLIPSE;
+}
+
+drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
+                                  drogue_q16 larger_q16)
+{
+    const drogue_q16 by_px_q16 = drogue_q16_mul(was->a_px_q16, larger_q16);
+    drogue_ellipse about = view_again(f, region, was);
+    about.a_px_q16 = drogue_q16_add(about.a_px_q16, by_px_q16);
+    about.b_px_q16 = drogue_q16_add(about.b_px_q16, by_px_q16);
+    return settle_beyond(f, region, &about, by_px_q16);
+}
+
+drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was)
+{
+    drogue_ellipse about = view_again(f, region, was);
+    return was->b_px_q16 >= DROGUE_Q16_ONE && drogue_outline_outer(&about, f->workspace->rays, &f->view)
+               ? settle_beyond(f, region, &about, drogue_q16_sub(about.a_px_q16, was->a_px_q16))
                : DROGUE_E_NO_ELLIPSE;
 }
 

@@ -44,10 +44,14 @@ drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region);
  * where that is an outline its edges are found again. */
 drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region);
 
-/* Look along rays for an outline that is larger by a share than one in a region asked for, px of the whole image: where
- * the inner disc says that it is. The workspace's edge points become those of the rays, without arcs. */
+/* Look along rays for an outline about one in a region asked for, px of the whole image, that is larger by a share: where
+ * the inner disc says that it is. The workspace's edge points become those of the rays, without arcs, if it has room for
+ * them (DROGUE_E_EDGES_FULL). */
 drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
                                   drogue_q16 larger_q16);
+
+/* The same, larger and shifted: where it is an inner edge of the rim, and an outer one shows. */
+drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was);
 
 /* Look for the inner disc in a region, then for its edges in one that suits what outlines the disc allows, and choose
  * of those the one that edge points cover best: 'ring', in coordinates of that region, which becomes the result's.

@@ -48,19 +48,12 @@ typedef struct drogue_outline_room {
     drogue_support support;                             /* of that */
     drogue_outline trial;                               /* being refined */
     drogue_outline best;                                /* of those so far, when a larger one is looked for */
-    drogue_q16 outer_px_q16[DROGUE_SUPPORT_BINS];       /* where another edge lies outside it, by bins */
 } drogue_outline_room;
 
 /* With the four bytes that alignment may take. */
 typedef char drogue_assume_outline_fits[sizeof(drogue_outline_room) + 4 <= DROGUE_SCRATCH_BYTES ? 1 : -1];
 
 /* Find the outline.
- *
- * Of a rim that is a band of another grey the outer edge: edge points 1 px and more outside, to 3 px or a twentieth of
- * the semi-axis, up to 17 px, are taken by bins (support.h). Where six bins and more are covered, least squares over
- * them, then over the nearer of both edges, give an ellipse that is larger and shifted. Where it passes six tenths of
- * the bins that show either edge, six of them outside, it is refitted, and is the outline if it stays larger and 13/16
- * of it are covered; arcs and quality stay those of the inner edge.
  *
  *  out        outline; on failure what is known of the best candidate, zero when there is none
  *  workspace  edges and arcs as the front end left them
@@ -114,6 +107,22 @@ void drogue_outline_clear(drogue_outline *outline);
  */
 void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
                          const drogue_config *config);
+
+/* Look along rays for the rim's outer edge about an outline that may be its inner one, on one side or all about, as of a
+ * band of another grey or a lip that is lit: too narrow or too faint for the edge detector, or cut off by the ring. From
+ * 1.5 px within to 5.5 px outside, of semi-axes above 100 px in proportion, four rays a bin (support.h) show edges of
+ * either sign: of 5 grey levels a pixel, of a fifth of what the outline's own have, and of half as much again as the
+ * mean outside. Least squares over size, place and shape, at first of the outermost edges, then of those near it, give
+ * an ellipse. It is the rim where it is larger by 0.3 px and passes 22 of 32 bins within 0.6 px of an edge, 8 of them
+ * of an outer one.
+ *
+ *  outer   in: the outline, region coordinates, b >= 1 px; out: where there is one, that ellipse, to some tenths of a
+ *          pixel; else as it was
+ *  rays    memory, as that of the workspace: nothing in it is kept
+ *  view    the region's pixels
+ *  return  1: there is one
+ */
+int drogue_outline_outer(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], const drogue_image *view);
 
 /* Fit the edge points that belong to an outline, each with the lens distortion removed.
  *

@@ -49,16 +49,6 @@ void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse
 void drogue_support_judge_as(drogue_support *support, const drogue_ellipse *ellipse, uint32_t bright_bins,
                              uint32_t stride);
 
-/* How many bins a word has, a bit each. */
-uint32_t drogue_support_count(uint32_t bins);
-
-/* The bins that more points of a bright polarity than of a dark one lie in, a bit each. */
-uint32_t drogue_support_majority(const drogue_support *support);
-
-/* The bins that are covered when they have the polarities given, a bit each. */
-uint32_t drogue_support_covered_bins(const drogue_support *support, const drogue_ellipse *ellipse, uint32_t bright_bins,
-                                     uint32_t stride);
-
 /* Covered share of the circumference, Q16. */
 static inline drogue_q16 drogue_support_cover(const drogue_support *support)
 {

@@ -1,159 +1,217 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The rim's outer edge. Where the rim is a band of another grey, fits take its inner edge on one side and the outer one
- * on the other, or the inner one all about: an ellipse that the drogue has nowhere, and covered nevertheless. */
+/* The rim's outer edge. Where the rim is a band of another grey, or its lip is lit, edge points may be those of its inner
+ * edge, on one side or all about: an outline that is too small. */
 #include <string.h>
 
-#include "refit.h"
+#include "drogue/outline.h"
+#include "harmonics.h"
+#include "vertex.h"
 
-#define OUTSIDE DROGUE_Q16(1, 1)   /* px: another edge is as far outside the outline, or farther, */
-#define NARROW DROGUE_Q16(3, 1)    /* to this or a twentieth of the semi-axis, */
-#define WIDE DROGUE_Q16(17, 1)     /* but no more */
-#define OUTER_LOOKS 192            /* edge points that are looked at */
-#define OUTER_BINS 6               /* fewest that show it */
-#define ALONE_ROUNDS 16            /* in which it goes by its own bins, however far they are off; and as many more, */
-#define NEAR_PX DROGUE_Q16(1, 1)   /* by what is as near, that edge or the outline's own */
-#define ON_IT DROGUE_Q16(6, 10)    /* px: what agrees in the end */
-#define GROWN DROGUE_Q16(3, 10)    /* px: least by which it is larger */
-#define COVERED DROGUE_Q16(13, 16) /* and least cover in the end: less is a shadow or a sharpening halo */
+#define BINS DROGUE_SUPPORT_BINS
+#define IN_BIN 4                 /* rays in a bin, half of them in the next one, too */
+#define WITHIN 4                 /* samples of a ray within the outline */
+#define SAMPLES 17               /* of a ray */
+#define SLOPES (SAMPLES - 2)     /* the first lies three steps within the outline */
+#define OWN 5                    /* as far as this slope, a pixel outside, an edge is the outline's own */
+#define APART 2                  /* slopes between two edges */
+#define WAVES 5                  /* of an outline: size, shift, shape */
+#define EDGES 3                  /* that are kept: the outline's own, and the two steepest outside */
+#define NEAREST DROGUE_Q16(1, 2) /* px: a step, but */
+#define STEPS 200                /* no less than this part of the semi-axis */
+#define LEAST_Q8 (5 * 256)       /* grey levels of a slope, */
+#define SHARE 5                  /* no less than this part of what the outline's own edge has */
+#define ROUNDS 16
+#define WIDE_ROUNDS 6              /* of them: an edge belongs to the ellipse */
+#define WIDE_PX DROGUE_Q16(2, 1)   /* where it is as near, */
+#define NEAR_PX DROGUE_Q16(1, 1)   /* later as near as this, */
+#define ON_IT_PX DROGUE_Q16(6, 10) /* and in the end */
+#define AGREE 22                   /* least bins that agree then, */
+#define OUTSIDE 8                  /* those of them with an outer edge, */
+#define GROWN DROGUE_Q16(3, 10)    /* and px by which the ellipse is larger */
 
-/* Edges by bins of an outline: its own, which is at 0, and another one outside. */
-typedef struct outer_edge {
-    drogue_q16 *at_px_q16; /* of that */
-    uint32_t outer;        /* the bins that show it */
-    uint32_t own;          /* the bins that the outline covers */
-    uint32_t agree;        /* bins of either that agree with an ellipse, */
-    uint32_t on;           /* and of them those with the outer edge */
-} outer_edge;
+/* Edges in a bin of an outline. */
+typedef struct outer_bin {
+    drogue_q16 at_px_q16[EDGES];
+    int32_t slope[EDGES]; /* Q8 times IN_BIN; 0: there is none */
+} outer_bin;
 
-/* Mean place of what lies outside an outline in a bin, by the points about a ring. */
-static drogue_q16 mean_at(const drogue_support *support, const drogue_ellipse *ring, uint32_t k, uint32_t bright)
+static inline int32_t magnitude(int32_t v) { return v < 0 ? -v : v; }
+
+/* Grey along two rays. */
+static void read_pair(int32_t sum[SAMPLES], drogue_ray rays[DROGUE_RAYS], int32_t pair, const drogue_image *view,
+                      drogue_q16 step_px_q16)
 {
-    const drogue_support_bin *bin = &support->bin[k];
-    const int64_t off_q16 = drogue_div_round_s64(bin->sum_q16, bin->count[bright]); /* in semi-axes */
-    const int64_t mean = (int64_t)ring->a_px_q16 + ring->b_px_q16;
-    int32_t basis_q30[5];
-    drogue_support_basis(basis_q30, k);
-    return (drogue_q16)drogue_shr_round_s64(
-        off_q16 * (mean + drogue_shr_round_s64(((int64_t)ring->a_px_q16 - ring->b_px_q16) * basis_q30[3], 30)), 17);
+    int32_t grey_q8[2][SAMPLES];
+    int32_t i;
+    for (i = 0; i < 2; i++) {
+        drogue_ray *r = &rays[2 * pair + i];
+        r->step_px_q16 = step_px_q16;
+        drogue_ray_read(grey_q8[i], r, view, -WITHIN * step_px_q16, SAMPLES);
+    }
+    for (i = 0; i < SAMPLES; i++) {
+        sum[i] = grey_q8[0][i] + grey_q8[1][i];
+    }
 }
 
-/* What lies outside the outline, in bins where it covers an ellipse of that size; 0 when it does in too few. */
-static int look_outside(outer_edge *edge, const drogue_outline *outline, drogue_refit_context *c)
+static void keep(outer_bin *bin, int32_t edge, const int32_t slope[SLOPES], int32_t i, drogue_q16 step_px_q16)
 {
-    const drogue_q16 reach = drogue_clamp_s32(outline->ellipse.a_px_q16 / 20, NARROW, WIDE);
-    const drogue_q16 middle = (reach + OUTSIDE) / 2;
-    const drogue_support *support = &c->room->support;
-    drogue_ellipse ring = outline->ellipse;
-    uint32_t bright;
+    const drogue_q16 part = drogue_vertex(slope[i - 1], slope[i], slope[i + 1], DROGUE_Q16_ONE / 2);
+    const int64_t at = (int64_t)(i + 1 - WITHIN) * DROGUE_Q16_ONE + part; /* steps */
+    bin->at_px_q16[edge] = (drogue_q16)drogue_shr_round_s64(at * step_px_q16, 16);
+    bin->slope[edge] = slope[i];
+}
+
+/* The peaks of a bin's slopes, of either sign. Returns the slopes' sum outside. */
+static int32_t see_bin(outer_bin *bin, const int32_t one[SAMPLES], const int32_t other[SAMPLES], drogue_q16 step_px_q16)
+{
+    int32_t slope[SLOPES];
+    int32_t sum = 0;
+    int32_t first = OWN; /* outside */
+    int32_t i;
+    memset(bin, 0, sizeof *bin);
+    for (i = 0; i < SLOPES; i++) {
+        slope[i] = magnitude(one[i + 2] + other[i + 2] - one[i] - other[i]);
+        sum += i >= OWN ? slope[i] : 0;
+    }
+    for (i = 1; i < SLOPES - 1; i++) {
+        const int32_t least = bin->slope[1] <= bin->slope[2] ? 1 : 2;
+        if (slope[i] > slope[i - 1] && slope[i] >= slope[i + 1]) {
+            if (i <= OWN && slope[i] > bin->slope[0]) {
+                keep(bin, 0, slope, i, step_px_q16);
+                first = i + APART > OWN ? i + APART : OWN;
+            } else if (i >= first && slope[i] > bin->slope[least]) {
+                keep(bin, least, slope, i, step_px_q16);
+            }
+        }
+    }
+    return sum;
+}
+
+/* See all bins. Returns the least slope that is an edge: of noise and texture there is half as much again. */
+static int32_t see(outer_bin bins[BINS], drogue_ray rays[DROGUE_RAYS], const drogue_image *view, drogue_q16 step_px_q16)
+{
+    int32_t pair[2][SAMPLES];
+    int32_t first[SAMPLES];
+    int64_t own = 0;
+    int64_t outside = 0;
+    int32_t least = IN_BIN * LEAST_Q8;
+    int32_t share;
+    int32_t noise;
+    int32_t k;
+    read_pair(first, rays, 0, view, step_px_q16);
+    memcpy(pair[0], first, sizeof first);
+    for (k = 0; k < BINS; k++) {
+        int32_t *const next = pair[1 - k % 2];
+        if (k + 1 < BINS) {
+            read_pair(next, rays, k + 1, view, step_px_q16);
+        } else {
+            memcpy(next, first, sizeof first);
+        }
+        outside += see_bin(&bins[k], pair[0], pair[1], step_px_q16);
+        own += bins[k].slope[0];
+    }
+    share = (int32_t)(own / (BINS * SHARE));
+    noise = (int32_t)(3 * outside / (2 * BINS * (SLOPES - OWN)));
+    least = least > share ? least : share;
+    return least > noise ? least : noise;
+}
+
+/* Of a bin the edge outside; its own where there is none. */
+static drogue_q16 outermost(const outer_bin *bin, int32_t least)
+{
+    const int32_t steeper = bin->slope[2] > bin->slope[1] ? 2 : 1;
+    return bin->at_px_q16[bin->slope[steeper] >= least ? steeper : 0];
+}
+
+/* Of a bin the edge that is nearest to a place; EDGES where none is within so much. */
+static int32_t nearest(const outer_bin *bin, drogue_q16 at_px_q16, drogue_q16 within_px_q16, int32_t least)
+{
+    int32_t best = EDGES;
+    int32_t i;
+    for (i = 0; i < EDGES; i++) {
+        const drogue_q16 off = magnitude(bin->at_px_q16[i] - at_px_q16);
+        if (bin->slope[i] >= least && off < within_px_q16) {
+            within_px_q16 = off;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/* Where an ellipse passes a bin that is larger by v[0], shifted by v[1] and v[2] along the axes and longer by v[3] and
+ * v[4] along the major one and a diagonal. */
+static drogue_q16 at_bin(const drogue_q16 v_px_q16[WAVES], const int32_t basis_q30[WAVES])
+{
+    int64_t sum_q46 = 0;
+    int i;
+    for (i = 0; i < WAVES; i++) {
+        sum_q46 += drogue_product(v_px_q16[i], basis_q30[i]);
+    }
+    return (drogue_q16)drogue_shr_round_s64(sum_q46, 30);
+}
+
+/* The ellipse of least squares over the bins' edges: at first over the outermost ones, within 0; later over those that
+ * are nearest to it, and where none is near it passes as it did. */
+static void fit(drogue_q16 v_px_q16[WAVES], const outer_bin bins[BINS], drogue_q16 within_px_q16, int32_t least)
+{
+    int64_t sum_q46[WAVES] = {0, 0, 0, 0, 0};
     uint32_t k;
-    ring.a_px_q16 = drogue_q16_add(ring.a_px_q16, middle);
-    ring.b_px_q16 = drogue_q16_add(ring.b_px_q16, middle);
-    c->band_px_q16 = middle - OUTSIDE;
-    c->looks = OUTER_LOOKS;
-    if (drogue_refit_look(c, &ring, 0) != DROGUE_OK) {
-        return 0;
-    }
-    bright = drogue_support_majority(support);
-    edge->outer = drogue_support_covered_bins(support, &ring, bright, drogue_refit_stride(c));
-    if (drogue_support_count(edge->outer) < OUTER_BINS) {
-        return 0;
-    }
-    edge->own = drogue_support_covered_bins(&outline->support, &outline->ellipse, outline->support.bright_bins, 1);
-    if (bright != 0) {
-        (void)drogue_refit_look(c, &ring, bright); /* for the offsets of these points */
-    }
-    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        edge->at_px_q16[k] = edge->outer >> k & 1u ? middle + mean_at(support, &ring, k, bright >> k & 1u) : 0;
-    }
-    return 1;
-}
-
-/* Where an ellipse that is larger by v[0] and shifted by v[1] and v[2] along the axes passes a bin. */
-static drogue_q16 at_bin(const drogue_q16 v_px_q16[3], const int32_t basis_q30[5])
-{
-    return v_px_q16[0] + (drogue_q16)drogue_shr_round_s64(
-                             drogue_product(v_px_q16[1], basis_q30[1]) + drogue_product(v_px_q16[2], basis_q30[2]), 30);
-}
-
-/* Once nearer to least squares over the bins: those where no edge agrees have it where the ellipse is. */
-static void step(drogue_q16 v_px_q16[3], outer_edge *edge, uint32_t own, drogue_q16 within_px_q16)
-{
-    int64_t sum_q46[3] = {0, 0, 0};
-    uint32_t k;
-    edge->agree = 0;
-    edge->on = 0;
-    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        const uint32_t outer = edge->outer >> k & 1u;
-        int32_t basis_q30[5];
+    int i;
+    for (k = 0; k < BINS; k++) {
+        int32_t basis_q30[WAVES];
         drogue_q16 at;
-        drogue_q16 off; /* of the nearer edge */
-        int i;
+        int32_t edge;
         drogue_support_basis(basis_q30, k);
         at = at_bin(v_px_q16, basis_q30);
-        off = outer ? edge->at_px_q16[k] - at : DROGUE_Q16_MAX;
-        if ((own >> k & 1u) && (at < 0 ? -at : at) < (off < 0 ? -off : off)) {
-            off = -at;
-        }
-        if ((off < 0 ? -off : off) < within_px_q16) {
-            at += off;
-            edge->agree++;
-            edge->on += at != 0;
-        }
-        for (i = 0; i < 3; i++) {
+        edge = nearest(&bins[k], at, within_px_q16, least);
+        at = within_px_q16 == 0 ? outermost(&bins[k], least) : edge < EDGES ? bins[k].at_px_q16[edge] : at;
+        for (i = 0; i < WAVES; i++) {
             sum_q46[i] += drogue_product(at, basis_q30[i]);
         }
     }
-    v_px_q16[0] = (drogue_q16)drogue_shr_round_s64(sum_q46[0], 35);
-    v_px_q16[1] = (drogue_q16)drogue_shr_round_s64(sum_q46[1], 34);
-    v_px_q16[2] = (drogue_q16)drogue_shr_round_s64(sum_q46[2], 34);
+    for (i = 0; i < WAVES; i++) {
+        v_px_q16[i] = (drogue_q16)drogue_shr_round_s64(sum_q46[i], i > 0 ? 34 : 35);
+    }
 }
 
-/* Is there an ellipse that is larger than the outline, on which most edges lie, some of them outside? */
-static int larger_ellipse(drogue_q16 v_px_q16[3], outer_edge *edge)
+/* Do most bins have an edge on an ellipse, and enough of them an outer one? */
+static int agrees(const drogue_q16 v_px_q16[WAVES], const outer_bin bins[BINS], int32_t least)
 {
-    drogue_q16 last[3];
-    int64_t sum = 0;
-    int round;
-    int k;
-    for (k = 0; k < DROGUE_SUPPORT_BINS; k++) {
-        sum += edge->at_px_q16[k];
+    int32_t agree = 0;
+    int32_t outside = 0;
+    uint32_t k;
+    for (k = 0; k < BINS; k++) {
+        int32_t basis_q30[WAVES];
+        int32_t edge;
+        drogue_support_basis(basis_q30, k);
+        edge = nearest(&bins[k], at_bin(v_px_q16, basis_q30), ON_IT_PX, least);
+        agree += edge < EDGES;
+        outside += edge > 0 && edge < EDGES;
     }
-    v_px_q16[0] = (drogue_q16)(sum / drogue_support_count(edge->outer));
-    v_px_q16[1] = v_px_q16[2] = 0;
-    for (round = 0; round < 2 * ALONE_ROUNDS; round++) {
-        const int alone = round < ALONE_ROUNDS;
-        step(v_px_q16, edge, alone ? 0 : edge->own, alone ? DROGUE_Q16_MAX : NEAR_PX);
-    }
-    memcpy(last, v_px_q16, sizeof last);
-    step(last, edge, edge->own, ON_IT);
-    return edge->on >= OUTER_BINS && 10 * edge->agree >= 6 * drogue_support_count(edge->outer | edge->own) &&
-           v_px_q16[0] >= GROWN;
+    return agree >= AGREE && outside >= OUTSIDE;
 }
 
-void drogue_outline_outer(drogue_outline *outline, drogue_refit_context *c)
+int drogue_outline_outer(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], const drogue_image *view)
 {
-    drogue_outline *trial = &c->room->trial;
-    drogue_ellipse *ring = &trial->ellipse;
-    outer_edge edge;
-    drogue_q16 v_px_q16[3];
-    drogue_refit_begin(c, c->workspace, c->list, c->mask, c->config);
-    edge.at_px_q16 = c->room->outer_px_q16;
-    if (!look_outside(&edge, outline, c) || !larger_ellipse(v_px_q16, &edge)) {
-        return;
+    const drogue_q16 part = outer->a_px_q16 / STEPS;
+    outer_bin bins[BINS];
+    drogue_q16 v_px_q16[WAVES] = {0, 0, 0, 0, 0};
+    int32_t pull_q24[WAVES];
+    int32_t least;
+    int i;
+    drogue_rays_aim(rays, outer, -4, 0, DROGUE_RAYS / 2); /* four of them about the middle of a bin */
+    least = see(bins, rays, view, part > NEAREST ? part : NEAREST);
+    fit(v_px_q16, bins, 0, least);
+    for (i = 0; i < ROUNDS; i++) {
+        fit(v_px_q16, bins, i < WIDE_ROUNDS ? WIDE_PX : NEAR_PX, least);
     }
-    *trial = *outline;
-    drogue_ellipse_shift(ring, v_px_q16[1], v_px_q16[2]);
-    ring->a_px_q16 = drogue_q16_add(ring->a_px_q16, v_px_q16[0]);
-    ring->b_px_q16 = drogue_q16_add(ring->b_px_q16, v_px_q16[0]);
-    drogue_refit_begin(c, c->workspace, c->list, c->mask, c->config);
-    c->band_px_q16 = c->config->refit_band_px_q16;
-    if (drogue_refit_covers(ring, c) <= 0) {
-        return;
+    if (v_px_q16[0] < GROWN || !agrees(v_px_q16, bins, least)) {
+        return 0;
     }
-    drogue_refit(trial, c);
-    if (trial->cover_q16 >= COVERED && trial->cover_q16 >= c->config->min_cover_q16 &&
-        (int64_t)ring->a_px_q16 + ring->b_px_q16 >= (int64_t)outline->ellipse.a_px_q16 + outline->ellipse.b_px_q16 +
-                                                        v_px_q16[0]) { /* else back to the inner one */
-        *outline = *trial;
+    for (i = 0; i < WAVES; i++) { /* in mean semi-axes: of a rim in one plane both grow in proportion */
+        pull_q24[i] = (int32_t)drogue_div_round_s64(-v_px_q16[i] * (INT64_C(1) << 25),
+                                                    (int64_t)outer->a_px_q16 + outer->b_px_q16);
     }
+    drogue_outline_put_back(outer, pull_q24);
+    return 1;
 }

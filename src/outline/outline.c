@@ -206,9 +206,6 @@ drogue_status drogue_outline_find(drogue_outline *out, const drogue_workspace *w
                                 config->min_short_px_q16, config->polarity);
     if (status == DROGUE_OK) {
         status = best_outline(out, all_candidates(&c), &c);
-        if (status == DROGUE_OK) {
-            drogue_outline_outer(out, &c);
-        }
         out->fitted = out->ellipse;
         if (out->ellipse.b_px_q16 > 0) {
             drogue_undo_blur(&out->ellipse, config);

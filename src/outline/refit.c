@@ -15,7 +15,6 @@ void drogue_refit_begin(drogue_refit_context *c, const drogue_workspace *workspa
     c->list = list;
     c->mask = mask;
     c->config = config;
-    c->looks = LOOKS;
     drogue_collection_of_region(&c->room->sum);
 }
 
@@ -26,21 +25,19 @@ int drogue_refit_plausible(const drogue_refit_context *c, const drogue_ellipse *
            a <= (int64_t)c->config->max_size_q16 * c->mask->longest_px;
 }
 
-/* Band about an ellipse: the one asked for; else the configured one, or a share of the semi-axis where that is
- * wider. */
+/* Band about an ellipse: the configured one, or a share of the semi-axis where that is wider. */
 static drogue_band band_about(const drogue_ellipse *e, const drogue_refit_context *c)
 {
     const drogue_config *config = c->config;
     const drogue_q16 wide = drogue_q16_mul(e->a_px_q16, config->search_band_q16);
     const drogue_q16 most = DROGUE_Q16(8, 1);
-    return drogue_band_of(c->band_px_q16 > 0                 ? c->band_px_q16
-                          : config->refit_band_px_q16 > wide ? config->refit_band_px_q16
-                          : wide > most                      ? most
-                                                             : wide,
+    return drogue_band_of(config->refit_band_px_q16 > wide ? config->refit_band_px_q16
+                          : wide > most                    ? most
+                                                           : wide,
                           config->refit_cos_q16);
 }
 
-uint32_t drogue_refit_stride(const drogue_refit_context *c) { return c->list->edge_count / c->looks + 1; }
+uint32_t drogue_refit_stride(const drogue_refit_context *c) { return c->list->edge_count / LOOKS + 1; }
 
 /* Collect the edge points that belong to an ellipse, every one or every so many of them: counts by bin, residuals, and
  * moments, where all count from those of the arcs. Bins have the given polarities until they are judged by the

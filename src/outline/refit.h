@@ -16,9 +16,7 @@ typedef struct drogue_refit_context {
     uint32_t arcs;             /* whose points are summed, as a candidate has them; 0: none */
     const drogue_arc *part[4]; /* the same in the order of their points */
     int parts;
-    uint32_t looked_as;     /* the bins' polarities in the last look */
-    uint32_t looks;         /* at most so many edge points are looked at */
-    drogue_q16 band_px_q16; /* half the band's width; 0: as configured, or a share of a large ellipse */
+    uint32_t looked_as; /* the bins' polarities in the last look */
 } drogue_refit_context;
 
 /* Begin without arcs. */
@@ -48,8 +46,5 @@ int drogue_refit_covers(const drogue_ellipse *ring, drogue_refit_context *c);
  * The first round takes the points that were looked at. Judges the outline by the share of its circumference that they
  * cover. */
 void drogue_refit(drogue_outline *outline, drogue_refit_context *c);
-
-/* The rim's outer edge outside an outline as fitted, in its place where there is one (outline.h). */
-void drogue_outline_outer(drogue_outline *outline, drogue_refit_context *c);
 
 #endif

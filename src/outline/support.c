@@ -15,7 +15,8 @@ static uint32_t needed_points(const drogue_ellipse *e, uint32_t k)
     return (uint32_t)((drogue_shr_round_s64(length_q16 * DROGUE_Q16(35, 100), 16) + 0xFFFF) >> 16);
 }
 
-uint32_t drogue_support_count(uint32_t bins)
+/* How many bins a word has, a bit each. */
+static uint32_t bits_of(uint32_t bins)
 {
     uint32_t v = bins - ((bins >> 1) & 0x55555555u);
     v = (v & 0x33333333u) + ((v >> 2) & 0x33333333u);
@@ -35,7 +36,7 @@ static uint32_t changes(uint32_t bright, uint32_t covered)
         own |= turned(own, n) & ~known;
         known |= turned(known, n);
     }
-    return drogue_support_count(own ^ turned(own, 1));
+    return bits_of(own ^ turned(own, 1));
 }
 
 /* Bins that hold enough points of each polarity. */
@@ -57,29 +58,17 @@ static void enough_points(uint32_t enough[2], const drogue_support *support, con
     }
 }
 
-static uint32_t covered_bins(const uint32_t enough[2], uint32_t bright_bins)
-{
-    return (enough[0] & ~bright_bins) | (enough[1] & bright_bins);
-}
-
-uint32_t drogue_support_covered_bins(const drogue_support *support, const drogue_ellipse *ellipse, uint32_t bright_bins,
-                                     uint32_t stride)
-{
-    uint32_t enough[2];
-    enough_points(enough, support, ellipse, stride);
-    return covered_bins(enough, bright_bins);
-}
-
 /* Covered bins when the bins have these polarities, less the changes of polarity. */
 static uint32_t covered_by(const uint32_t enough[2], uint32_t bright_bins)
 {
-    const uint32_t covered = covered_bins(enough, bright_bins);
-    const uint32_t count = drogue_support_count(covered);
+    const uint32_t covered = (enough[0] & ~bright_bins) | (enough[1] & bright_bins);
+    const uint32_t count = bits_of(covered);
     const uint32_t lost = changes(bright_bins, covered);
     return count > lost ? count - lost : 0;
 }
 
-uint32_t drogue_support_majority(const drogue_support *support)
+/* The bins that more points of a bright polarity than of a dark one lie in. */
+static uint32_t majority_of(const drogue_support *support)
 {
     uint32_t bright = 0;
     uint32_t k;
@@ -108,7 +97,7 @@ void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse
         drogue_support_judge_as(support, ellipse, bins[polarity], stride);
         return;
     }
-    bins[2] = drogue_support_majority(support);
+    bins[2] = majority_of(support);
     enough_points(enough, support, ellipse, stride);
     support->bright_bins = bins[0];
     support->covered = covered_by(enough, bins[0]);

@@ -127,9 +127,6 @@ bool support_add(Support &s, const BandPoint &p, const Edge &edge);
 void support_judge(Support &s, const Ellipse &e, int polarity, int stride);
 /* How many bins are covered by points of the given polarities. */
 void support_judge_as(Support &s, const Ellipse &e, uint32_t bright, int stride);
-/* Bit set of the bins that more bright points than dark ones lie in; of those that points of the given polarities cover. */
-uint32_t support_majority(const Support &s);
-uint32_t support_covered(const Support &s, const Ellipse &e, uint32_t bright, int stride);
 /* Points that cover a bin, not rounded. */
 Real support_needed(const Ellipse &e, int bin);
 

@@ -80,7 +80,8 @@ Real support_needed(const Ellipse &e, int bin)
     return 0.35L * (e.b + (e.a - e.b) * sine * sine) * 2 * PI / SUPPORT_BINS;
 }
 
-uint32_t support_majority(const Support &s)
+/* The bins that more bright points than dark ones lie in. */
+static uint32_t support_majority(const Support &s)
 {
     uint32_t majority = 0;
     for (int k = 0; k < SUPPORT_BINS; k++) {
@@ -90,7 +91,8 @@ uint32_t support_majority(const Support &s)
     return majority;
 }
 
-uint32_t support_covered(const Support &s, const Ellipse &e, uint32_t bright, int stride)
+/* The bins that points of the given polarities cover. */
+static uint32_t support_covered(const Support &s, const Ellipse &e, uint32_t bright, int stride)
 {
     uint32_t covered = 0;
     for (int k = 0; k < SUPPORT_BINS; k++) {

@@ -462,35 +462,52 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
     return out.status == DROGUE_OK && out.has_inner && out.doubt > doubt ? doubt + 1 / 200.0L : doubt;
 }
 
-/* A larger outline along rays about the best one. */
+/* A larger outline along rays about the best one: of the size that the disc asks for, or the rim's outer edge. */
 bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &decided,
-            const std::array<int64_t, 4> &region, const Task &task)
+            const std::array<int64_t, 4> &region, const Task &task, bool outer)
 {
     const bool follow = f.follow.library != nullptr;
     Ellipse was = best.seen;
-    out.status = DROGUE_OK;
+    out.status = DROGUE_E_NO_ELLIPSE;
     out.tried = DROGUE_TRIED_RAYS;
     out.second_look = best.second_look;
+    out.outline.arcs.fill(DROGUE_NO_ARC);
     place(out.region, f.mask, task.image, region);
     f.view = task.image(out.region).clone();
     was.xc -= out.region.x;
     was.yc -= out.region.y;
+    const drogue_image view = {f.view.data, f.view.cols, f.view.rows, static_cast<int32_t>(f.view.step)};
     const drogue_ellipse known = follow ? decided.ellipse : rounded_ellipse(was);
-    const drogue_q16 by = drogue_q16_mul(known.a_px_q16, best.larger_q16);
     drogue_ellipse about = known;
-    about.a_px_q16 += by;
-    about.b_px_q16 += by;
-    look_beyond(*f.front, f.view, about, by);
-    out.outline.arcs.fill(DROGUE_NO_ARC);
-    out.outline.fitted = was;
+    if (!outer) {
+        const drogue_q16 by = drogue_q16_mul(known.a_px_q16, best.larger_q16);
+        about.a_px_q16 += by;
+        about.b_px_q16 += by;
+    } else if (!outer_edge(was, view, known)) {
+        return false;
+    } else if (follow) {
+        (void)drogue_outline_outer(&about, f.front->workspace.rays, &view);
+    } else {
+        about = rounded_ellipse(was);
+    }
+    if (task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
+        out.status = DROGUE_E_EDGES_FULL;
+        return false;
+    }
+    look_beyond(*f.front, f.view, about, about.a_px_q16 - known.a_px_q16);
+    if (f.front->list.edge_count == 0) {
+        return false;
+    }
+    if (follow) {
+        (void)drogue_outline_settle(&f.decided, &about, &f.front->workspace, &f.front->list, &f.mask, &task.config);
+    }
+    if (!settle(out.outline, about, *f.front, f.mask, task.config, f.follow)) {
+        return false;
+    }
+    out.status = DROGUE_OK;
     out.outline.quality = best.outline.quality;
     out.outline.members = best.outline.members;
-    if (follow) {
-        f.decided = {};
-        f.decided.fitted = known;
-        (void)drogue_outline_enlarge(&f.decided, &f.front->workspace, &f.front->list, &f.mask, &task.config);
-    }
-    return f.front->list.edge_count > 0 && enlarge(out.outline, *f.front, f.mask, task.config, f.follow);
+    return true;
 }
 
 /* An outline about the inner disc where no outline says where that is. */
@@ -672,24 +689,26 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             keep(out, from, doubt);
         }
     }
-    const bool asks_beyond = best.status == DROGUE_OK && least > SURE &&
-                             best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.2L;
-    if (asks_beyond && task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
-        room = room == DROGUE_SECOND_NONE ? DROGUE_SECOND_FULL : room;
-    } else if (asks_beyond) {
+    for (const bool outer : {false, true}) {
+        const bool asked_beyond =
+            least > SURE && best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.2L;
         Result out;
         Features from = {};
-        if (beyond(out, f, best, decided, asked_for, task) && judge(out, from, f, task, library) < least - 1 / 256.0L &&
-            out.status == DROGUE_OK) {
-            best = out;
-            if (features != nullptr) {
-                *features = from;
-            }
+        if (best.status != DROGUE_OK || best.tried == DROGUE_TRIED_RAYS || !(outer || asked_beyond)) {
+            continue;
+        }
+        const Real doubt =
+            beyond(out, f, best, decided, asked_for, task, outer) ? judge(out, from, f, task, library) : DOUBTED;
+        if (room == DROGUE_SECOND_NONE && is_full(out.status)) {
+            room = DROGUE_SECOND_FULL;
+        }
+        if (out.status == DROGUE_OK &&
+            (outer ? out.outline.cover >= 0.75L && (out.has_inner || !best.has_inner) : doubt < least - 1 / 256.0L)) {
+            keep(out, from, doubt);
         }
     }
-    const bool another = best.tried != DROGUE_TRIED_RAYS && least == 1 &&
-                         ((best.outline.cover < 0.7L && lies_within(best.seen, task.image)) ||
-                          (f.ring > 0 && !about_one_size(best.seen.a, f.ring, 8)));
+    const bool another = least == 1 && ((best.outline.cover < 0.7L && lies_within(best.seen, task.image)) ||
+                                        (f.ring > 0 && !about_one_size(best.seen.a, f.ring, 8)));
     const bool whole =
         best.status == DROGUE_OK && !best.too_large && !another && best.second_look <= DROGUE_SECOND_BETTER;
     if (room != DROGUE_SECOND_NONE) {

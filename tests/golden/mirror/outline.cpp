@@ -81,7 +81,6 @@ public:
     drogue_status find(Outline &out);
     bool enlarge(Outline &out) const;
     bool settle(Outline &out, const Ellipse &ring) const;
-    Support look(const Ellipse &e, uint32_t bright, int looks, bool follow) const;
     Real covered(const Ellipse &e, bool follow) const;
 
 private:
@@ -103,7 +102,6 @@ private:
     Outline refine(const Candidate &candidate) const;
     void refit(Outline &o, const decisions_round *rounds, int known) const;
     bool on_ring(Outline &out, const Ellipse &ring) const;
-    void outer(Outline &out);
     void narrow(reference::Band &band, const Support &s, const Ellipse &e) const;
     reference::ClusterConfig cluster() const;
 
@@ -111,7 +109,6 @@ private:
     const drogue_mask &mask_;
     const drogue_config &config_;
     const Follow &follow_;
-    Real band_ = 0; /* half the width of the band about an ellipse; 0: as configured */
     std::array<std::array<uint32_t, DROGUE_ARC_CHOICES>, 4> choices_ = {};
 };
 
@@ -150,7 +147,7 @@ bool Finder::plausible(const Ellipse &e) const
 reference::Band Finder::band_about(const Ellipse &e) const
 {
     const Real share = std::min<Real>(8, real(config_.search_band_q16) * e.a);
-    return {band_ > 0 ? band_ : std::max(real(config_.refit_band_px_q16), share), real(config_.refit_cos_q16)};
+    return {std::max(real(config_.refit_band_px_q16), share), real(config_.refit_cos_q16)};
 }
 
 /* Covered share of an ellipse by some of all edge points; 'slack' is what undecided points and bins could change. */
@@ -364,9 +361,9 @@ bool Finder::on_ring(Outline &out, const Ellipse &ring) const
     }
     decisions_round rounds[DECISIONS_MAX];
     const drogue_ellipse start = {q16(ring.xc), q16(ring.yc), q16(ring.a), q16(ring.b), q16(ring.angle)};
-    const int known = follow_.library != nullptr ? decisions_of_ring(rounds, &front_.workspace, &front_.list, &mask_,
-                                                                     &config_, &start, q16(band_), bright)
-                                                 : 0;
+    const int known = follow_.library != nullptr
+                          ? decisions_of_ring(rounds, &front_.workspace, &front_.list, &mask_, &config_, &start, bright)
+                          : 0;
     out.ellipse = ring;
     out.support.bright = bright;
     refit(out, rounds, known);
@@ -409,104 +406,24 @@ bool Finder::settle(Outline &out, const Ellipse &ring) const
     return true;
 }
 
-/* Of all edge points every so many-th. */
-static int stride_of(const FrontEnd &front, int looks) { return static_cast<int>(front.edges.size()) / looks + 1; }
-
-Support Finder::look(const Ellipse &e, uint32_t bright, int looks, bool follow) const
-{
-    const reference::Band band = band_about(e);
-    const decisions_round library = {{q16(e.xc), q16(e.yc), q16(e.a), q16(e.b), q16(e.angle)},
-                                     drogue_band_of(q16(band.width), config_.refit_cos_q16)};
-    const std::vector<BandPoint> points = collect(e, band, front_, follow ? &library : nullptr);
-    Support s;
-    s.bright = bright;
-    for (size_t i = 0; i < points.size(); i += static_cast<size_t>(stride_of(front_, looks))) {
-        if (points[i].held) {
-            reference::support_add(s, points[i], front_.edges[i]);
-        }
-    }
-    return s;
-}
-
 Real Finder::covered(const Ellipse &e, bool follow) const
 {
     if (!plausible(e)) {
         return 0;
     }
-    Support s = look(e, 0, 512, follow);
-    reference::support_judge(s, e, config_.polarity, stride_of(front_, 512));
+    const reference::Band band = band_about(e);
+    const decisions_round library = {{q16(e.xc), q16(e.yc), q16(e.a), q16(e.b), q16(e.angle)},
+                                     drogue_band_of(q16(band.width), config_.refit_cos_q16)};
+    const std::vector<BandPoint> points = collect(e, band, front_, follow ? &library : nullptr);
+    const size_t stride = front_.edges.size() / 512 + 1;
+    Support s;
+    for (size_t i = 0; i < points.size(); i += stride) {
+        if (points[i].held) {
+            reference::support_add(s, points[i], front_.edges[i]);
+        }
+    }
+    reference::support_judge(s, e, config_.polarity, static_cast<int>(stride));
     return static_cast<Real>(s.covered) / reference::SUPPORT_BINS;
-}
-
-/* The rim's outer edge, as drogue_outline_find() says. */
-void Finder::outer(Outline &out)
-{
-    constexpr size_t BINS = reference::SUPPORT_BINS;
-    constexpr int LOOKS = 192;
-    const Real reach = std::clamp<Real>(out.ellipse.a / 20, 3, 17), middle = (reach + 1) / 2;
-    Ellipse ring = out.ellipse;
-    ring.a += middle;
-    ring.b += middle;
-    band_ = middle - 1;
-    Support s = look(ring, 0, LOOKS, follow_.library != nullptr);
-    const uint32_t bright = reference::support_majority(s);
-    s = look(ring, bright, LOOKS, follow_.library != nullptr);
-    const std::bitset<BINS> outside = reference::support_covered(s, ring, bright, stride_of(front_, LOOKS));
-    const std::bitset<BINS> own = reference::support_covered(out.support, out.ellipse, out.support.bright, 1);
-    std::array<Real, BINS> at = {};
-    std::array<std::array<Real, 3>, BINS> basis;
-    Real v[3] = {0, 0, 0};
-    int bins = 0, outer_bins = 0, agree = 0, on = 0;
-    for (size_t k = 0; k < BINS; k++) {
-        const Real t = (static_cast<Real>(k) + 0.5L) * 2 * std::acos(Real(-1)) / BINS;
-        basis[k] = {1, std::cos(t), std::sin(t)};
-        bins += outside[k] || own[k];
-        if (outside[k]) {
-            at[k] = middle + s.sum[k] / s.count[k][bright >> k & 1] *
-                                 (ring.a * basis[k][1] * basis[k][1] + ring.b * basis[k][2] * basis[k][2]);
-            outer_bins++;
-            v[0] += at[k];
-        }
-    }
-    if (outer_bins < 6) {
-        band_ = 0;
-        return;
-    }
-    v[0] /= outer_bins;
-    for (int round = 0; round <= 32; round++) {
-        const Real within = round < 16 ? 1e9L : round < 32 ? 1 : 0.6L;
-        Real sum[3] = {0, 0, 0};
-        agree = on = 0;
-        for (size_t k = 0; k < BINS; k++) {
-            const Real there = v[0] + v[1] * basis[k][1] + v[2] * basis[k][2];
-            const Real past = outside[k] ? std::fabs(at[k] - there) : 1e9L;
-            const Real back = own[k] && round >= 16 ? std::fabs(there) : 1e9L;
-            const bool known = std::min(past, back) < within, is_own = back < past;
-            agree += known;
-            on += known && !is_own;
-            for (size_t i = 0; i < 3; i++) {
-                sum[i] += (!known ? there : is_own ? 0 : at[k]) * basis[k][i] / (i > 0 ? BINS / 2 : BINS);
-            }
-        }
-        if (round < 32) {
-            std::copy(sum, sum + 3, v);
-        }
-    }
-    band_ = real(config_.refit_band_px_q16);
-    if (on >= 6 && 10 * agree >= 6 * bins && v[0] >= 0.3L) {
-        Outline trial = out;
-        const Real c = std::cos(ring.angle), z = std::sin(ring.angle);
-        ring = out.ellipse;
-        ring.xc += v[1] * c - v[2] * z;
-        ring.yc += v[1] * z + v[2] * c;
-        ring.a += v[0];
-        ring.b += v[0];
-        if (plausible(ring) && on_ring(trial, ring) && trial.cover >= 0.8125L &&
-            trial.ellipse.a + trial.ellipse.b >= out.ellipse.a + out.ellipse.b + v[0]) {
-            out = trial;
-        }
-    }
-    band_ = 0;
 }
 
 /* The most reliable candidate, refined; while it covers little, the next that differ, and the one that covers most. */
@@ -538,7 +455,6 @@ drogue_status Finder::find(Outline &out)
     if (out.cover < real(config_.min_cover_q16)) {
         return DROGUE_E_NO_ELLIPSE;
     }
-    outer(out);
     return DROGUE_OK;
 }
 

@@ -78,6 +78,9 @@ bool settle(Outline &out, const drogue_ellipse &ring, const FrontEnd &front, con
 bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
              const Follow &follow);
 
+/* The rim's outer edge about an outline as drogue_outline_outer(), along rays from the ellipse 'aim'; false: there is none. */
+bool outer_edge(reference::Ellipse &e, const drogue_image &view, const drogue_ellipse &aim);
+
 /* What lies beside the outline as drogue_outline_pull(), along rays from the ellipse 'aim', and blur put back. */
 void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const drogue_config &config);
 void put_back(reference::Ellipse &e, const std::array<Real, 5> &pull);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 
 #include "drogue/rays.h"
 
@@ -389,6 +390,112 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
         put_back(o.ellipse, o.support.pull);
     }
     undo_blur(o.ellipse, config);
+}
+
+namespace {
+
+/* Edges in a bin: the outline's own, and the two steepest outside. */
+struct OuterBin {
+    std::array<Real, 3> at = {};
+    std::array<int64_t, 3> slope = {};
+};
+
+/* The peaks of the summed slopes of four rays, two of them the next bin's, too; 'outside' gathers those out there. */
+OuterBin outer_bin(const drogue_ray *rays, size_t k, const drogue_image &view, drogue_q16 step, int64_t &outside)
+{
+    enum { SAMPLES = 17, OUTER_SLOPES = SAMPLES - 2, OWN = 5 };
+    std::array<int64_t, SAMPLES> grey = {};
+    std::array<int64_t, OUTER_SLOPES> slope;
+    OuterBin out;
+    size_t first = OWN;
+    for (size_t r = 2 * k; r < 2 * k + 4; r++) {
+        std::array<int32_t, SAMPLES> one;
+        drogue_ray ray = rays[r % DROGUE_RAYS];
+        ray.step_px_q16 = step;
+        drogue_ray_read(one.data(), &ray, &view, -4 * step, SAMPLES);
+        std::transform(one.begin(), one.end(), grey.begin(), grey.begin(), std::plus<int64_t>());
+    }
+    for (size_t i = 0; i < OUTER_SLOPES; i++) {
+        slope[i] = std::abs(grey[i + 2] - grey[i]);
+        outside += i >= OWN ? slope[i] : 0;
+    }
+    for (size_t i = 1; i + 1 < OUTER_SLOPES; i++) {
+        if (slope[i] <= slope[i - 1] || slope[i] < slope[i + 1]) {
+            continue;
+        }
+        const bool own = i <= OWN && slope[i] > out.slope[0];
+        const size_t which = own ? 0 : out.slope[1] <= out.slope[2] ? 1 : 2;
+        if (own || (i >= first && slope[i] > out.slope[which])) {
+            const auto bend = static_cast<Real>(2 * slope[i] - slope[i - 1] - slope[i + 1]);
+            const Real part = static_cast<Real>(slope[i + 1] - slope[i - 1]) / (2 * bend);
+            out.at[which] = (static_cast<Real>(i) - 3 + part) * real(step);
+            out.slope[which] = slope[i];
+            first = own ? std::max<size_t>(OWN, i + 2) : first;
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellipse &aim)
+{
+    constexpr size_t BINS32 = reference::SUPPORT_BINS;
+    const drogue_q16 step = std::max(aim.a_px_q16 / 200, 32768);
+    std::array<drogue_ray, DROGUE_RAYS> rays;
+    std::array<OuterBin, BINS32> bins;
+    std::array<Real, 5> v = {};
+    int64_t outside = 0, own = 0;
+    int agree = 0, outer = 0;
+    if (!(e.b >= 1)) {
+        return false;
+    }
+    drogue_rays_aim(rays.data(), &aim, -4, 0, DROGUE_RAYS / 2);
+    for (size_t k = 0; k < BINS32; k++) {
+        bins[k] = outer_bin(rays.data(), k, view, step, outside);
+        own += bins[k].slope[0];
+    }
+    const int64_t least = std::max({int64_t{4 * 5 * 256}, own / (32 * 5), 3 * outside / (2 * 32 * 10)});
+    for (int round = 0; round <= 17; round++) { /* the outermost edges, six of 2 px, ten of 1 px, what agrees */
+        const Real most = round < 7 ? 2 : round < 17 ? 1 : 0.6L;
+        std::array<Real, 5> sum = {};
+        for (size_t k = 0; k < BINS32; k++) {
+            const Real t = (static_cast<Real>(k) + 0.5L) * 2 * std::acos(Real(-1)) / BINS32;
+            const std::array<Real, 5> basis = {1, std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)};
+            const Real there = std::inner_product(v.begin(), v.end(), basis.begin(), Real(0));
+            const OuterBin &bin = bins[k];
+            Real at = there, within = most;
+            size_t edge = 3;
+            for (size_t i = 0; i < 3; i++) {
+                const Real off = std::fabs(bin.at[i] - there);
+                if (bin.slope[i] >= least && off < within) {
+                    within = off;
+                    at = bin.at[i];
+                    edge = i;
+                }
+            }
+            if (round == 0) {
+                const size_t steeper = bin.slope[2] > bin.slope[1] ? 2 : 1;
+                at = bin.at[bin.slope[steeper] >= least ? steeper : 0];
+            }
+            agree += round == 17 && edge < 3;
+            outer += round == 17 && edge < 3 && edge > 0;
+            for (size_t i = 0; i < 5; i++) {
+                sum[i] += at * basis[i] / (i > 0 ? BINS32 / 2 : BINS32);
+            }
+        }
+        if (round < 17) {
+            v = sum;
+        }
+    }
+    if (v[0] < 0.3L || agree < 22 || outer < 8) {
+        return false;
+    }
+    for (Real &c : v) {
+        c *= -2 / (e.a + e.b);
+    }
+    put_back(e, v);
+    return true;
 }
 
 } // namespace mirror

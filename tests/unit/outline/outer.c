@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* The rim's outer edge about an outline: drawn bands whose edges are known. */
+#include "suite.h"
+
+#include "drogue/outline.h"
+
+enum { LARGE = 700, MIDDLE = LARGE / 2 };
+
+static uint8_t pixels[LARGE * LARGE];
+static drogue_ray rays[DROGUE_RAYS];
+
+/* An ellipse about the middle, and a band about it whose outer edge is larger and shifted along the axes; on a part of the
+ * outline alone, or waving to and fro by 'wave'. */
+typedef struct band {
+    double a, b, angle, larger, u, v;
+    int inside, rim, outside;
+    double from, span, wave, noise;
+    int taken;
+} band;
+
+static double step(double x) { return 0.5 * erfc(-x / 1.0); } /* 0.7 px of blur */
+
+static drogue_image draw(const band *s)
+{
+    const drogue_image view = {pixels, LARGE, LARGE, LARGE};
+    uint64_t rng = 1;
+    int x, y, i;
+    for (y = 0; y < LARGE; y++) {
+        for (x = 0; x < LARGE; x++) {
+            const double c = cos(s->angle), z = sin(s->angle), dx = x - MIDDLE, dy = y - MIDDLE;
+            const double u = c * dx + z * dy, v = c * dy - z * dx, turn = atan2(v / s->b, u / s->a);
+            const double since = fmod(turn - s->from + 4 * TEST_PI, 2 * TEST_PI);
+            const double nx = u / (s->a * s->a), ny = v / (s->b * s->b);
+            const double level = hypot(u / s->a, v / s->b);
+            const double d = (level - 1) * level / (hypot(nx, ny) + 1e-9); /* px outside, near it */
+            const double out = s->larger + s->u * cos(turn) + s->v * sin(turn) + s->wave * sin(9 * turn);
+            const double rim = since < s->span ? step(d - out) : step(d);
+            double grey = s->inside + (s->rim - s->inside) * step(d) + (s->outside - s->rim) * rim;
+            for (i = 0; i < 4; i++) {
+                grey += rng_real(&rng, -s->noise, s->noise);
+            }
+            pixels[y * LARGE + x] = (uint8_t)lround(fmin(fmax(grey, 0), 255));
+        }
+    }
+    return view;
+}
+
+START_TEST(bands)
+{
+    static const band cases[] = {
+        {60, 54, 0.3, 2.5, 0, 0, 60, 120, 200, 0, 7, 0, 0, 1},   /* all about, of the outline's polarity, */
+        {60, 54, 0.3, 2.5, 0, 0, 60, 200, 120, 0, 7, 0, 0, 1},   /* of the other one, */
+        {60, 54, 0.3, 2.5, 0, 0, 200, 60, 140, 0, 7, 0, 0, 1},   /* about a bright inside, */
+        {60, 54, 0.3, 4.8, 0, 0, 60, 200, 120, 0, 7, 0, 0, 1},   /* far, */
+        {60, 54, 0.3, 6.6, 0, 0, 60, 200, 120, 0, 7, 0, 0, 0},   /* and too far */
+        {220, 200, 0.3, 5.5, 0, 0, 60, 200, 120, 0, 7, 0, 0, 1}, /* for all but a large outline, */
+        {12, 11, 0.3, 2.2, 0, 0, 60, 200, 120, 0, 7, 0, 0, 1},   /* of a small one */
+        {60, 56, 0.7, 1.3, 1.3, 0, 60, 200, 120, 0, 7, 0, 0,
+         1}, /* on one side: what it has on the other one is both, */
+        {60, 56, -0.9, 1.3, 0, -1.3, 60, 200, 120, 0, 7, 0, 0, 1}, /* and across */
+        {60, 54, 0.3, 2.5, 0, 0, 60, 200, 120, 0, 7, 0, 8, 1},     /* in noise */
+        {60, 54, 0.3, 0, 0, 0, 60, 200, 200, 0, 7, 0, 0, 0},       /* none, */
+        {60, 54, 0.3, 0, 0, 0, 60, 200, 200, 0, 7, 0, 8, 0},       /* nor in noise, */
+        {60, 54, 0.3, 2.5, 0, 0, 60, 200, 192, 0, 7, 0, 0, 0},     /* a faint one, */
+        {60, 54, 0.3, 4, 0, 0, 60, 200, 120, 0.2, 2, 0, 0, 0},     /* that of a part, which is no ellipse, */
+        {60, 54, 0.3, 2.7, 0, 0, 60, 200, 120, 0, 7, 1.6, 0, 0}};  /* and of none at all */
+    size_t i;
+    for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const band *s = &cases[i];
+        const drogue_image view = draw(s);
+        const drogue_ellipse was = {q16_of(MIDDLE), q16_of(MIDDLE), q16_of(s->a), q16_of(s->b), q16_of(s->angle)};
+        const double x = MIDDLE + s->u * cos(s->angle) - s->v * sin(s->angle);
+        const double y = MIDDLE + s->u * sin(s->angle) + s->v * cos(s->angle);
+        const double grown = 1 + 2 * s->larger / (s->a + s->b); /* both semi-axes, in proportion */
+        drogue_ellipse e = was;
+        MUST(drogue_outline_outer(&e, rays, &view) == s->taken, "case %d: a = %g px", (int)i, real_of_q16(e.a_px_q16));
+        if (!s->taken) {
+            ck_assert_int_eq(memcmp(&e, &was, sizeof e), 0);
+        } else {
+            MUST(fabs(real_of_q16(e.a_px_q16) - s->a * grown) < 0.35 &&
+                     fabs(real_of_q16(e.b_px_q16) - s->b * grown) < 0.35 &&
+                     hypot(real_of_q16(e.xc_px_q16) - x, real_of_q16(e.yc_px_q16) - y) < 0.35 &&
+                     fabs(real_of_q16(e.angle_rad_q16) - s->angle) < 0.1,
+                 "case %d: a = %g px, b = %g, at (%g, %g) for (%g, %g)", (int)i, real_of_q16(e.a_px_q16),
+                 real_of_q16(e.b_px_q16), real_of_q16(e.xc_px_q16), real_of_q16(e.yc_px_q16), x, y);
+        }
+    }
+}
+END_TEST
+
+/* What has no edge at all, and what lies beyond the image. */
+START_TEST(nothing)
+{
+    static const drogue_image view = {pixels, 40, 40, LARGE};
+    drogue_ellipse e = {q16_of(20), q16_of(20), q16_of(30), q16_of(1), q16_of(-0.5)};
+    memset(pixels, 90, sizeof pixels);
+    ck_assert_int_eq(drogue_outline_outer(&e, rays, &view), 0);
+    e.a_px_q16 = q16_of(8000);
+    ck_assert_int_eq(drogue_outline_outer(&e, rays, &view), 0);
+}
+END_TEST
+
+SUITE_MAIN("outer", bands, nothing)
