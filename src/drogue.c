@@ -42,6 +42,7 @@ static void forget(drogue_result *out)
 typedef struct best_try {
     drogue_q16 least_q16;  /* its doubt; DROGUE_Q16_MAX: it has no outline */
     drogue_q16 larger_q16; /* as the frame's */
+    uint32_t outside;      /* parts of its outline that show another edge outside */
     drogue_held held;      /* the edges that it is of */
     drogue_result *result; /* the workspace's, which leaves the stack free */
 } best_try;
@@ -50,6 +51,7 @@ static void keep(best_try *best, const drogue_frame *f, drogue_status status)
 {
     best->least_q16 = f->doubt_q16;
     best->larger_q16 = f->larger_q16;
+    best->outside = f->outline.outside;
     best->held = f->held;
     *best->result = *f->out;
     best->result->status = status;
@@ -219,6 +221,12 @@ static void try_beyond(best_try *best, drogue_frame *f)
     consider(best, f, judge_rays(f, was, drogue_frame_beyond(f, &best->held.region, &was->ellipse, best->larger_q16)));
 }
 
+/* Does another edge show outside the best outline, which is not one beyond another already? */
+static int asks_outer(const best_try *best)
+{
+    return best->result->status == DROGUE_OK && best->result->tried != DROGUE_TRIED_RAYS && best->outside > 0;
+}
+
 /* The rim's outer edge where the best outline is an inner one. It stands where most of it shows, and a disc in it where
  * there was one, of whatever size: that of the inner edge says nothing. */
 static void try_outer(best_try *best, drogue_frame *f)
@@ -302,7 +310,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     if (asks_beyond(&best)) {
         try_beyond(&best, f);
     }
-    if (best.result->status == DROGUE_OK && best.result->tried != DROGUE_TRIED_RAYS) {
+    if (asks_outer(&best)) {
         try_outer(&best, f);
     }
     return_to(&best, f, region);

@@ -44,9 +44,9 @@ drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region);
  * where that is an outline its edges are found again. */
 drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region);
 
-/* Look along rays for an outline about one in a region asked for, px of the whole image, that is larger by a share: where
- * the inner disc says that it is. The workspace's edge points become those of the rays, without arcs, if it has room for
- * them (DROGUE_E_EDGES_FULL). */
+/* Look along rays for an outline about one in a region asked for, px of the whole image, that is larger by a share:
+ * where the inner disc says that it is. The workspace's edge points become those of the rays, without arcs, if it has
+ * room for them (DROGUE_E_EDGES_FULL). */
 drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
                                   drogue_q16 larger_q16);
 

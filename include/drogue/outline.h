@@ -30,6 +30,7 @@ typedef struct drogue_outline {
     drogue_q16 cover_q16;     /* share of the circumference that edge points cover */
     drogue_q16 band_px_q16;   /* half width of the band about the ellipse that they lie in */
     drogue_support support;   /* of the last fit */
+    uint32_t outside;         /* parts, of eight, that show another edge outside, as drogue_outline_pull() sees them */
 } drogue_outline;
 
 /* Moments of points, 1 / 2^frac_bits px from an origin. */
@@ -100,7 +101,8 @@ void drogue_outline_clear(drogue_outline *outline);
  *
  *  outline  in: found or enlarged; out: ellipse, and support.pull_q24 with the coefficients that were put back: at most
  *           an eighth of the semi-axis; support.smear_px2_q16 with the motion blur that the edge's widths show. Below 1
- *           px of b: as fitted
+ *           px of b: as fitted. outside with the parts where the mean over 8 rays has an edge of either sign between 1
+ *           and 5 px outside, of 3 grey levels a pixel and a sixth of what the outline's own has
  *  rays     memory, as that of the workspace: nothing in it is kept
  *  view     the region's pixels
  *  config   as it was found with
@@ -109,12 +111,12 @@ void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], 
                          const drogue_config *config);
 
 /* Look along rays for the rim's outer edge about an outline that may be its inner one, on one side or all about, as of a
- * band of another grey or a lip that is lit: too narrow or too faint for the edge detector, or cut off by the ring. From
- * 1.5 px within to 5.5 px outside, of semi-axes above 100 px in proportion, four rays a bin (support.h) show edges of
- * either sign: of 5 grey levels a pixel, of a fifth of what the outline's own have, and of half as much again as the
- * mean outside. Least squares over size, place and shape, at first of the outermost edges, then of those near it, give
- * an ellipse. It is the rim where it is larger by 0.3 px and passes 22 of 32 bins within 0.6 px of an edge, 8 of them
- * of an outer one.
+ * band of another grey or a lip that is lit: too narrow or too faint for the edge detector, or cut off by the ring.
+ * Within 1.5 px and as far as 5.5 px outside, of semi-axes above 100 px in proportion, four rays a bin (support.h) show
+ * edges of either sign: of 5 grey levels a pixel, of a fifth of what the outline's own have, and of half as much again
+ * as the mean from 2 px outside on. Least squares over size, place and shape, at first of the steepest edges outside,
+ * then of those near it, give an ellipse. It is the rim where it is larger by 0.3 px and passes 22 of 32 bins within
+ * 0.6 px of an edge, 8 of them of an outer one.
  *
  *  outer   in: the outline, region coordinates, b >= 1 px; out: where there is one, that ellipse, to some tenths of a
  *          pixel; else as it was

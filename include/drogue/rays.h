@@ -35,7 +35,7 @@ typedef struct drogue_ray {
 /* Place rays, half a pixel between their samples, without edges.
  *
  *  ellipse   region coordinates; b >= 1 px, a below 2^14 px
- *  phase     [-4, 8): eighths of the angle between two rays by which they are turned; 4 puts two evenly into each bin
+ *  phase     [0, 8): eighths of the angle between two rays by which they are turned; 4 puts two evenly into each bin
  *  from, to  [0, 32]: these alone, from one on to before another, and those across
  */
 void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *ellipse, int32_t phase, int32_t from,

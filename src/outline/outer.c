@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The rim's outer edge. Where the rim is a band of another grey, or its lip is lit, edge points may be those of its inner
- * edge, on one side or all about: an outline that is too small. */
+/* The rim's outer edge. Where the rim is a band of another grey, or its lip is lit, edge points may be those of its
+ * inner edge, on one side or all about: an outline that is too small. */
 #include <string.h>
 
 #include "drogue/outline.h"
@@ -8,14 +8,15 @@
 #include "vertex.h"
 
 #define BINS DROGUE_SUPPORT_BINS
-#define IN_BIN 4                 /* rays in a bin, half of them in the next one, too */
+#define IN_BIN 4                 /* rays, of which two lie in its neighbours */
 #define WITHIN 4                 /* samples of a ray within the outline */
 #define SAMPLES 17               /* of a ray */
 #define SLOPES (SAMPLES - 2)     /* the first lies three steps within the outline */
 #define OWN 5                    /* as far as this slope, a pixel outside, an edge is the outline's own */
 #define APART 2                  /* slopes between two edges */
+#define FAR (OWN + APART)        /* the outline's own edge tells nothing of noise from there on */
 #define WAVES 5                  /* of an outline: size, shift, shape */
-#define EDGES 3                  /* that are kept: the outline's own, and the two steepest outside */
+#define EDGES 2                  /* that are kept: the outline's own, 0, and the steepest outside */
 #define NEAREST DROGUE_Q16(1, 2) /* px: a step, but */
 #define STEPS 200                /* no less than this part of the semi-axis */
 #define LEAST_Q8 (5 * 256)       /* grey levels of a slope, */
@@ -37,19 +38,19 @@ typedef struct outer_bin {
 
 static inline int32_t magnitude(int32_t v) { return v < 0 ? -v : v; }
 
-/* Grey along two rays. */
-static void read_pair(int32_t sum[SAMPLES], drogue_ray rays[DROGUE_RAYS], int32_t pair, const drogue_image *view,
+/* Grey along two rays, of a bin and the one before, their sum. */
+static void read_pair(int32_t sum_q8[SAMPLES], drogue_ray rays[DROGUE_RAYS], int32_t bin, const drogue_image *view,
                       drogue_q16 step_px_q16)
 {
     int32_t grey_q8[2][SAMPLES];
     int32_t i;
     for (i = 0; i < 2; i++) {
-        drogue_ray *r = &rays[2 * pair + i];
+        drogue_ray *r = &rays[(2 * bin + i + DROGUE_RAYS - 1) % DROGUE_RAYS];
         r->step_px_q16 = step_px_q16;
         drogue_ray_read(grey_q8[i], r, view, -WITHIN * step_px_q16, SAMPLES);
     }
     for (i = 0; i < SAMPLES; i++) {
-        sum[i] = grey_q8[0][i] + grey_q8[1][i];
+        sum_q8[i] = grey_q8[0][i] + grey_q8[1][i];
     }
 }
 
@@ -61,7 +62,7 @@ static void keep(outer_bin *bin, int32_t edge, const int32_t slope[SLOPES], int3
     bin->slope[edge] = slope[i];
 }
 
-/* The peaks of a bin's slopes, of either sign. Returns the slopes' sum outside. */
+/* The peaks of a bin's slopes, of either sign. Returns the slopes' sum far outside. */
 static int32_t see_bin(outer_bin *bin, const int32_t one[SAMPLES], const int32_t other[SAMPLES], drogue_q16 step_px_q16)
 {
     int32_t slope[SLOPES];
@@ -71,16 +72,15 @@ static int32_t see_bin(outer_bin *bin, const int32_t one[SAMPLES], const int32_t
     memset(bin, 0, sizeof *bin);
     for (i = 0; i < SLOPES; i++) {
         slope[i] = magnitude(one[i + 2] + other[i + 2] - one[i] - other[i]);
-        sum += i >= OWN ? slope[i] : 0;
+        sum += i >= FAR ? slope[i] : 0;
     }
     for (i = 1; i < SLOPES - 1; i++) {
-        const int32_t least = bin->slope[1] <= bin->slope[2] ? 1 : 2;
         if (slope[i] > slope[i - 1] && slope[i] >= slope[i + 1]) {
             if (i <= OWN && slope[i] > bin->slope[0]) {
                 keep(bin, 0, slope, i, step_px_q16);
                 first = i + APART > OWN ? i + APART : OWN;
-            } else if (i >= first && slope[i] > bin->slope[least]) {
-                keep(bin, least, slope, i, step_px_q16);
+            } else if (i >= first && slope[i] > bin->slope[1]) {
+                keep(bin, 1, slope, i, step_px_q16);
             }
         }
     }
@@ -90,37 +90,30 @@ static int32_t see_bin(outer_bin *bin, const int32_t one[SAMPLES], const int32_t
 /* See all bins. Returns the least slope that is an edge: of noise and texture there is half as much again. */
 static int32_t see(outer_bin bins[BINS], drogue_ray rays[DROGUE_RAYS], const drogue_image *view, drogue_q16 step_px_q16)
 {
-    int32_t pair[2][SAMPLES];
-    int32_t first[SAMPLES];
+    int32_t grey_q8[2][SAMPLES];
+    int32_t first_q8[SAMPLES];
     int64_t own = 0;
     int64_t outside = 0;
     int32_t least = IN_BIN * LEAST_Q8;
     int32_t share;
     int32_t noise;
     int32_t k;
-    read_pair(first, rays, 0, view, step_px_q16);
-    memcpy(pair[0], first, sizeof first);
+    read_pair(first_q8, rays, 0, view, step_px_q16);
+    memcpy(grey_q8[0], first_q8, sizeof first_q8);
     for (k = 0; k < BINS; k++) {
-        int32_t *const next = pair[1 - k % 2];
+        int32_t *const next_q8 = grey_q8[1 - k % 2];
         if (k + 1 < BINS) {
-            read_pair(next, rays, k + 1, view, step_px_q16);
+            read_pair(next_q8, rays, k + 1, view, step_px_q16);
         } else {
-            memcpy(next, first, sizeof first);
+            memcpy(next_q8, first_q8, sizeof first_q8);
         }
-        outside += see_bin(&bins[k], pair[0], pair[1], step_px_q16);
+        outside += see_bin(&bins[k], grey_q8[0], grey_q8[1], step_px_q16);
         own += bins[k].slope[0];
     }
     share = (int32_t)(own / (BINS * SHARE));
-    noise = (int32_t)(3 * outside / (2 * BINS * (SLOPES - OWN)));
+    noise = (int32_t)(3 * outside / (2 * BINS * (SLOPES - FAR)));
     least = least > share ? least : share;
     return least > noise ? least : noise;
-}
-
-/* Of a bin the edge outside; its own where there is none. */
-static drogue_q16 outermost(const outer_bin *bin, int32_t least)
-{
-    const int32_t steeper = bin->slope[2] > bin->slope[1] ? 2 : 1;
-    return bin->at_px_q16[bin->slope[steeper] >= least ? steeper : 0];
 }
 
 /* Of a bin the edge that is nearest to a place; EDGES where none is within so much. */
@@ -150,11 +143,14 @@ static drogue_q16 at_bin(const drogue_q16 v_px_q16[WAVES], const int32_t basis_q
     return (drogue_q16)drogue_shr_round_s64(sum_q46, 30);
 }
 
-/* The ellipse of least squares over the bins' edges: at first over the outermost ones, within 0; later over those that
- * are nearest to it, and where none is near it passes as it did. */
-static void fit(drogue_q16 v_px_q16[WAVES], const outer_bin bins[BINS], drogue_q16 within_px_q16, int32_t least)
+/* The ellipse of least squares over the bins' edges: at first, within 0, over the outer ones where there are, later
+ * over those that are nearest to it, and where none is near it passes as it did. Returns whether most bins have a near
+ * one, and enough of them an outer one. */
+static int fit(drogue_q16 v_px_q16[WAVES], const outer_bin bins[BINS], drogue_q16 within_px_q16, int32_t least)
 {
     int64_t sum_q46[WAVES] = {0, 0, 0, 0, 0};
+    int32_t agree = 0;
+    int32_t outside = 0;
     uint32_t k;
     int i;
     for (k = 0; k < BINS; k++) {
@@ -163,30 +159,18 @@ static void fit(drogue_q16 v_px_q16[WAVES], const outer_bin bins[BINS], drogue_q
         int32_t edge;
         drogue_support_basis(basis_q30, k);
         at = at_bin(v_px_q16, basis_q30);
-        edge = nearest(&bins[k], at, within_px_q16, least);
-        at = within_px_q16 == 0 ? outermost(&bins[k], least) : edge < EDGES ? bins[k].at_px_q16[edge] : at;
+        edge = within_px_q16 == 0 ? bins[k].slope[1] >= least : nearest(&bins[k], at, within_px_q16, least);
+        if (edge < EDGES) {
+            at = bins[k].at_px_q16[edge];
+            agree++;
+            outside += edge > 0;
+        }
         for (i = 0; i < WAVES; i++) {
             sum_q46[i] += drogue_product(at, basis_q30[i]);
         }
     }
     for (i = 0; i < WAVES; i++) {
         v_px_q16[i] = (drogue_q16)drogue_shr_round_s64(sum_q46[i], i > 0 ? 34 : 35);
-    }
-}
-
-/* Do most bins have an edge on an ellipse, and enough of them an outer one? */
-static int agrees(const drogue_q16 v_px_q16[WAVES], const outer_bin bins[BINS], int32_t least)
-{
-    int32_t agree = 0;
-    int32_t outside = 0;
-    uint32_t k;
-    for (k = 0; k < BINS; k++) {
-        int32_t basis_q30[WAVES];
-        int32_t edge;
-        drogue_support_basis(basis_q30, k);
-        edge = nearest(&bins[k], at_bin(v_px_q16, basis_q30), ON_IT_PX, least);
-        agree += edge < EDGES;
-        outside += edge > 0 && edge < EDGES;
     }
     return agree >= AGREE && outside >= OUTSIDE;
 }
@@ -196,16 +180,20 @@ int drogue_outline_outer(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], co
     const drogue_q16 part = outer->a_px_q16 / STEPS;
     outer_bin bins[BINS];
     drogue_q16 v_px_q16[WAVES] = {0, 0, 0, 0, 0};
+    drogue_q16 last_px_q16[WAVES];
     int32_t pull_q24[WAVES];
     int32_t least;
     int i;
-    drogue_rays_aim(rays, outer, -4, 0, DROGUE_RAYS / 2); /* four of them about the middle of a bin */
+    drogue_rays_aim(rays, outer, 4, 0, DROGUE_RAYS / 2);
     least = see(bins, rays, view, part > NEAREST ? part : NEAREST);
-    fit(v_px_q16, bins, 0, least);
-    for (i = 0; i < ROUNDS; i++) {
-        fit(v_px_q16, bins, i < WIDE_ROUNDS ? WIDE_PX : NEAR_PX, least);
+    if (!fit(v_px_q16, bins, 0, least)) {
+        return 0;
     }
-    if (v_px_q16[0] < GROWN || !agrees(v_px_q16, bins, least)) {
+    for (i = 0; i < ROUNDS; i++) {
+        (void)fit(v_px_q16, bins, i < WIDE_ROUNDS ? WIDE_PX : NEAR_PX, least);
+    }
+    memcpy(last_px_q16, v_px_q16, sizeof last_px_q16);
+    if (v_px_q16[0] < GROWN || !fit(last_px_q16, bins, ON_IT_PX, least)) {
         return 0;
     }
     for (i = 0; i < WAVES; i++) { /* in mean semi-axes: of a rim in one plane both grow in proportion */

@@ -15,6 +15,12 @@
 #define NOISE_Q24 (25 << 20)     /* px, 25/16: 0.9 times the root of 3 */
 #define WIDEST_Q12 (16 << 12)    /* px */
 #define TAPS 7
+#define OWN 3                       /* slopes about the ellipse that may be of its own edge */
+#define BESIDE 2                    /* slopes from there on another edge may lie outside, */
+#define LEAST_OUTSIDE (3 * 8 * 256) /* more than so steep, */
+#define SHARE_OUTSIDE 6             /* and than this part of its own */
+
+static inline int32_t size_of(int32_t v) { return v < 0 ? -v : v; }
 
 /* As the front end blurs: variance 1.33 px^2, 1 of its smoothing and 1/3 of Sobel's operator. */
 static int32_t blurred(const int32_t slope[SLOPES], int32_t i)
@@ -87,6 +93,23 @@ static int32_t noise_q24(const int32_t slope[SLOPES], int32_t bend)
     noise = drogue_isqrt_u64(squares << (2 * half)) * (int64_t)NOISE_Q24;
     noise = drogue_div_round_s64(noise, (int64_t)bend << half);
     return noise < NOISY_Q24 ? (int32_t)noise : NOISY_Q24;
+}
+
+int drogue_edge_outside(const int32_t slope[SLOPES])
+{
+    int32_t own = 0;
+    int32_t i;
+    for (i = MIDDLE - OWN; i <= MIDDLE + OWN; i++) {
+        own = size_of(slope[i]) > own ? size_of(slope[i]) : own;
+    }
+    for (i = MIDDLE + BESIDE; i < SLOPES - 1; i++) {
+        const int32_t size = size_of(slope[i]);
+        if (size > LEAST_OUTSIDE && SHARE_OUTSIDE * size > own && size > size_of(slope[i - 1]) &&
+            size >= size_of(slope[i + 1])) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
 /* The most that slopes add up to from one end on. */

@@ -29,6 +29,13 @@ void drogue_see_edge(drogue_seen_edge *edge, const int32_t slope[DROGUE_SLOPES])
  * of it, px Q24, one standard deviation. */
 int32_t drogue_edge_moved(int32_t *noise_px_q24, const int32_t slope[DROGUE_SLOPES], const drogue_seen_edge *edge);
 
+/* Is there another edge outside: slopes of either sign that have a peak of 3 grey levels a pixel, and a sixth of what
+ * the outline's own edge has?
+ *
+ *  slope  sums over 8 rays, Q8
+ */
+int drogue_edge_outside(const int32_t slope[DROGUE_SLOPES]);
+
 /* Variance of an edge's blur, px^2 Q16, from its width: rise over steepest slope, squared, over 8. That is between a
  * Gaussian's, 2 pi, and a box's, 12. At most 32 px^2; 0 without an edge.
  *

@@ -694,7 +694,8 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             least > SURE && best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.2L;
         Result out;
         Features from = {};
-        if (best.status != DROGUE_OK || best.tried == DROGUE_TRIED_RAYS || !(outer || asked_beyond)) {
+        if (best.status != DROGUE_OK || best.tried == DROGUE_TRIED_RAYS ||
+            !(outer ? best.outline.outside > 0 : asked_beyond)) {
             continue;
         }
         const Real doubt =

@@ -56,6 +56,7 @@ struct Outline {
     int64_t refit_points = 0;
     Real cover = 0, band = 0;
     reference::Support support;
+    int outside = 0;
 };
 
 /* The outline with its blur undone, or why there is none. */

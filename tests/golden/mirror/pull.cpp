@@ -322,6 +322,22 @@ std::array<Real, 5> harmonics(const std::array<Real, GROUPS> &off, const Ellipse
     return c;
 }
 
+/* Is there another edge outside the outline's own? */
+bool outside(const Curve &slope)
+{
+    Real own = 0;
+    for (size_t i = MIDDLE - 3; i <= MIDDLE + 3; i++) {
+        own = std::max(own, std::fabs(slope[i]));
+    }
+    for (size_t i = MIDDLE + 2; i + 1 < SLOPES; i++) {
+        const Real size = std::fabs(slope[i]);
+        if (size > 3 * 8 * 256 && 6 * size > own && size > std::fabs(slope[i - 1]) && size >= std::fabs(slope[i + 1])) {
+            return true;
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 /* Blur of variance v moves an edge of curvature c inward by v c / 2; the front end's own half variance as measured. */
@@ -362,11 +378,13 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
     o.ellipse = o.fitted;
     o.support.pull = {};
     o.support.smear = {};
+    o.outside = 0;
     if (o.support.points > 0) {
         for (int g = 0; g < GROUPS; g++) {
             const Curve slope = mean_slopes(o.support, aim, g, view, DROGUE_TRANSFER_LINEAR), seen = blurred(slope);
             const Moved edge = moved(mean_slopes(o.support, aim, g, view, config.transfer), seen);
             off[static_cast<size_t>(g)] = edge.by;
+            o.outside += outside(slope);
             noise += edge.noise * edge.noise / (4 * GROUPS);
             variance[static_cast<size_t>(g)] = edge_variance(slope, seen);
             cut[static_cast<size_t>(g)] = cut_off(o.support, aim, g, view) * config.optics_blur_px_q16 / 131072.0L;
@@ -394,21 +412,21 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
 
 namespace {
 
-/* Edges in a bin: the outline's own, and the two steepest outside. */
+/* Edges in a bin: the outline's own, and the steepest outside. */
 struct OuterBin {
-    std::array<Real, 3> at = {};
-    std::array<int64_t, 3> slope = {};
+    std::array<Real, 2> at = {};
+    std::array<int64_t, 2> slope = {};
 };
 
-/* The peaks of the summed slopes of four rays, two of them the next bin's, too; 'outside' gathers those out there. */
+/* The peaks of the summed slopes of four rays, the middle ones its own; 'outside' gathers those out there. */
 OuterBin outer_bin(const drogue_ray *rays, size_t k, const drogue_image &view, drogue_q16 step, int64_t &outside)
 {
-    enum { SAMPLES = 17, OUTER_SLOPES = SAMPLES - 2, OWN = 5 };
+    enum { SAMPLES = 17, OUTER_SLOPES = SAMPLES - 2, OWN = 5, FAR = 7 };
     std::array<int64_t, SAMPLES> grey = {};
     std::array<int64_t, OUTER_SLOPES> slope;
     OuterBin out;
     size_t first = OWN;
-    for (size_t r = 2 * k; r < 2 * k + 4; r++) {
+    for (size_t r = 2 * k + DROGUE_RAYS - 1; r < 2 * k + DROGUE_RAYS + 3; r++) {
         std::array<int32_t, SAMPLES> one;
         drogue_ray ray = rays[r % DROGUE_RAYS];
         ray.step_px_q16 = step;
@@ -417,14 +435,14 @@ OuterBin outer_bin(const drogue_ray *rays, size_t k, const drogue_image &view, d
     }
     for (size_t i = 0; i < OUTER_SLOPES; i++) {
         slope[i] = std::abs(grey[i + 2] - grey[i]);
-        outside += i >= OWN ? slope[i] : 0;
+        outside += i >= FAR ? slope[i] : 0;
     }
     for (size_t i = 1; i + 1 < OUTER_SLOPES; i++) {
         if (slope[i] <= slope[i - 1] || slope[i] < slope[i + 1]) {
             continue;
         }
         const bool own = i <= OWN && slope[i] > out.slope[0];
-        const size_t which = own ? 0 : out.slope[1] <= out.slope[2] ? 1 : 2;
+        const size_t which = own ? 0 : 1;
         if (own || (i >= first && slope[i] > out.slope[which])) {
             const auto bend = static_cast<Real>(2 * slope[i] - slope[i - 1] - slope[i + 1]);
             const Real part = static_cast<Real>(slope[i + 1] - slope[i - 1]) / (2 * bend);
@@ -450,23 +468,24 @@ bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellipse &aim)
     if (!(e.b >= 1)) {
         return false;
     }
-    drogue_rays_aim(rays.data(), &aim, -4, 0, DROGUE_RAYS / 2);
+    drogue_rays_aim(rays.data(), &aim, 4, 0, DROGUE_RAYS / 2);
     for (size_t k = 0; k < BINS32; k++) {
         bins[k] = outer_bin(rays.data(), k, view, step, outside);
         own += bins[k].slope[0];
     }
-    const int64_t least = std::max({int64_t{4 * 5 * 256}, own / (32 * 5), 3 * outside / (2 * 32 * 10)});
+    const int64_t least = std::max({int64_t{4 * 5 * 256}, own / (32 * 5), 3 * outside / (2 * 32 * 8)});
     for (int round = 0; round <= 17; round++) { /* the outermost edges, six of 2 px, ten of 1 px, what agrees */
         const Real most = round < 7 ? 2 : round < 17 ? 1 : 0.6L;
         std::array<Real, 5> sum = {};
+        agree = outer = 0;
         for (size_t k = 0; k < BINS32; k++) {
             const Real t = (static_cast<Real>(k) + 0.5L) * 2 * std::acos(Real(-1)) / BINS32;
             const std::array<Real, 5> basis = {1, std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)};
             const Real there = std::inner_product(v.begin(), v.end(), basis.begin(), Real(0));
             const OuterBin &bin = bins[k];
             Real at = there, within = most;
-            size_t edge = 3;
-            for (size_t i = 0; i < 3; i++) {
+            size_t edge = 2;
+            for (size_t i = 0; i < 2; i++) {
                 const Real off = std::fabs(bin.at[i] - there);
                 if (bin.slope[i] >= least && off < within) {
                     within = off;
@@ -475,21 +494,19 @@ bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellipse &aim)
                 }
             }
             if (round == 0) {
-                const size_t steeper = bin.slope[2] > bin.slope[1] ? 2 : 1;
-                at = bin.at[bin.slope[steeper] >= least ? steeper : 0];
+                edge = bin.slope[1] >= least ? 1 : 0;
+                at = bin.at[edge];
             }
-            agree += round == 17 && edge < 3;
-            outer += round == 17 && edge < 3 && edge > 0;
+            agree += edge < 2;
+            outer += edge == 1;
             for (size_t i = 0; i < 5; i++) {
                 sum[i] += at * basis[i] / (i > 0 ? BINS32 / 2 : BINS32);
             }
         }
-        if (round < 17) {
-            v = sum;
+        if ((round == 0 && outer < 8) || (round == 17 && (v[0] < 0.3L || agree < 22 || outer < 8))) {
+            return false;
         }
-    }
-    if (v[0] < 0.3L || agree < 22 || outer < 8) {
-        return false;
+        v = round < 17 ? sum : v;
     }
     for (Real &c : v) {
         c *= -2 / (e.a + e.b);

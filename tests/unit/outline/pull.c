@@ -453,6 +453,24 @@ START_TEST(light_along_a_ray)
 }
 END_TEST
 
+/* A band about the outline shows in all parts, every time that it is looked at; a plain edge in none. */
+START_TEST(another_edge_outside)
+{
+    drogue_config config;
+    const ring r = {34, 3, 0, 0, 48, 47.5, 0, 0};
+    const ring alone = {31, 0, 0, 0, 48, 47.5, 0, 1};
+    drogue_image view = draw(&r, 1);
+    drogue_outline o = fitted_at(&alone, 31); /* the band's inner edge: dark within */
+    drogue_config_default(&config);
+    drogue_outline_pull(&o, rays, &view, &config);
+    drogue_outline_pull(&o, rays, &view, &config);
+    ck_assert_uint_eq(o.outside, 8);
+    view = draw(&alone, 1);
+    drogue_outline_pull(&o, rays, &view, &config);
+    ck_assert_uint_eq(o.outside, 0);
+}
+END_TEST
+
 SUITE_MAIN("pull", encoded_levels_are_light, light_along_a_ray, a_band_is_as_wide_as_it_is, shading_goes_back,
            half_a_band_moves_the_centre, no_more_than_noise, even_grey_moves_nothing, only_where_the_outline_has_points,
-           the_smallest, across_the_border, waves_of_a_pixel)
+           the_smallest, across_the_border, waves_of_a_pixel, another_edge_outside)

@@ -87,4 +87,32 @@ START_TEST(no_edge_and_the_widest)
 }
 END_TEST
 
-SUITE_MAIN("slopes", variance_of_known_edges, only_what_rises_counts, no_edge_and_the_widest)
+/* Another edge beside the outline's own: where, how steep for the own one. */
+START_TEST(edges_outside)
+{
+    static const struct {
+        double at;      /* half pixels outwards */
+        int own, other; /* grey levels a pixel */
+        int seen;
+    } cases[] = {{5, 30, 20, 1},  {5, 30, -20, 1}, /* of either sign, */
+                 {5, -30, 20, 1},                  /* whatever the outline's is, */
+                 {9, 30, 20, 1},                   /* as far as 4.5 px, */
+                 {-6, 30, 20, 0},                  /* but not inside, */
+                 {0, 30, 0, 0},                    /* nor where there is none; */
+                 {7, 30, 6, 1},   {7, 30, 4, 0},   /* steep for the outline's */
+                 {7, 10, 4, 1},   {7, 10, 2, 0}};  /* and for noise */
+    size_t i;
+    for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        int32_t slope[DROGUE_SLOPES];
+        int k;
+        for (k = 0; k < DROGUE_SLOPES; k++) {
+            const double own = (k - MIDDLE) / 2.0, other = own - cases[i].at / 2;
+            slope[k] =
+                (int32_t)lround(8 * 256 * (cases[i].own * exp(-own * own) + cases[i].other * exp(-other * other)));
+        }
+        MUST(drogue_edge_outside(slope) == cases[i].seen, "case %d", (int)i);
+    }
+}
+END_TEST
+
+SUITE_MAIN("slopes", variance_of_known_edges, only_what_rises_counts, no_edge_and_the_widest, edges_outside)
