@@ -110,8 +110,8 @@ void drogue_outline_clear(drogue_outline *outline);
 void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
                          const drogue_config *config);
 
-/* Look along rays for the rim's outer edge about an outline that may be its inner one, on one side or all about, as of a
- * band of another grey or a lip that is lit: too narrow or too faint for the edge detector, or cut off by the ring.
+/* Look along rays for the rim's outer edge about an outline that may be its inner one, on one side or all about, as of
+ * a band of another grey or a lip that is lit: too narrow or too faint for the edge detector, or cut off by the ring.
  * Within 1.5 px and as far as 5.5 px outside, of semi-axes above 100 px in proportion, four rays a bin (support.h) show
  * edges of either sign: of 5 grey levels a pixel, of a fifth of what the outline's own have, and of half as much again
  * as the mean from 2 px outside on. Least squares over size, place and shape, at first of the steepest edges outside,
