@@ -35,7 +35,7 @@ static void forget(drogue_result *out)
 #define BEYOND_Q16 DROGUE_Q16(20, 100) /* by more than this it is too large for anything beyond the outline */
 #define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
 #define ALONE_Q16 DROGUE_Q16(7, 10)    /* least cover of an outline whose disc is not seen */
-#define OUTER_Q16 DROGUE_Q16(3, 4)     /* and of an outer edge of the rim */
+#define LARGE DROGUE_Q16(160, 1)       /* px: another edge may lie farther outside than an outline shows */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 
 /* What the best try so far gave. */
@@ -201,13 +201,13 @@ static int asks_beyond(const best_try *best)
            best->larger_q16 <= BEYOND_Q16;
 }
 
-/* An outline along rays about the best one, whose arcs it was found from. */
+/* A larger outline about the best one, whose arcs it was found from. */
 static drogue_status judge_rays(drogue_frame *f, const drogue_result *was, drogue_status status)
 {
     if (status == DROGUE_OK) {
         f->outline.quality = was->quality;
         f->outline.cluster_members = was->cluster_members;
-        status = judge(f, DROGUE_TRIED_RAYS);
+        status = judge(f, f->held.canny_high == DROGUE_BY_RAYS ? DROGUE_TRIED_RAYS : DROGUE_TRIED_LARGER);
     }
     return status;
 }
@@ -224,11 +224,12 @@ static void try_beyond(best_try *best, drogue_frame *f)
 /* Does another edge show outside the best outline, which is not one beyond another already? */
 static int asks_outer(const best_try *best)
 {
-    return best->result->status == DROGUE_OK && best->result->tried != DROGUE_TRIED_RAYS && best->outside > 0;
+    return best->result->status == DROGUE_OK && best->result->tried != DROGUE_TRIED_RAYS &&
+           (best->outside > 0 || best->result->ellipse.a_px_q16 > LARGE);
 }
 
-/* The rim's outer edge where the best outline is an inner one. It stands where most of it shows, and a disc in it where
- * there was one, of whatever size: that of the inner edge says nothing. */
+/* The rim's outer edge where the best outline is an inner one. It stands unless the disc was seen and no longer is, or
+ * was exactly of its size and is so no longer. */
 static void try_outer(best_try *best, drogue_frame *f)
 {
     const drogue_result *was = best->result;
@@ -237,7 +238,8 @@ static void try_outer(best_try *best, drogue_frame *f)
     f->second_look = was->second_look;
     status = judge_rays(f, was, drogue_frame_outer(f, &best->held.region, &was->ellipse));
     drogue_note_room(&f->room, status, f->second_look);
-    if (status == DROGUE_OK && f->out->cover_q16 >= OUTER_Q16 && f->out->has_inner >= was->has_inner) {
+    if (status == DROGUE_OK && f->out->has_inner >= was->has_inner &&
+        (f->doubt_q16 <= best->least_q16 + CLEARLY_Q16 || best->least_q16 > 0)) {
         keep(best, f, status);
     }
 }
@@ -311,6 +313,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
         try_beyond(&best, f);
     }
     if (asks_outer(&best)) {
+        return_to(&best, f, region);
         try_outer(&best, f);
     }
     return_to(&best, f, region);

@@ -12,6 +12,8 @@
 #define AS_ALLOWED 16 /* of a disc's outline: the guess that was settled is good to some per cent of its size, */
 #define THERE 8       /* and to this part in its place */
 
+#define OUTER_Q16 DROGUE_Q16(3, 4) /* least cover of an outer edge of the rim */
+
 /* Clip the region to the image; the mask stays that of the region asked for, in the clipped one's coordinates. */
 static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, const drogue_image *image,
                                   const drogue_region *region)
@@ -209,7 +211,7 @@ static drogue_status settle_beyond(drogue_frame *f, const drogue_region *region,
     held->list.arc_count = 0;
     held->list.edge_count = drogue_inner_beyond(f->workspace, &f->view, about, larger_px_q16);
     return held->list.edge_count > 0 &&
-                   drogue_outline_settle(&f->outline, about, f->workspace, &held->list, &f->mask, f->setup->config)
+                   drogue_outline_settle(&f->outline, about, 0, f->workspace, &held->list, &f->mask, f->setup->config)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;
 }
@@ -227,9 +229,21 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
 drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was)
 {
     drogue_ellipse about = view_again(f, region, was);
-    return was->b_px_q16 >= DROGUE_Q16_ONE && drogue_outline_outer(&about, f->workspace->rays, &f->view)
-               ? settle_beyond(f, region, &about, drogue_q16_sub(about.a_px_q16, was->a_px_q16))
-               : DROGUE_E_NO_ELLIPSE;
+    drogue_ellipse *e = &f->outline.ellipse;
+    drogue_status status;
+    int64_t grown;
+    if (was->b_px_q16 < DROGUE_Q16_ONE || !drogue_outline_outer(&about, f->workspace->rays, &f->view)) {
+        return DROGUE_E_NO_ELLIPSE;
+    }
+    grown = ((int64_t)about.a_px_q16 + about.b_px_q16 - was->a_px_q16 - was->b_px_q16) / 2; /* > 0 */
+    if (drogue_outline_settle(&f->outline, &about, f->setup->config->refit_band_px_q16, f->workspace, &f->held.list,
+                              &f->mask, f->setup->config) &&
+        f->outline.cover_q16 >= OUTER_Q16 &&
+        (int64_t)e->a_px_q16 + e->b_px_q16 - was->a_px_q16 - was->b_px_q16 >= grown) { /* else back to the inner one */
+        return DROGUE_OK;
+    }
+    status = settle_beyond(f, region, &about, (drogue_q16)grown);
+    return status == DROGUE_OK && f->outline.cover_q16 < OUTER_Q16 ? DROGUE_E_NO_ELLIPSE : status;
 }
 
 /* Of the outlines that a disc allows the one that edge points cover best, if better than what there is. */
@@ -313,7 +327,7 @@ drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *regi
         return status;
     }
     f->ring_px_q16 = ring.a_px_q16;
-    return drogue_outline_settle(&f->outline, &ring, f->workspace, &f->held.list, &f->mask, f->setup->config) &&
+    return drogue_outline_settle(&f->outline, &ring, 0, f->workspace, &f->held.list, &f->mask, f->setup->config) &&
                    about_the_same(&f->outline.ellipse, &ring, 0, 0, THERE, AS_ALLOWED)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;

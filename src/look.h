@@ -50,7 +50,8 @@ drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region)
 drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
                                   drogue_q16 larger_q16);
 
-/* The same, larger and shifted: where it is an inner edge of the rim, and an outer one shows. */
+/* The rim's outer edge about an outline that is its inner one, three quarters of it and more: by the edge points that
+ * there are, which are those that the outline was found by; else as above. */
 drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was);
 
 /* Look for the inner disc in a region, then for its edges in one that suits what outlines the disc allows, and choose

@@ -50,11 +50,11 @@ const char *drogue_version(void);
 /* What of all that was tried stands, in the order in which it is tried, but RAYS last. */
 typedef enum drogue_tried {
     DROGUE_TRIED_FOUND = 0,    /* the outline found by the configured thresholds of Canny */
-    DROGUE_TRIED_LARGER,       /* a larger one about it */
+    DROGUE_TRIED_LARGER,       /* a larger one about it; or the rim's outer edge about any, by the edges of that */
     DROGUE_TRIED_NOISE,        /* one by thresholds that follow the region's noise, higher where a table filled */
     DROGUE_TRIED_NOISE_LARGER, /* a larger one about that */
-    DROGUE_TRIED_RAYS,         /* one along rays, for which the inner disc is of its size: its points are the list's
-                                  edges, its quality that of the outline that it was found from */
+    DROGUE_TRIED_RAYS,         /* one along rays, for which the inner disc is of its size, or the rim's outer edge: its
+                                  points are the list's edges, its quality that of the outline it was found from */
     DROGUE_TRIED_DISC          /* one that the inner disc led to, without arcs */
 } drogue_tried;
 

@@ -175,14 +175,14 @@ int drogue_inner_sight_of(drogue_inner_sight *sight, const drogue_ellipse *disc,
 void drogue_inner_rims(drogue_inner_expected *rims, const drogue_inner_sight *sight, int32_t yaw, int32_t pitch,
                        const drogue_setup *setup, int32_t x_px, int32_t y_px);
 
-/* Most edge points that drogue_inner_beyond() writes: drogue_outline_enlarge() still looks at every one of so many. */
+/* Most edge points that drogue_inner_beyond() writes: drogue_outline_settle() still looks at every one of so many. */
 #define DROGUE_INNER_BEYOND_POINTS 511
 
-/* Look along rays for the outline that an inner disc is of the size for which is too large for the one found. It is an
- * edge of either sign in six of eight parts, within 3/4 px of one place and size: on 48 of 64 rays by DROGUE_RAY_LINES,
- * as the outer edge of a lip whose inner one was found; or, of a step that may be too low for the edge detector, on 28
- * rays by DROGUE_RAY_STEPS. Steps are of 16 grey levels and half of drogue_noise_threshold(), or of 10 and a quarter of
- * it, whichever is more: noise alone is none.
+/* Look along rays for an outline that is larger than the one found: where an inner disc is of the size for it, or where
+ * the rim's outer edge was seen. It is an edge of either sign in six of eight parts, within 3/4 px of one place and
+ * size: on 48 of 64 rays by DROGUE_RAY_LINES, as the outer edge of a lip whose inner one was found; or, of a step that
+ * may be too low for the edge detector, on 28 rays by DROGUE_RAY_STEPS. Steps are of 16 grey levels and half of
+ * drogue_noise_threshold(), or of 10 and a quarter of it, whichever is more: noise alone is none.
  *
  *  workspace  out: its edge points, from 0 on, on eight times the rays; as many as there is room for
  *  view       the region's pixels

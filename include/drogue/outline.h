@@ -79,10 +79,12 @@ drogue_q16 drogue_outline_covered(const drogue_ellipse *ring, const drogue_works
 
 /* Fit the edge points about an ellipse, as an outline without arcs.
  *
+ *  band    px Q16, half the width of the band about it that they lie in at first; 0: as for drogue_outline_find()
  *  return  1; 0: they cover too little, and 'out' has none
  */
-int drogue_outline_settle(drogue_outline *out, const drogue_ellipse *ring, const drogue_workspace *workspace,
-                          const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config);
+int drogue_outline_settle(drogue_outline *out, const drogue_ellipse *ring, drogue_q16 band_px_q16,
+                          const drogue_workspace *workspace, const drogue_edge_list *list, const drogue_mask *mask,
+                          const drogue_config *config);
 
 /* None: no ellipse, no arcs. */
 void drogue_outline_clear(drogue_outline *outline);
@@ -101,8 +103,9 @@ void drogue_outline_clear(drogue_outline *outline);
  *
  *  outline  in: found or enlarged; out: ellipse, and support.pull_q24 with the coefficients that were put back: at most
  *           an eighth of the semi-axis; support.smear_px2_q16 with the motion blur that the edge's widths show. Below 1
- *           px of b: as fitted. outside with the parts where the mean over 8 rays has an edge of either sign between 1
- *           and 5 px outside, of 3 grey levels a pixel and a sixth of what the outline's own has
+ *           px of b: as fitted. outside with the parts where the mean over 8 rays, those of bins without points left
+ *           out as 0, has an edge of either sign between 1 and 5 px outside, of 3 grey levels a pixel and a sixth of
+ *           what the outline's own has
  *  rays     memory, as that of the workspace: nothing in it is kept
  *  view     the region's pixels
  *  config   as it was found with
@@ -112,14 +115,15 @@ void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], 
 
 /* Look along rays for the rim's outer edge about an outline that may be its inner one, on one side or all about, as of
  * a band of another grey or a lip that is lit: too narrow or too faint for the edge detector, or cut off by the ring.
- * Within 1.5 px and as far as 5.5 px outside, of semi-axes above 100 px in proportion, four rays a bin (support.h) show
- * edges of either sign: of 5 grey levels a pixel, of a fifth of what the outline's own have, and of half as much again
- * as the mean from 2 px outside on. Least squares over size, place and shape, at first of the steepest edges outside,
- * then of those near it, give an ellipse. It is the rim where it is larger by 0.3 px and passes 22 of 32 bins within
- * 0.6 px of an edge, 8 of them of an outer one.
+ * Between 1 and 5 px outside, where that shows none of a semi-axis above 100 px to a fortieth of it, four rays a bin
+ * (support.h) show edges of either sign, by steps of grey over 1 px, or twice as much of that part: of 5 levels, of a
+ * fifth of what the outline's own have, and of half as much again as the mean farther outside but for the edge. Least
+ * squares over size, place and shape, at first of the steepest edges outside, then of those near it, give an ellipse.
+ * It is the rim where its semi-axes are larger by 0.3 px on the mean and by no more than an eighth of b, as no other
+ * wave is, and it passes 22 of 32 bins within 0.6 px of an edge, 8 of them of an outer one.
  *
- *  outer   in: the outline, region coordinates, b >= 1 px; out: where there is one, that ellipse, to some tenths of a
- *          pixel; else as it was
+ *  outer   in: the outline, region coordinates, b >= 1 px; out: where there is one, that ellipse, a guess to a pixel;
+ *          else as it was
  *  rays    memory, as that of the workspace: nothing in it is kept
  *  view    the region's pixels
  *  return  1: there is one

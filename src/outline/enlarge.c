@@ -21,11 +21,13 @@ static void finish_ring(drogue_outline *out, const drogue_config *config)
     drogue_undo_blur(&out->ellipse, config);
 }
 
-int drogue_outline_settle(drogue_outline *out, const drogue_ellipse *ring, const drogue_workspace *workspace,
-                          const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config)
+int drogue_outline_settle(drogue_outline *out, const drogue_ellipse *ring, drogue_q16 band_px_q16,
+                          const drogue_workspace *workspace, const drogue_edge_list *list, const drogue_mask *mask,
+                          const drogue_config *config)
 {
     drogue_refit_context c;
     drogue_refit_begin(&c, workspace, list, mask, config);
+    c.band_px_q16 = band_px_q16;
     drogue_outline_clear(out);
     if (drogue_refit_covers(ring, &c) <= 0) {
         return 0;

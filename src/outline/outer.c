@@ -8,19 +8,19 @@
 #include "vertex.h"
 
 #define BINS DROGUE_SUPPORT_BINS
-#define IN_BIN 4                 /* rays, of which two lie in its neighbours */
-#define WITHIN 4                 /* samples of a ray within the outline */
-#define SAMPLES 17               /* of a ray */
-#define SLOPES (SAMPLES - 2)     /* the first lies three steps within the outline */
-#define OWN 5                    /* as far as this slope, a pixel outside, an edge is the outline's own */
-#define APART 2                  /* slopes between two edges */
-#define FAR (OWN + APART)        /* the outline's own edge tells nothing of noise from there on */
-#define WAVES 5                  /* of an outline: size, shift, shape */
-#define EDGES 2                  /* that are kept: the outline's own, 0, and the steepest outside */
-#define NEAREST DROGUE_Q16(1, 2) /* px: a step, but */
-#define STEPS 200                /* no less than this part of the semi-axis */
-#define LEAST_Q8 (5 * 256)       /* grey levels of a slope, */
-#define SHARE 5                  /* no less than this part of what the outline's own edge has */
+#define IN_BIN 4                /* rays, of which two lie in its neighbours */
+#define WITHIN 4                /* samples of a ray within the outline */
+#define SAMPLES 17              /* of a ray */
+#define SLOPES (SAMPLES - 2)    /* the first lies three steps within the outline */
+#define OWN 5                   /* as far as this slope, a pixel outside, an edge is the outline's own */
+#define APART 2                 /* slopes between two edges */
+#define FAR (OWN + APART)       /* the outline's own edge tells nothing of noise from there on */
+#define WAVES 5                 /* of an outline: size, shift, shape */
+#define EDGES 2                 /* that are kept: the outline's own, 0, and the steepest outside */
+#define NARROW DROGUE_Q16(1, 2) /* px: a step; then where that shows none, */
+#define STEPS 200               /* this part of a large semi-axis */
+#define LEAST_Q8 (5 * 256)      /* grey levels of a slope, */
+#define SHARE 5                 /* no less than this part of what the outline's own edge has */
 #define ROUNDS 16
 #define WIDE_ROUNDS 6              /* of them: an edge belongs to the ellipse */
 #define WIDE_PX DROGUE_Q16(2, 1)   /* where it is as near, */
@@ -28,6 +28,7 @@
 #define ON_IT_PX DROGUE_Q16(6, 10) /* and in the end */
 #define AGREE 22                   /* least bins that agree then, */
 #define OUTSIDE 8                  /* those of them with an outer edge, */
+#define PARTS 8                    /* of b: an outer edge is no farther off than one of them */
 #define GROWN DROGUE_Q16(3, 10)    /* and px by which the ellipse is larger */
 
 /* Edges in a bin of an outline. */
@@ -62,17 +63,19 @@ static void keep(outer_bin *bin, int32_t edge, const int32_t slope[SLOPES], int3
     bin->slope[edge] = slope[i];
 }
 
-/* The peaks of a bin's slopes, of either sign. Returns the slopes' sum far outside. */
-static int32_t see_bin(outer_bin *bin, const int32_t one[SAMPLES], const int32_t other[SAMPLES], drogue_q16 step_px_q16)
+/* The peaks of a bin's slopes, of either sign. Returns the slopes' sum far outside but for
+ * an edge, and counts them. */
+static int32_t see_bin(outer_bin *bin, int32_t *count, const int32_t one[SAMPLES], const int32_t other[SAMPLES],
+                       drogue_q16 step_px_q16)
 {
     int32_t slope[SLOPES];
     int32_t sum = 0;
+    int32_t outer = 0;   /* where the steepest is */
     int32_t first = OWN; /* outside */
     int32_t i;
     memset(bin, 0, sizeof *bin);
     for (i = 0; i < SLOPES; i++) {
         slope[i] = magnitude(one[i + 2] + other[i + 2] - one[i] - other[i]);
-        sum += i >= FAR ? slope[i] : 0;
     }
     for (i = 1; i < SLOPES - 1; i++) {
         if (slope[i] > slope[i - 1] && slope[i] >= slope[i + 1]) {
@@ -81,7 +84,14 @@ static int32_t see_bin(outer_bin *bin, const int32_t one[SAMPLES], const int32_t
                 first = i + APART > OWN ? i + APART : OWN;
             } else if (i >= first && slope[i] > bin->slope[1]) {
                 keep(bin, 1, slope, i, step_px_q16);
+                outer = i;
             }
+        }
+    }
+    for (i = FAR; i < SLOPES; i++) {
+        if (magnitude(i - outer) > APART) {
+            sum += slope[i];
+            (*count)++;
         }
     }
     return sum;
@@ -96,6 +106,7 @@ static int32_t see(outer_bin bins[BINS], drogue_ray rays[DROGUE_RAYS], const dro
     int64_t outside = 0;
     int32_t least = IN_BIN * LEAST_Q8;
     int32_t share;
+    int32_t count = 0; /* of them there are three in each bin and more */
     int32_t noise;
     int32_t k;
     read_pair(first_q8, rays, 0, view, step_px_q16);
@@ -107,11 +118,11 @@ static int32_t see(outer_bin bins[BINS], drogue_ray rays[DROGUE_RAYS], const dro
         } else {
             memcpy(next_q8, first_q8, sizeof first_q8);
         }
-        outside += see_bin(&bins[k], grey_q8[0], grey_q8[1], step_px_q16);
+        outside += see_bin(&bins[k], &count, grey_q8[0], grey_q8[1], step_px_q16);
         own += bins[k].slope[0];
     }
     share = (int32_t)(own / (BINS * SHARE));
-    noise = (int32_t)(3 * outside / (2 * BINS * (SLOPES - FAR)));
+    noise = (int32_t)(3 * outside / (2 * count));
     least = least > share ? least : share;
     return least > noise ? least : noise;
 }
@@ -175,17 +186,15 @@ static int fit(drogue_q16 v_px_q16[WAVES], const outer_bin bins[BINS], drogue_q1
     return agree >= AGREE && outside >= OUTSIDE;
 }
 
-int drogue_outline_outer(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], const drogue_image *view)
+/* Look in steps of a size. */
+static int look(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], const drogue_image *view, drogue_q16 step_px_q16)
 {
-    const drogue_q16 part = outer->a_px_q16 / STEPS;
     outer_bin bins[BINS];
     drogue_q16 v_px_q16[WAVES] = {0, 0, 0, 0, 0};
     drogue_q16 last_px_q16[WAVES];
     int32_t pull_q24[WAVES];
-    int32_t least;
+    const int32_t least = see(bins, rays, view, step_px_q16);
     int i;
-    drogue_rays_aim(rays, outer, 4, 0, DROGUE_RAYS / 2);
-    least = see(bins, rays, view, part > NEAREST ? part : NEAREST);
     if (!fit(v_px_q16, bins, 0, least)) {
         return 0;
     }
@@ -197,9 +206,19 @@ int drogue_outline_outer(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], co
         return 0;
     }
     for (i = 0; i < WAVES; i++) { /* in mean semi-axes: of a rim in one plane both grow in proportion */
+        if (magnitude(v_px_q16[i]) > outer->b_px_q16 / PARTS) {
+            return 0;
+        }
         pull_q24[i] = (int32_t)drogue_div_round_s64(-v_px_q16[i] * (INT64_C(1) << 25),
                                                     (int64_t)outer->a_px_q16 + outer->b_px_q16);
     }
     drogue_outline_put_back(outer, pull_q24);
     return 1;
+}
+
+int drogue_outline_outer(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], const drogue_image *view)
+{
+    const drogue_q16 wide = outer->a_px_q16 / STEPS;
+    drogue_rays_aim(rays, outer, 4, 0, DROGUE_RAYS / 2);
+    return look(outer, rays, view, NARROW) || (wide > NARROW && look(outer, rays, view, wide));
 }

@@ -25,15 +25,17 @@ int drogue_refit_plausible(const drogue_refit_context *c, const drogue_ellipse *
            a <= (int64_t)c->config->max_size_q16 * c->mask->longest_px;
 }
 
-/* Band about an ellipse: the configured one, or a share of the semi-axis where that is wider. */
+/* Band about an ellipse: the one asked for; else the configured one, or a share of the semi-axis where that is
+ * wider. */
 static drogue_band band_about(const drogue_ellipse *e, const drogue_refit_context *c)
 {
     const drogue_config *config = c->config;
     const drogue_q16 wide = drogue_q16_mul(e->a_px_q16, config->search_band_q16);
     const drogue_q16 most = DROGUE_Q16(8, 1);
-    return drogue_band_of(config->refit_band_px_q16 > wide ? config->refit_band_px_q16
-                          : wide > most                    ? most
-                                                           : wide,
+    return drogue_band_of(c->band_px_q16 > 0                 ? c->band_px_q16
+                          : config->refit_band_px_q16 > wide ? config->refit_band_px_q16
+                          : wide > most                      ? most
+                                                             : wide,
                           config->refit_cos_q16);
 }
 

@@ -72,11 +72,12 @@ int decisions_of_refit(decisions_round rounds[DECISIONS_MAX], const drogue_works
 
 int decisions_of_ring(decisions_round rounds[DECISIONS_MAX], const drogue_workspace *workspace,
                       const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config,
-                      const drogue_ellipse *ring, uint32_t bright_bins)
+                      const drogue_ellipse *ring, drogue_q16 band_px_q16, uint32_t bright_bins)
 {
     drogue_outline outline;
     drogue_refit_context x;
     drogue_refit_begin(&x, workspace, list, mask, config);
+    x.band_px_q16 = band_px_q16;
     memset(&outline, 0, sizeof outline);
     outline.ellipse = *ring;
     outline.support.bright_bins = bright_bins;

@@ -21,10 +21,10 @@ int decisions_of_refit(decisions_round rounds[DECISIONS_MAX], const drogue_works
                        const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config,
                        const uint32_t arcs[4]);
 
-/* The rounds from an ellipse whose bins have the given polarities. */
+/* The rounds from an ellipse whose bins have the given polarities; half the first band's width, 0: the usual one. */
 int decisions_of_ring(decisions_round rounds[DECISIONS_MAX], const drogue_workspace *workspace,
                       const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config,
-                      const drogue_ellipse *ring, uint32_t bright_bins);
+                      const drogue_ellipse *ring, drogue_q16 band_px_q16, uint32_t bright_bins);
 
 #ifdef __cplusplus
 }

@@ -462,13 +462,23 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
     return out.status == DROGUE_OK && out.has_inner && out.doubt > doubt ? doubt + 1 / 200.0L : doubt;
 }
 
-/* A larger outline along rays about the best one: of the size that the disc asks for, or the rim's outer edge. */
+/* The edge points about an ellipse; false: they cover too little. */
+bool settle_there(Result &out, Frame &f, const drogue_ellipse &about, drogue_q16 band, const Task &task)
+{
+    if (f.follow.library != nullptr) {
+        (void)drogue_outline_settle(&f.decided, &about, band, &f.front->workspace, &f.front->list, &f.mask,
+                                    &task.config);
+    }
+    return settle(out.outline, about, band, *f.front, f.mask, task.config, f.follow);
+}
+
+/* A larger outline along rays about the best one: of the size that the disc asks for, or the rim's outer edge; of that the
+ * edge points by 'config', as the best one's, where they show it. */
 bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &decided,
-            const std::array<int64_t, 4> &region, const Task &task, bool outer)
+            const std::array<int64_t, 4> &region, const Task &task, const drogue_config *config)
 {
     const bool follow = f.follow.library != nullptr;
     Ellipse was = best.seen;
-    out.status = DROGUE_E_NO_ELLIPSE;
     out.tried = DROGUE_TRIED_RAYS;
     out.second_look = best.second_look;
     out.outline.arcs.fill(DROGUE_NO_ARC);
@@ -479,35 +489,42 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     const drogue_image view = {f.view.data, f.view.cols, f.view.rows, static_cast<int32_t>(f.view.step)};
     const drogue_ellipse known = follow ? decided.ellipse : rounded_ellipse(was);
     drogue_ellipse about = known;
-    if (!outer) {
-        const drogue_q16 by = drogue_q16_mul(known.a_px_q16, best.larger_q16);
+    drogue_q16 by = drogue_q16_mul(known.a_px_q16, best.larger_q16);
+    bool found = false;
+    if (config == nullptr) {
         about.a_px_q16 += by;
         about.b_px_q16 += by;
-    } else if (!outer_edge(was, view, known)) {
-        return false;
-    } else if (follow) {
-        (void)drogue_outline_outer(&about, f.front->workspace.rays, &view);
     } else {
-        about = rounded_ellipse(was);
+        Ellipse outer = was;
+        std::vector<drogue_ray> rays(DROGUE_RAYS);
+        out.status = DROGUE_E_NO_ELLIPSE;
+        if (!outer_edge(outer, view, known)) {
+            return false;
+        }
+        about = rounded_ellipse(outer);
+        if (follow) {
+            about = known;
+            (void)drogue_outline_outer(&about, rays.data(), &view);
+        }
+        by = (about.a_px_q16 + about.b_px_q16 - known.a_px_q16 - known.b_px_q16) / 2;
+        f.front = run_front_end(f.view, f.mask, *config, task.capacity);
+        const Ellipse &e = out.outline.ellipse;
+        found = settle_there(out, f, about, config->refit_band_px_q16, task) && out.outline.cover >= 0.75L &&
+                e.a + e.b - was.a - was.b >= real(by);
+        out.tried = found ? DROGUE_TRIED_LARGER : DROGUE_TRIED_RAYS;
     }
-    if (task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
+    if (!found && task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
         out.status = DROGUE_E_EDGES_FULL;
         return false;
     }
-    look_beyond(*f.front, f.view, about, about.a_px_q16 - known.a_px_q16);
-    if (f.front->list.edge_count == 0) {
-        return false;
+    if (!found) {
+        look_beyond(*f.front, f.view, about, by);
+        found = f.front->list.edge_count > 0 && settle_there(out, f, about, 0, task);
     }
-    if (follow) {
-        (void)drogue_outline_settle(&f.decided, &about, &f.front->workspace, &f.front->list, &f.mask, &task.config);
-    }
-    if (!settle(out.outline, about, *f.front, f.mask, task.config, f.follow)) {
-        return false;
-    }
-    out.status = DROGUE_OK;
+    out.status = found ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
     out.outline.quality = best.outline.quality;
     out.outline.members = best.outline.members;
-    return true;
+    return found;
 }
 
 /* An outline about the inner disc where no outline says where that is. */
@@ -543,10 +560,10 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
     f.follow.library = follow ? &f.decided : nullptr;
     f.ring = real(ring.a_px_q16);
     if (f.follow.library != nullptr) {
-        (void)drogue_outline_settle(&f.decided, &ring, &f.front->workspace, &f.front->list, &f.mask, &task.config);
+        (void)drogue_outline_settle(&f.decided, &ring, 0, &f.front->workspace, &f.front->list, &f.mask, &task.config);
     }
     const Ellipse was = real_of(ring);
-    const bool found = settle(out.outline, ring, *f.front, f.mask, task.config, f.follow);
+    const bool found = settle(out.outline, ring, 0, *f.front, f.mask, task.config, f.follow);
     const Ellipse &e = out.outline.ellipse;
     return found && std::fabs(e.a - was.a) <= was.a / 16 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 8;
 }
@@ -612,6 +629,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
     }
     drogue_outline decided = {}; /* the library's, of the best */
     std::array<int64_t, 4> asked_for = {};
+    drogue_config kept_config = task.config; /* by whose thresholds that was found */
     drogue_status status = DROGUE_OK;
     drogue_second_look room = DROGUE_SECOND_NONE; /* of any try that had too little of it */
     const auto keep = [&](const Result &out, const Features &from, Real doubt) {
@@ -619,6 +637,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         best = out;
         decided = f.decided;
         asked_for = f.asked;
+        kept_config = task.config;
         if (features != nullptr) {
             *features = from;
         }
@@ -694,17 +713,18 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             least > SURE && best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.2L;
         Result out;
         Features from = {};
-        if (best.status != DROGUE_OK || best.tried == DROGUE_TRIED_RAYS ||
-            !(outer ? best.outline.outside > 0 : asked_beyond)) {
+        const bool asked_outer = best.outline.outside > 0 || best.seen.a > 160;
+        if (best.status != DROGUE_OK || best.tried == DROGUE_TRIED_RAYS || !(outer ? asked_outer : asked_beyond)) {
             continue;
         }
-        const Real doubt =
-            beyond(out, f, best, decided, asked_for, task, outer) ? judge(out, from, f, task, library) : DOUBTED;
+        const bool found = beyond(out, f, best, decided, asked_for, task, outer ? &kept_config : nullptr);
+        const Real doubt = found ? judge(out, from, f, task, library) : DOUBTED;
         if (room == DROGUE_SECOND_NONE && is_full(out.status)) {
             room = DROGUE_SECOND_FULL;
         }
-        if (out.status == DROGUE_OK &&
-            (outer ? out.outline.cover >= 0.75L && (out.has_inner || !best.has_inner) : doubt < least - 1 / 256.0L)) {
+        const bool outer_stands = out.outline.cover >= 0.75L && (out.has_inner || !best.has_inner) &&
+                                  (doubt <= least + 1 / 256.0L || least > 0);
+        if (out.status == DROGUE_OK && (outer ? outer_stands : doubt < least - 1 / 256.0L)) {
             keep(out, from, doubt);
         }
     }

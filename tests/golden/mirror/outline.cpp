@@ -80,7 +80,7 @@ public:
     {}
     drogue_status find(Outline &out);
     bool enlarge(Outline &out) const;
-    bool settle(Outline &out, const Ellipse &ring) const;
+    bool settle(Outline &out, const Ellipse &ring, Real band);
     Real covered(const Ellipse &e, bool follow) const;
 
 private:
@@ -109,6 +109,7 @@ private:
     const drogue_mask &mask_;
     const drogue_config &config_;
     const Follow &follow_;
+    Real band_ = 0; /* half the width of the band about an ellipse; 0: as configured */
     std::array<std::array<uint32_t, DROGUE_ARC_CHOICES>, 4> choices_ = {};
 };
 
@@ -147,7 +148,7 @@ bool Finder::plausible(const Ellipse &e) const
 reference::Band Finder::band_about(const Ellipse &e) const
 {
     const Real share = std::min<Real>(8, real(config_.search_band_q16) * e.a);
-    return {std::max(real(config_.refit_band_px_q16), share), real(config_.refit_cos_q16)};
+    return {band_ > 0 ? band_ : std::max(real(config_.refit_band_px_q16), share), real(config_.refit_cos_q16)};
 }
 
 /* Covered share of an ellipse by some of all edge points; 'slack' is what undecided points and bins could change. */
@@ -361,9 +362,9 @@ bool Finder::on_ring(Outline &out, const Ellipse &ring) const
     }
     decisions_round rounds[DECISIONS_MAX];
     const drogue_ellipse start = {q16(ring.xc), q16(ring.yc), q16(ring.a), q16(ring.b), q16(ring.angle)};
-    const int known = follow_.library != nullptr
-                          ? decisions_of_ring(rounds, &front_.workspace, &front_.list, &mask_, &config_, &start, bright)
-                          : 0;
+    const int known = follow_.library != nullptr ? decisions_of_ring(rounds, &front_.workspace, &front_.list, &mask_,
+                                                                     &config_, &start, q16(band_), bright)
+                                                 : 0;
     out.ellipse = ring;
     out.support.bright = bright;
     refit(out, rounds, known);
@@ -393,8 +394,9 @@ bool Finder::enlarge(Outline &out) const
     return true;
 }
 
-bool Finder::settle(Outline &out, const Ellipse &ring) const
+bool Finder::settle(Outline &out, const Ellipse &ring, Real band)
 {
+    band_ = band;
     out = Outline();
     out.arcs.fill(NONE);
     if (!plausible(ring) || !on_ring(out, ring)) {
@@ -541,12 +543,12 @@ Real covered(const Ellipse &e, const FrontEnd &front, const drogue_mask &mask, c
     return Finder(front, mask, config, {nullptr}).covered(e, follow);
 }
 
-bool settle(Outline &out, const drogue_ellipse &ring, const FrontEnd &front, const drogue_mask &mask,
-            const drogue_config &config, const Follow &follow)
+bool settle(Outline &out, const drogue_ellipse &ring, drogue_q16 band_px_q16, const FrontEnd &front,
+            const drogue_mask &mask, const drogue_config &config, const Follow &follow)
 {
     const Ellipse start = {real(ring.xc_px_q16), real(ring.yc_px_q16),     real(ring.a_px_q16),
                            real(ring.b_px_q16),  real(ring.angle_rad_q16), true};
-    if (!Finder(front, mask, config, follow).settle(out, start)) {
+    if (!Finder(front, mask, config, follow).settle(out, start, real(band_px_q16))) {
         return false;
     }
     finish(out, config);

@@ -418,13 +418,16 @@ struct OuterBin {
     std::array<int64_t, 2> slope = {};
 };
 
-/* The peaks of the summed slopes of four rays, the middle ones its own; 'outside' gathers those out there. */
-OuterBin outer_bin(const drogue_ray *rays, size_t k, const drogue_image &view, drogue_q16 step, int64_t &outside)
+/* The peaks of the summed slopes of four rays, the middle ones its own; 'outside' gathers those out there
+ * but for the edge. */
+OuterBin outer_bin(const drogue_ray *rays, size_t k, const drogue_image &view, drogue_q16 step, int64_t &outside,
+                   int64_t &count)
 {
     enum { SAMPLES = 17, OUTER_SLOPES = SAMPLES - 2, OWN = 5, FAR = 7 };
     std::array<int64_t, SAMPLES> grey = {};
     std::array<int64_t, OUTER_SLOPES> slope;
     OuterBin out;
+    int outer = 0;
     size_t first = OWN;
     for (size_t r = 2 * k + DROGUE_RAYS - 1; r < 2 * k + DROGUE_RAYS + 3; r++) {
         std::array<int32_t, SAMPLES> one;
@@ -435,7 +438,6 @@ OuterBin outer_bin(const drogue_ray *rays, size_t k, const drogue_image &view, d
     }
     for (size_t i = 0; i < OUTER_SLOPES; i++) {
         slope[i] = std::abs(grey[i + 2] - grey[i]);
-        outside += i >= FAR ? slope[i] : 0;
     }
     for (size_t i = 1; i + 1 < OUTER_SLOPES; i++) {
         if (slope[i] <= slope[i - 1] || slope[i] < slope[i + 1]) {
@@ -448,7 +450,14 @@ OuterBin outer_bin(const drogue_ray *rays, size_t k, const drogue_image &view, d
             const Real part = static_cast<Real>(slope[i + 1] - slope[i - 1]) / (2 * bend);
             out.at[which] = (static_cast<Real>(i) - 3 + part) * real(step);
             out.slope[which] = slope[i];
+            outer = own ? outer : static_cast<int>(i);
             first = own ? std::max<size_t>(OWN, i + 2) : first;
+        }
+    }
+    for (int i = FAR; i < OUTER_SLOPES; i++) {
+        if (std::abs(i - outer) > 2) {
+            outside += slope[static_cast<size_t>(i)];
+            count++;
         }
     }
     return out;
@@ -456,24 +465,20 @@ OuterBin outer_bin(const drogue_ray *rays, size_t k, const drogue_image &view, d
 
 } // namespace
 
-bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellipse &aim)
+static bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellipse &aim, drogue_q16 step)
 {
     constexpr size_t BINS32 = reference::SUPPORT_BINS;
-    const drogue_q16 step = std::max(aim.a_px_q16 / 200, 32768);
     std::array<drogue_ray, DROGUE_RAYS> rays;
     std::array<OuterBin, BINS32> bins;
     std::array<Real, 5> v = {};
-    int64_t outside = 0, own = 0;
+    int64_t outside = 0, count = 0, own = 0;
     int agree = 0, outer = 0;
-    if (!(e.b >= 1)) {
-        return false;
-    }
     drogue_rays_aim(rays.data(), &aim, 4, 0, DROGUE_RAYS / 2);
     for (size_t k = 0; k < BINS32; k++) {
-        bins[k] = outer_bin(rays.data(), k, view, step, outside);
+        bins[k] = outer_bin(rays.data(), k, view, step, outside, count);
         own += bins[k].slope[0];
     }
-    const int64_t least = std::max({int64_t{4 * 5 * 256}, own / (32 * 5), 3 * outside / (2 * 32 * 8)});
+    const int64_t least = std::max({int64_t{4 * 5 * 256}, own / (32 * 5), 3 * outside / (2 * count)});
     for (int round = 0; round <= 17; round++) { /* the outermost edges, six of 2 px, ten of 1 px, what agrees */
         const Real most = round < 7 ? 2 : round < 17 ? 1 : 0.6L;
         std::array<Real, 5> sum = {};
@@ -509,10 +514,21 @@ bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellipse &aim)
         v = round < 17 ? sum : v;
     }
     for (Real &c : v) {
+        if (std::fabs(c) > e.b / 8) {
+            return false;
+        }
+    }
+    for (Real &c : v) {
         c *= -2 / (e.a + e.b);
     }
     put_back(e, v);
     return true;
+}
+
+bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellipse &aim)
+{
+    const drogue_q16 narrow = 32768, wide = aim.a_px_q16 / 200;
+    return e.b >= 1 && (outer_edge(e, view, aim, narrow) || (wide > narrow && outer_edge(e, view, aim, wide)));
 }
 
 } // namespace mirror

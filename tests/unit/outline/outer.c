@@ -54,7 +54,7 @@ START_TEST(bands)
         {60, 54, 0.3, 4.8, 0, 0, 60, 200, 120, 0, 7, 0, 0, 1},   /* far, */
         {60, 54, 0.3, 6.6, 0, 0, 60, 200, 120, 0, 7, 0, 0, 0},   /* and too far */
         {220, 200, 0.3, 5.5, 0, 0, 60, 200, 120, 0, 7, 0, 0, 1}, /* for all but a large outline, */
-        {12, 11, 0.3, 2.2, 0, 0, 60, 200, 120, 0, 7, 0, 0, 1},   /* of a small one */
+        {20, 18, 0.3, 1.9, 0, 0, 60, 200, 120, 0, 7, 0, 0, 1},   /* of a small one */
         {60, 56, 0.7, 1.3, 1.3, 0, 60, 200, 120, 0, 7, 0, 0,
          1}, /* on one side: what it has on the other one is both, */
         {60, 56, -0.9, 1.3, 0, -1.3, 60, 200, 120, 0, 7, 0, 0, 1}, /* and across */
@@ -89,16 +89,46 @@ START_TEST(bands)
 }
 END_TEST
 
-/* What has no edge at all, and what lies beyond the image. */
-START_TEST(nothing)
+/* An outline of another shape than the rim has, as of a fit to both edges: the outer one is no circle about it. */
+START_TEST(another_shape)
 {
-    static const drogue_image view = {pixels, 40, 40, LARGE};
-    drogue_ellipse e = {q16_of(20), q16_of(20), q16_of(30), q16_of(1), q16_of(-0.5)};
-    memset(pixels, 90, sizeof pixels);
-    ck_assert_int_eq(drogue_outline_outer(&e, rays, &view), 0);
-    e.a_px_q16 = q16_of(8000);
-    ck_assert_int_eq(drogue_outline_outer(&e, rays, &view), 0);
+    static const band s = {58, 56, 0, 2, 0, 0, 60, 200, 120, 0, 7, 0, 0, 1};
+    const drogue_image view = draw(&s);
+    double longer;
+    for (longer = -1; longer <= 1; longer += 0.5) {
+        drogue_ellipse e = {q16_of(MIDDLE), q16_of(MIDDLE), q16_of(58 + longer), q16_of(56 - longer), 0};
+        MUST(drogue_outline_outer(&e, rays, &view) == 1, "longer by %g px", longer);
+        MUST(fabs(real_of_q16(e.a_px_q16) - 60) < 0.5 && fabs(real_of_q16(e.b_px_q16) - 58) < 0.5,
+             "longer by %g px: %g by %g", longer, real_of_q16(e.a_px_q16), real_of_q16(e.b_px_q16));
+    }
 }
 END_TEST
 
-SUITE_MAIN("outer", bands, nothing)
+/* Whatever there is, of outlines as large and flat as may be: none is changed by more than an eighth of b a wave. */
+START_TEST(any_image)
+{
+    static const drogue_image view = {pixels, 60, 60, LARGE};
+    uint64_t rng = 7;
+    int i, k;
+    for (i = 0; i < 2000; i++) {
+        const double a = rng_real(&rng, 1, i % 4 ? 40 : 16000), b = rng_real(&rng, 1, a);
+        const drogue_ellipse was = {q16_of(rng_real(&rng, -20, 80)), q16_of(rng_real(&rng, -20, 80)), q16_of(a),
+                                    q16_of(b), q16_of(rng_real(&rng, -1.5, 1.5))};
+        drogue_ellipse e = was;
+        for (k = 0; k < 60 * 60; k++) {
+            const int x = k % 60, y = k / 60;
+            const double ring = 90 * sin(hypot(x - 30, y - 30) * (0.4 + i % 7 * 0.2));
+            pixels[y * LARGE + x] = (uint8_t)(i % 3 ? 128 + ring : rng_real(&rng, 0, 255));
+        }
+        if (!drogue_outline_outer(&e, rays, &view)) {
+            ck_assert_int_eq(memcmp(&e, &was, sizeof e), 0);
+        } else {
+            MUST(e.a_px_q16 + e.b_px_q16 > was.a_px_q16 + was.b_px_q16 && e.b_px_q16 > was.b_px_q16 / 2 &&
+                     e.a_px_q16 >= e.b_px_q16 && e.a_px_q16 < 2 * was.a_px_q16,
+                 "%d: %g by %g to %g by %g", i, a, b, real_of_q16(e.a_px_q16), real_of_q16(e.b_px_q16));
+        }
+    }
+}
+END_TEST
+
+SUITE_MAIN("outer", bands, another_shape, any_image)
