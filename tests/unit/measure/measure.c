@@ -183,6 +183,31 @@ START_TEST(a_canopy_so_narrow_that_its_inner_edge_is_found)
 }
 END_TEST
 
+/* A lighter ring about the rim is none of the drogue where the disc is exactly of the size that the rim lets expect. */
+START_TEST(a_ring_about_the_rim)
+{
+    double share;
+    for (share = 0.965; share < 0.98; share += 0.005) {
+        test_workspace t = usual_workspace();
+        const drogue_model within = {q16_of(0.35 * share), 13107, 16384};
+        drogue_config config;
+        drogue_result r;
+        scene s = usual;
+        s.canopy = 218;
+        s.wall = 150;
+        s.wall_share = share;
+        draw(&s);
+        drogue_config_default(&config);
+        MUST(measure(&r, &t, &config, &within, &whole) == DROGUE_OK && r.has_inner, "share %g: %s", share,
+             drogue_status_name(r.status));
+        MUST(fabs(real_of_q16(r.ideal.a_px_q16) - 1465.5 * 0.35 * share / 4.4) < 0.4,
+             "share %g: a = %g px for %g, tried %d, doubt %g", share, real_of_q16(r.ideal.a_px_q16),
+             1465.5 * 0.35 * share / 4.4, (int)r.tried, real_of_q16(r.doubt_q16));
+        test_workspace_free(&t);
+    }
+}
+END_TEST
+
 START_TEST(without_inner_part)
 {
     test_workspace t = usual_workspace();
@@ -900,8 +925,8 @@ END_TEST
 
 SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline,
            a_canopy_so_narrow_that_its_inner_edge_is_found, without_inner_part, regions_of_one_image,
-           ring_of_a_clipped_region, arguments, regions_that_miss, images_beyond_the_coordinates, full_tables,
-           what_fills_a_table_is_thresholded, what_own_thresholds_fill_is_told, nothing_to_measure,
+           ring_of_a_clipped_region, arguments, regions_that_miss, a_ring_about_the_rim, images_beyond_the_coordinates,
+           full_tables, what_fills_a_table_is_thresholded, what_own_thresholds_fill_is_told, nothing_to_measure,
            edges_are_the_regions, geometry_out_of_range, inner_part_that_cannot_decide, inner_part_that_contradicts,
            covariance_of_the_result, off_centre_region, second_look_that_fails, second_look_is_told,
            background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
