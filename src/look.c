@@ -199,8 +199,8 @@ static drogue_ellipse view_again(drogue_frame *f, const drogue_region *region, c
 }
 
 /* The outline along rays about an ellipse that is larger than the one found. */
-static drogue_status settle_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *about,
-                                   drogue_q16 larger_px_q16)
+static drogue_status outline_along_rays(drogue_frame *f, const drogue_region *region, const drogue_ellipse *about,
+                                        drogue_q16 larger_px_q16)
 {
     drogue_held *held = &f->held;
     if (f->workspace->capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
@@ -223,7 +223,7 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
     drogue_ellipse about = view_again(f, region, was);
     about.a_px_q16 = drogue_q16_add(about.a_px_q16, by_px_q16);
     about.b_px_q16 = drogue_q16_add(about.b_px_q16, by_px_q16);
-    return settle_beyond(f, region, &about, by_px_q16);
+    return outline_along_rays(f, region, &about, by_px_q16);
 }
 
 drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was)
@@ -242,7 +242,7 @@ drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, c
         (int64_t)e->a_px_q16 + e->b_px_q16 - was->a_px_q16 - was->b_px_q16 >= grown) { /* else back to the inner one */
         return DROGUE_OK;
     }
-    status = settle_beyond(f, region, &about, (drogue_q16)grown);
+    status = outline_along_rays(f, region, &about, (drogue_q16)grown);
     return status == DROGUE_OK && f->outline.cover_q16 < OUTER_Q16 ? DROGUE_E_NO_ELLIPSE : status;
 }
 
