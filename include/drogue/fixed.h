@@ -81,6 +81,9 @@ static inline int64_t drogue_shr_round_s64(int64_t v, int n)
     return n == 0 ? v : (twice >> 1) + (twice & 1);
 }
 
+/* |v|; not of INT32_MIN. */
+static inline int32_t drogue_abs_s32(int32_t v) { return v < 0 ? -v : v; }
+
 /* |v|, defined for INT64_MIN too. */
 static inline uint64_t drogue_abs_u64(int64_t v) { return v < 0 ? (uint64_t)0 - (uint64_t)v : (uint64_t)v; }
 
@@ -117,6 +120,9 @@ drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b);
 drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b);
 #endif
 drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b);
+
+/* |v|, saturated. */
+static inline drogue_q16 drogue_q16_abs(drogue_q16 v) { return v < 0 ? drogue_q16_sub(0, v) : v; }
 
 /* a^2 + b^2, exact. */
 static inline uint64_t drogue_square_sum(int32_t a, int32_t b)

@@ -28,7 +28,7 @@ static uint32_t count_row(uint32_t histogram[BINS], const uint8_t *const row[3],
         bend += x / 3 == 1 ? -2 * column(row, x) : column(row, x);
     }
     for (x = REACH; x + REACH < width_px; x++) { /* bound: 2044 */
-        sum += bend < 0 ? -bend : bend;
+        sum += drogue_abs_s32(bend);
         if (--left == 0) {
             histogram[sum >> SHIFT < BINS ? sum >> SHIFT : BINS - 1]++;
             blocks++;

@@ -30,8 +30,6 @@ static int narrow(drogue_ray_sums *s, drogue_q16 v_px_q16[3], drogue_q16 *within
     return 1;
 }
 
-static drogue_q16 magnitude(drogue_q16 v) { return v < 0 ? drogue_q16_sub(0, v) : v; }
-
 /* Of the edges those that lie beyond a first circle on the side of what was expected. */
 static void keep_beyond(drogue_ray rays[RAYS], const drogue_q16 first_px_q16[3])
 {
@@ -61,7 +59,7 @@ static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], uint32_t 
     v[1] = v_px_q16[1];
     v[2] = 0;
     keep_beyond(rays, v_px_q16);
-    if (drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(magnitude(v_px_q16[2]), DROGUE_Q16(1, 1)), APART, 0) &&
+    if (drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(drogue_q16_abs(v_px_q16[2]), DROGUE_Q16(1, 1)), APART, 0) &&
         s.rays >= least) {
         memcpy(v_px_q16, v, sizeof v);
     }
@@ -156,10 +154,10 @@ static int look_about(first_place *out, drogue_ray rays[RAYS], const drogue_imag
         return 0;
     }
     out->slopes_q8 = s.slopes_q8;
-    if (magnitude(v[2]) > drogue_q16_add(e->a_px_q16 / 64, DROGUE_Q16(1, 2))) {
+    if (drogue_q16_abs(v[2]) > drogue_q16_add(e->a_px_q16 / 64, DROGUE_Q16(1, 2))) {
         prefer_size(v, rays, RAYS / 4 / EVERY);
     }
-    return 8 * s.rays * EVERY >= 7 * RAYS && magnitude(v[2]) <= room &&
+    return 8 * s.rays * EVERY >= 7 * RAYS && drogue_q16_abs(v[2]) <= room &&
            drogue_square_sum(v[0], v[1]) <= drogue_square_sum(gate_px_q16, 0);
 }
 
@@ -205,7 +203,7 @@ static int look_between(first_place *out, drogue_ray rays[RAYS], const drogue_im
 {
     const drogue_q16 x = drogue_q16_sub(expected->disc[1].xc_px_q16, expected->disc[0].xc_px_q16) / 2;
     const drogue_q16 y = drogue_q16_sub(expected->disc[1].yc_px_q16, expected->disc[0].yc_px_q16) / 2;
-    const drogue_q16 half = drogue_q16_add(magnitude(x), magnitude(y));
+    const drogue_q16 half = drogue_q16_add(drogue_q16_abs(x), drogue_q16_abs(y));
     drogue_ellipse e = expected->disc[0];
     e.xc_px_q16 += x; /* between the two */
     e.yc_px_q16 += y;

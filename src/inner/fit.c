@@ -19,7 +19,7 @@ int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogu
     uint32_t i;
     for (i = 0; i < r->count; i++) {                                 /* bound: DROGUE_RAY_EDGES */
         const int32_t off = r->edges[i].at_px_q16 - expected_px_q16; /* < 2^26 + 2^30 */
-        const int32_t room = within_px_q16 - (off < 0 ? -off : off);
+        const int32_t room = within_px_q16 - drogue_abs_s32(off);
         const int64_t merit = room > 0 ? drogue_product(room, r->edges[i].slope_q8) : 0;
         if (merit > most) {
             most = merit;

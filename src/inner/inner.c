@@ -147,7 +147,7 @@ static drogue_q16 too_far(const drogue_inner_edge *edge, const drogue_ellipse *e
  * an outline seen nearly head-on, or one that is the wall's on one side, says little of its own tilt. */
 static int evident(const drogue_inner_edge *edge, const drogue_ellipse *expected, const drogue_config *config)
 {
-    const drogue_q16 off = edge->grown_px_q16 < 0 ? drogue_q16_sub(0, edge->grown_px_q16) : edge->grown_px_q16;
+    const drogue_q16 off = drogue_q16_abs(edge->grown_px_q16);
     return all_about(edge) && 2 * (int64_t)edge->spread_px_q16 <= config->inner_rms_px_q16 &&
            off <= drogue_q16_add(EVIDENT_PX_Q16, drogue_q16_mul(LARGER_Q16, expected->a_px_q16));
 }

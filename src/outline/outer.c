@@ -37,8 +37,6 @@ typedef struct outer_bin {
     int32_t slope[EDGES]; /* Q8 times IN_BIN; 0: there is none */
 } outer_bin;
 
-static inline int32_t magnitude(int32_t v) { return v < 0 ? -v : v; }
-
 /* Grey along two rays, of a bin and the one before, their sum. */
 static void read_pair(int32_t sum_q8[SAMPLES], drogue_ray rays[DROGUE_RAYS], int32_t bin, const drogue_image *view,
                       drogue_q16 step_px_q16)
@@ -75,7 +73,7 @@ static int32_t see_bin(outer_bin *bin, int32_t *count, const int32_t one[SAMPLES
     int32_t i;
     memset(bin, 0, sizeof *bin);
     for (i = 0; i < SLOPES; i++) {
-        slope[i] = magnitude(one[i + 2] + other[i + 2] - one[i] - other[i]);
+        slope[i] = drogue_abs_s32(one[i + 2] + other[i + 2] - one[i] - other[i]);
     }
     for (i = 1; i < SLOPES - 1; i++) {
         if (slope[i] > slope[i - 1] && slope[i] >= slope[i + 1]) {
@@ -89,7 +87,7 @@ static int32_t see_bin(outer_bin *bin, int32_t *count, const int32_t one[SAMPLES
         }
     }
     for (i = FAR; i < SLOPES; i++) {
-        if (magnitude(i - outer) > APART) {
+        if (drogue_abs_s32(i - outer) > APART) {
             sum += slope[i];
             (*count)++;
         }
@@ -133,7 +131,7 @@ static int32_t nearest(const outer_bin *bin, drogue_q16 at_px_q16, drogue_q16 wi
     int32_t best = EDGES;
     int32_t i;
     for (i = 0; i < EDGES; i++) {
-        const drogue_q16 off = magnitude(bin->at_px_q16[i] - at_px_q16);
+        const drogue_q16 off = drogue_abs_s32(bin->at_px_q16[i] - at_px_q16);
         if (bin->slope[i] >= least && off < within_px_q16) {
             within_px_q16 = off;
             best = i;
@@ -206,7 +204,7 @@ static int look(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], const drogu
         return 0;
     }
     for (i = 0; i < WAVES; i++) { /* in mean semi-axes: of a rim in one plane both grow in proportion */
-        if (magnitude(v_px_q16[i]) > outer->b_px_q16 / PARTS) {
+        if (drogue_abs_s32(v_px_q16[i]) > outer->b_px_q16 / PARTS) {
             return 0;
         }
         pull_q24[i] = (int32_t)drogue_div_round_s64(-v_px_q16[i] * (INT64_C(1) << 25),

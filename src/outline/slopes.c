@@ -20,8 +20,6 @@
 #define LEAST_OUTSIDE (3 * 8 * 256) /* more than so steep, */
 #define SHARE_OUTSIDE 6             /* and than this part of its own */
 
-static inline int32_t size_of(int32_t v) { return v < 0 ? -v : v; }
-
 /* As the front end blurs: variance 1.33 px^2, 1 of its smoothing and 1/3 of Sobel's operator. */
 static int32_t blurred(const int32_t slope[SLOPES], int32_t i)
 {
@@ -100,12 +98,12 @@ int drogue_edge_outside(const int32_t slope[SLOPES])
     int32_t own = 0;
     int32_t i;
     for (i = MIDDLE - OWN; i <= MIDDLE + OWN; i++) {
-        own = size_of(slope[i]) > own ? size_of(slope[i]) : own;
+        own = drogue_abs_s32(slope[i]) > own ? drogue_abs_s32(slope[i]) : own;
     }
     for (i = MIDDLE + BESIDE; i < SLOPES - 1; i++) {
-        const int32_t size = size_of(slope[i]);
-        if (size > LEAST_OUTSIDE && SHARE_OUTSIDE * size > own && size > size_of(slope[i - 1]) &&
-            size >= size_of(slope[i + 1])) {
+        const int32_t size = drogue_abs_s32(slope[i]);
+        if (size > LEAST_OUTSIDE && SHARE_OUTSIDE * size > own && size > drogue_abs_s32(slope[i - 1]) &&
+            size >= drogue_abs_s32(slope[i + 1])) {
             return 1;
         }
     }

@@ -62,7 +62,7 @@ int drogue_dark_find(drogue_rim *out, const drogue_search_level *level, const dr
     out->radius_q4 = sorted_q4[n / 2];
     for (i = 0; i < n; i++) {
         const int32_t off = sorted_q4[i] - out->radius_q4;
-        near += 4 * (off < 0 ? -off : off) <= out->radius_q4 + 16;
+        near += 4 * drogue_abs_s32(off) <= out->radius_q4 + 16;
     }
     out->score = near < LEAST_RAYS ? 0 : share_q8 * near * near;
     return out->score > least;
