@@ -27,12 +27,13 @@ static void forget(drogue_result *out)
 
 #define RAISES 2       /* at most, of thresholds of the noise that fill a table */
 #define ANOTHER_SIZE 8 /* a semi-axis further off than this part of it is of another rim */
-#define ONE_SIZE 16    /* one no further off than this part of it is of another edge of the same rim */
-#define LESS_EIGHTHS 7 /* of the best outline's cover: of one with less than so many of them less shows */
 
 #define SURE_Q16 DROGUE_Q16(1, 256)    /* of less doubt nothing else is tried */
 #define LEAST_Q16 DROGUE_Q16(2, 100)   /* by less the disc is too large for no other outline along rays */
-#define BEYOND_Q16 DROGUE_Q16(20, 100) /* by more than this it is too large for anything beyond the outline */
+#define BEYOND_Q16 DROGUE_Q16(60, 100) /* by more than this it is too large for anything beyond the outline */
+#define SHADE_Q16 DROGUE_Q16(20, 100)  /* by more than this it may be shade about the disc */
+#define WHOLE_Q16 DROGUE_Q16(7, 8)     /* least cover of an outline that stands whatever a disc says, */
+#define SHOWS_Q16 DROGUE_Q16(1, 4)     /* unless so much shows of one that the disc asks for */
 #define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
 #define ALONE_Q16 DROGUE_Q16(7, 10)    /* least cover of an outline whose disc is not seen */
 #define LARGE DROGUE_Q16(160, 1)       /* px: another edge may lie farther outside than an outline shows */
@@ -58,13 +59,20 @@ static void keep(best_try *best, const drogue_frame *f, drogue_status status)
     best->result->second_look = f->second_look;
 }
 
-/* A try has ended: it is the best one where its doubt is clearly less, but never without a pose where that has one. */
-static void consider(best_try *best, drogue_frame *f, drogue_status status)
+/* A try has ended. */
+static void end_try(best_try *best, drogue_frame *f, drogue_status status, int is_best)
 {
     drogue_note_room(&f->room, status, f->second_look);
-    if (f->doubt_q16 < best->least_q16 - CLEARLY_Q16 && (status == DROGUE_OK || best->result->status != DROGUE_OK)) {
+    if (is_best) {
         keep(best, f, status);
     }
+}
+
+/* It is the best one where its doubt is clearly less, but never without a pose where that has one. */
+static void consider(best_try *best, drogue_frame *f, drogue_status status)
+{
+    end_try(best, f, status,
+            f->doubt_q16 < best->least_q16 - CLEARLY_Q16 && (status == DROGUE_OK || best->result->status != DROGUE_OK));
 }
 
 /* Before anything is tried: nothing is known of the inner disc. */
@@ -96,7 +104,7 @@ static drogue_status try_edges(drogue_frame *f, const drogue_region *region, int
 static drogue_status try_larger(drogue_frame *f, drogue_tried what)
 {
     begin_try(f);
-    return drogue_outline_enlarge(&f->outline, f->workspace, &f->held.list, &f->mask, f->setup->config)
+    return drogue_outline_enlarge(&f->outline, f->workspace, &f->list, &f->mask, f->setup->config)
                ? judge(f, what)
                : DROGUE_E_NO_ELLIPSE;
 }
@@ -155,21 +163,11 @@ static int asks_disc(const best_try *best, const drogue_frame *f)
     return best->least_q16 > DISC_Q16 && f->setup->model->inner_radius_m_q16 > 0;
 }
 
-/* Does a semi-axis differ by no more than a part of it? */
-static int about_one_size(drogue_q16 a_px_q16, drogue_q16 of_px_q16, int32_t part)
+/* Is one semi-axis of another size than one? */
+static int is_another_size(drogue_q16 a_px_q16, drogue_q16 of_px_q16)
 {
     const drogue_q16 off = a_px_q16 > of_px_q16 ? a_px_q16 - of_px_q16 : of_px_q16 - a_px_q16;
-    return off <= of_px_q16 / part;
-}
-
-/* Does less show of an outline about the disc than of the best one, about as large, but larger? Both are edges of one
- * rim then, and the disc, which is not too large for it, may be a little off its place. */
-static int shows_less(const drogue_result *about_disc, const best_try *best)
-{
-    return best->result->status == DROGUE_OK && best->larger_q16 == 0 &&
-           about_disc->ellipse.a_px_q16 < best->result->ellipse.a_px_q16 &&
-           about_one_size(about_disc->ellipse.a_px_q16, best->result->ellipse.a_px_q16, ONE_SIZE) &&
-           about_disc->cover_q16 < best->result->cover_q16 / 8 * LESS_EIGHTHS;
+    return off > of_px_q16 / ANOTHER_SIZE;
 }
 
 /* Most doubt of an outline about the disc: less than where they contradict each other; or, where the best outline has
@@ -188,10 +186,7 @@ static void try_disc(best_try *best, drogue_frame *f, const drogue_region *regio
     if (status == DROGUE_OK) {
         status = judge(f, DROGUE_TRIED_DISC);
     }
-    drogue_note_room(&f->room, status, f->second_look);
-    if (status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < most_doubt(best) && !shows_less(f->out, best)) {
-        keep(best, f, status);
-    }
+    end_try(best, f, status, status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < most_doubt(best));
 }
 
 /* Is the inner disc too large for the best outline, by no more than one about it explains? */
@@ -237,11 +232,9 @@ static void try_outer(best_try *best, drogue_frame *f)
     begin_try(f);
     f->second_look = was->second_look;
     status = judge_rays(f, was, drogue_frame_outer(f, &best->held.region, &was->ellipse));
-    drogue_note_room(&f->room, status, f->second_look);
-    if (status == DROGUE_OK && f->out->has_inner >= was->has_inner &&
-        (f->doubt_q16 <= best->least_q16 + CLEARLY_Q16 || best->least_q16 > 0)) {
-        keep(best, f, status);
-    }
+    end_try(best, f, status,
+            status == DROGUE_OK && f->out->has_inner >= was->has_inner &&
+                (f->doubt_q16 <= best->least_q16 + CLEARLY_Q16 || best->least_q16 > 0));
 }
 
 static int same_edges(const drogue_held *a, const drogue_held *b)
@@ -271,8 +264,17 @@ static void return_to(best_try *best, drogue_frame *f, const drogue_region *regi
 static int lies_within(const drogue_ellipse *e, const drogue_image *image)
 {
     return e->xc_px_q16 >= e->a_px_q16 && e->yc_px_q16 >= e->a_px_q16 &&
-           (int64_t)e->xc_px_q16 + e->a_px_q16 < (int64_t)image->width_px * DROGUE_Q16_ONE &&
-           (int64_t)e->yc_px_q16 + e->a_px_q16 < (int64_t)image->height_px * DROGUE_Q16_ONE;
+           (int64_t)e->xc_px_q16 + e->a_px_q16 <= (image->width_px - 1) * (int64_t)DROGUE_Q16_ONE &&
+           (int64_t)e->yc_px_q16 + e->a_px_q16 <= (image->height_px - 1) * (int64_t)DROGUE_Q16_ONE;
+}
+
+/* Is it nearly whole, without another edge outside, nor one that a disc asks for which is of quite another size? What
+ * is dark is shade then, which hides the disc, and not the disc of a larger rim. */
+static int is_outermost(const best_try *best, const drogue_frame *f)
+{
+    return best->result->cover_q16 >= WHOLE_Q16 && best->outside == 0 &&
+           (best->larger_q16 == 0 || best->larger_q16 > SHADE_Q16) &&
+           (f->ring_px_q16 <= best->result->ellipse.a_px_q16 || f->ring_cover_q16 < SHOWS_Q16);
 }
 
 /* Is the best outline without a disc, and another edge? It is where too little of it shows to stand alone. Or a disc
@@ -280,12 +282,12 @@ static int lies_within(const drogue_ellipse *e, const drogue_image *image)
  * or one that was sought, whose rim is of quite another size. */
 static int is_another_edge(const best_try *best, const drogue_frame *f)
 {
-    if (best->result->status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE) {
+    if (best->result->status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE || is_outermost(best, f)) {
         return 0;
     }
     return best->larger_q16 > 0 ||
            (best->result->cover_q16 < ALONE_Q16 && lies_within(&best->result->ellipse, f->image)) ||
-           (f->ring_px_q16 > 0 && !about_one_size(best->result->ellipse.a_px_q16, f->ring_px_q16, ANOTHER_SIZE));
+           (f->ring_px_q16 > 0 && is_another_size(best->result->ellipse.a_px_q16, f->ring_px_q16));
 }
 
 /* Measure; while the inner disc is not seen or not of its size, try what else the outline may be. What has the disc
@@ -343,6 +345,6 @@ drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, co
     f.image = image;
     out->status = drogue_input_valid(image, setup) ? measure(&f, region) : DROGUE_E_ARGUMENT;
     out->second_look = f.second_look;
-    out->list = f.held.list;
+    out->list = f.list;
     return out->status;
 }

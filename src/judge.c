@@ -76,7 +76,7 @@ drogue_status drogue_frame_judge(drogue_frame *f)
     drogue_outline_pull(&f->outline, f->workspace->rays, &f->view, f->setup->config);
     describe(out, &f->outline);
     if (drogue_camera_distorts(f->setup->camera)) {
-        status = drogue_outline_undistorted(&out->ideal, &f->outline, f->workspace, &f->held.list, f->setup,
+        status = drogue_outline_undistorted(&out->ideal, &f->outline, f->workspace, &f->list, f->setup,
                                             out->region.x_px, out->region.y_px);
         if (status != DROGUE_OK) {
             memset(&out->ideal, 0, sizeof out->ideal);

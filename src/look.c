@@ -62,7 +62,7 @@ static drogue_status run_frontend(drogue_frame *f)
     for (y = 0; y < view->height_px; y++) {
         drogue_frontend_row(&frontend, drogue_image_row(view, y));
     }
-    return drogue_frontend_end(&f->held.list, &frontend);
+    return drogue_frontend_end(&f->list, &frontend);
 }
 
 /* Does the ring mask, from a third to half of the longest side, hold the whole outline with a pixel to spare? */
@@ -116,9 +116,8 @@ drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region)
 static drogue_status find_outline(drogue_frame *f, const drogue_region *region)
 {
     const drogue_status status = drogue_frame_edges(f, region);
-    return status == DROGUE_OK
-               ? drogue_outline_find(&f->outline, f->workspace, &f->held.list, &f->mask, f->setup->config)
-               : status;
+    return status == DROGUE_OK ? drogue_outline_find(&f->outline, f->workspace, &f->list, &f->mask, f->setup->config)
+                               : status;
 }
 
 /* Is one ellipse about where the other is, and about as large: within parts of its semi-axis? Each in the coordinates
@@ -171,6 +170,7 @@ drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region)
     f->second_look = look_again(f, &found);
     switch (f->second_look) {
     case DROGUE_SECOND_BETTER: return DROGUE_OK;
+    case DROGUE_SECOND_REGION:
     case DROGUE_SECOND_TOO_WIDE: return first; /* it was not begun */
     default: break;
     }
@@ -208,10 +208,10 @@ static drogue_status outline_along_rays(drogue_frame *f, const drogue_region *re
     }
     held->region = *region;
     held->canny_high = DROGUE_BY_RAYS;
-    held->list.arc_count = 0;
-    held->list.edge_count = drogue_inner_beyond(f->workspace, &f->view, about, larger_px_q16);
-    return held->list.edge_count > 0 &&
-                   drogue_outline_settle(&f->outline, about, 0, f->workspace, &held->list, &f->mask, f->setup->config)
+    f->list.arc_count = 0;
+    f->list.edge_count = drogue_inner_beyond(f->workspace, &f->view, about, larger_px_q16);
+    return f->list.edge_count > 0 &&
+                   drogue_outline_settle(&f->outline, about, 0, f->workspace, &f->list, &f->mask, f->setup->config)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;
 }
@@ -236,14 +236,17 @@ drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, c
         return DROGUE_E_NO_ELLIPSE;
     }
     grown = ((int64_t)about.a_px_q16 + about.b_px_q16 - was->a_px_q16 - was->b_px_q16) / 2; /* > 0 */
-    if (drogue_outline_settle(&f->outline, &about, f->setup->config->refit_band_px_q16, f->workspace, &f->held.list,
+    if (drogue_outline_settle(&f->outline, &about, f->setup->config->refit_band_px_q16, f->workspace, &f->list,
                               &f->mask, f->setup->config) &&
         f->outline.cover_q16 >= OUTER_Q16 &&
         (int64_t)e->a_px_q16 + e->b_px_q16 - was->a_px_q16 - was->b_px_q16 >= grown) { /* else back to the inner one */
         return DROGUE_OK;
     }
     status = outline_along_rays(f, region, &about, (drogue_q16)grown);
-    return status == DROGUE_OK && f->outline.cover_q16 < OUTER_Q16 ? DROGUE_E_NO_ELLIPSE : status;
+    return status == DROGUE_OK &&
+                   (f->outline.cover_q16 < OUTER_Q16 || e->a_px_q16 < was->a_px_q16 || e->b_px_q16 < was->b_px_q16)
+               ? DROGUE_E_NO_ELLIPSE
+               : status;
 }
 
 /* Of the outlines that a disc allows the one that edge points cover best, if better than what there is. */
@@ -263,7 +266,7 @@ static void best_ring(drogue_ellipse *best, drogue_q16 *most_q16, const drogue_f
             drogue_inner_rims(&rims, sight, yaw, pitch, f->setup, f->out->region.x_px, f->out->region.y_px);
             for (i = 0; i < rims.count; i++) {
                 const drogue_q16 cover =
-                    drogue_outline_covered(&rims.disc[i], f->workspace, &f->held.list, &f->mask, f->setup->config);
+                    drogue_outline_covered(&rims.disc[i], f->workspace, &f->list, &f->mask, f->setup->config);
                 if (cover > *most_q16) {
                     *most_q16 = cover;
                     *best = rims.disc[i];
@@ -281,18 +284,21 @@ static int of_size(const drogue_ellipse *e, const drogue_mask *mask)
     return 2 * (20 + 1) * (int64_t)e->a_px_q16 <= longest && 3 * (20 - 1) * (int64_t)e->b_px_q16 >= longest;
 }
 
-drogue_status drogue_frame_ring(drogue_ellipse *ring, drogue_frame *f, const drogue_region *region)
+/* Look for the inner disc in a region, then for its edges in one that suits what outlines the disc allows, and choose
+ * of those the one that edge points cover best: 'ring', in coordinates of that region, which becomes the result's.
+ * DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked for. */
+static drogue_status find_ring(drogue_ellipse *ring, drogue_frame *f, const drogue_region *region)
 {
     drogue_result *out = f->out;
     drogue_region about = *region;
     drogue_ellipse disc[2];
     drogue_inner_sight sight[2];
     drogue_inner_expected rims;
-    drogue_q16 most = 0;
     uint32_t count;
     uint32_t i;
     drogue_status status = place_view(f, region);
     f->second_look = DROGUE_SECOND_NONE;
+    f->ring_cover_q16 = 0;
     memset(ring, 0, sizeof *ring);
     count = status == DROGUE_OK ? drogue_inner_seek(disc, f->workspace->rays, &f->view, &f->mask, f->setup) : 0;
     for (i = 0; i < count; i++) {
@@ -314,7 +320,7 @@ drogue_status drogue_frame_ring(drogue_ellipse *ring, drogue_frame *f, const dro
     }
     status = drogue_frame_edges(f, &about);
     for (i = 0; i < count && status == DROGUE_OK; i++) {
-        best_ring(ring, &most, f, &sight[i]);
+        best_ring(ring, &f->ring_cover_q16, f, &sight[i]);
     }
     return status;
 }
@@ -322,12 +328,12 @@ drogue_status drogue_frame_ring(drogue_ellipse *ring, drogue_frame *f, const dro
 drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *region)
 {
     drogue_ellipse ring;
-    const drogue_status status = drogue_frame_ring(&ring, f, region);
+    const drogue_status status = find_ring(&ring, f, region);
     if (status != DROGUE_OK) {
         return status;
     }
     f->ring_px_q16 = ring.a_px_q16;
-    return drogue_outline_settle(&f->outline, &ring, 0, f->workspace, &f->held.list, &f->mask, f->setup->config) &&
+    return drogue_outline_settle(&f->outline, &ring, 0, f->workspace, &f->list, &f->mask, f->setup->config) &&
                    about_the_same(&f->outline.ellipse, &ring, 0, 0, THERE, AS_ALLOWED)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;

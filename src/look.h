@@ -10,9 +10,8 @@
 
 /* What the workspace's edge points are: whoever wants others looks for them again. */
 typedef struct drogue_held {
-    drogue_edge_list list; /* how many */
-    drogue_region region;  /* where they were looked for */
-    int32_t canny_high;    /* by which upper threshold, or DROGUE_BY_RAYS */
+    drogue_region region; /* where they were looked for */
+    int32_t canny_high;   /* by which upper threshold, or DROGUE_BY_RAYS */
 } drogue_held;
 
 typedef struct drogue_frame {
@@ -24,12 +23,14 @@ typedef struct drogue_frame {
     drogue_mask mask;
     drogue_outline outline;
     drogue_held held;
+    drogue_edge_list list; /* and how many there are */
     drogue_second_look second_look;
     drogue_second_look room; /* TOO_WIDE or FULL: what a try had too little room in; else NONE */
     int32_t canny_high;      /* to look by; the lower threshold is in proportion, as the configured ones are */
     drogue_q16 larger_q16;   /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
     drogue_q16 ring_px_q16;  /* semi-axis of the outline that a disc allows which was sought; 0: there is none */
-    drogue_q16 doubt_q16;    /* in the inner disc's size, as in drogue_inner_evidence, a little more where disc and
+    drogue_q16 ring_cover_q16; /* and how much of it edge points cover */
+    drogue_q16 doubt_q16;      /* in the inner disc's size, as in drogue_inner_evidence, a little more where disc and
                                outline contradict each other or it says that the outline is too far; 1: not seen, or
                                too large for the outline; more: no outline */
 } drogue_frame;
@@ -54,12 +55,9 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
  * there are, which are those that the outline was found by; else as above. */
 drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was);
 
-/* Look for the inner disc in a region, then for its edges in one that suits what outlines the disc allows, and choose
- * of those the one that edge points cover best: 'ring', in coordinates of that region, which becomes the result's.
- * DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked for. */
-drogue_status drogue_frame_ring(drogue_ellipse *ring, drogue_frame *f, const drogue_region *region);
-
-/* The outline about that ring, whose semi-axis the frame has then. */
+/* The outline about the inner disc, which is sought: of those that it allows the one that edge points cover best, whose
+ * size and cover the frame has then, settled. DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked
+ * for. */
 drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *region);
 
 /* From the outline to the pose. Apart from the rest for its stack: that of the looks is not below it. */

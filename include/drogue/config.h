@@ -11,7 +11,8 @@ extern "C" {
 
 /* How a fit is scored: quality.h. */
 typedef struct drogue_quality_config {
-    drogue_q16 fit_error_px_q16; /* points this near the ellipse count as on it: Th_error = 2 fit_error / a in (10) */
+    drogue_q16 fit_error_px_q16; /* points this near the ellipse count as on it: Th_error = 2 fit_error / a in (10);
+                                    of a frame at least search_band, not limited to 8 px */
     drogue_q16 k1_q16;           /* (14): decay of the score of flat ellipses, [0, 64] */
     drogue_q16 k2_q16;           /* (14): axis ratio at which that score is 0, [0, 1) */
 } drogue_quality_config;

@@ -116,8 +116,12 @@ int drogue_input_valid(const drogue_image *image, const drogue_setup *setup);
  *             rim is cut or not in the ring, and what stands may be another edge, its covariance that edge's
  *  return     DROGUE_OK, or why there is no pose: DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE,
  *             DROGUE_E_LABELS_FULL, DROGUE_E_EDGES_FULL, DROGUE_E_ARCS_FULL, DROGUE_E_NO_EDGES, DROGUE_E_NO_ARCS,
- *             DROGUE_E_NO_ELLIPSE, DROGUE_E_DOMAIN. No ellipse is also one that lies all in the image, of which less
- *             than 7/10 is covered, and within which no inner part is seen, where the model has one
+ *             DROGUE_E_NO_ELLIPSE, DROGUE_E_DOMAIN. Where the model has an inner part, an ellipse in which none is
+ *             believed is none, either: when it lies all in the image and less than 7/10 of it is covered, when a disc
+ *             is seen in its place that is too large for it, or when the disc that was sought asks for a rim of
+ *             another size by more than an eighth. But one of which 7/8 is covered, outside which no other edge shows
+ *             and less than a quarter of one that such a disc asks for, stands unless the disc is too large by less
+ *             than a fifth: shade may hide the disc
  */
 drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
                              const drogue_image *image, const drogue_region *region);

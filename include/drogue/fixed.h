@@ -127,7 +127,7 @@ static inline drogue_q16 drogue_q16_abs(drogue_q16 v) { return v < 0 ? drogue_q1
 /* a^2 + b^2, exact. */
 static inline uint64_t drogue_square_sum(int32_t a, int32_t b)
 {
-    return (uint64_t)((int64_t)a * a) + (uint64_t)((int64_t)b * b);
+    return (uint64_t)drogue_product(a, a) + (uint64_t)drogue_product(b, b);
 }
 
 /* (u, v), any, turned by an angle from the first axis to the second, its cosine and sine within 2^30: rounded to

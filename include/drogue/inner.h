@@ -72,7 +72,8 @@ static inline drogue_q16 drogue_inner_room(const drogue_ellipse *expected, const
  * that touch the disc cost rays, not place; a ring about it or light from one side hardly move what is dark.
  * The grey beyond it must be above the disc's own by 12 standard errors of that: rays choose what rises, in noise
  * as well. Where the edge that rises fastest is of another size than expected, and one of the size is beside it, that
- * one is the disc's.
+ * one is the disc's: shown by 16 of 64 rays or, of one that is too large to be believed, as shade's about the disc, by
+ * 24 in samples half as far apart (DROGUE_RAY_FINE_RISES).
  *
  *  out      of the expected discs the one whose rays agree with the steepest edges; the other one where that is not to
  *           be believed (drogue_inner_std()), but the other is and is no larger than it should be. Where neither is
@@ -107,7 +108,8 @@ typedef struct drogue_inner_evidence {
     /* 1: a disc is seen that would be believed but for its size, which is too large for the outline */
     int32_t too_large;
     uint32_t nearer;        /* index of the pose whose projected inner centre is nearer, believed or not; 0 of a part
-                               that is smaller than min_inner_area */
+                               that is smaller than min_inner_area, beyond the lens model, or behind the camera for
+                               one of the poses */
     drogue_q16 doubt_q16;   /* share by which the disc's size puts the distance in doubt */
     drogue_q16 too_far_q16; /* share by which size and place say that the outline's pose is too far */
 } drogue_inner_evidence;

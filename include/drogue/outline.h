@@ -115,10 +115,11 @@ void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], 
 
 /* Look along rays for the rim's outer edge about an outline that may be its inner one, on one side or all about, as of
  * a band of another grey or a lip that is lit: too narrow or too faint for the edge detector, or cut off by the ring.
- * Between 1 and 5 px outside, where that shows none of a semi-axis above 100 px to a fortieth of it, four rays a bin
- * (support.h) show edges of either sign, by steps of grey over 1 px, or twice as much of that part: of 5 levels, of a
- * fifth of what the outline's own have, and of half as much again as the mean farther outside but for the edge. Least
- * squares over size, place and shape, at first of the steepest edges outside, then of those near it, give an ellipse.
+ * Between 1 and 5 px outside, where that shows none of a semi-axis above 100 px to a twentieth of it, four rays a bin
+ * (support.h) show edges of either sign, by steps of grey over 1 px, or over a hundredth of that semi-axis: of 5
+ * levels, of a fifth of what the outline's own have, and of half as much again as the mean farther outside but for the
+ * edge. Least squares over size, place and shape, at first of the steepest edges outside, then of those near it, give
+ * an ellipse.
  * It is the rim where its semi-axes are larger by 0.3 px on the mean and by no more than an eighth of b, as no other
  * wave is, and it passes 22 of 32 bins within 0.6 px of an edge, 8 of them of an outer one.
  *

@@ -72,13 +72,18 @@ static inline void drogue_ray_read_as(int32_t *value_q8, const drogue_ray *ray, 
 }
 
 /* What is looked for along rays: where the grey rises outwards; where it rises or falls, whose slope is taken as
- * positive; the same from samples half as far apart, so that the two edges of a line of 2 px are two. */
-typedef enum drogue_ray_look { DROGUE_RAY_RISES, DROGUE_RAY_STEPS, DROGUE_RAY_LINES } drogue_ray_look;
+ * positive; and both from samples half as far apart, so that two edges 2 px apart are two. */
+typedef enum drogue_ray_look {
+    DROGUE_RAY_RISES,
+    DROGUE_RAY_STEPS,
+    DROGUE_RAY_FINE_RISES,
+    DROGUE_RAY_LINES
+} drogue_ray_look;
 
 /* Place rays and find the edges on them.
  *
  *  reach   how far from the ellipse edges are looked for, [2, 512] px and limited to that; samples are half a pixel
- *          apart, of lines a quarter, or 32 to the reach where that is more
+ *          apart, of the last two looks a quarter, or 32 to the reach where that is more
  *  every   1 or 2: of the rays each, or every second one and no edges on the others
  *  least   least step of grey, grey levels, [0, 2^16]
  *  image, ellipse, phase  as above

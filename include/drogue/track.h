@@ -19,8 +19,9 @@
  *
  * Of the two poses that an outline allows, one whose orientation is not resolved goes by the smaller distance. A
  * resolved one that the gate refuses gives way to its twin when that passes; after the same number of frames in
- * a row with the same verdict the measurement is believed and the angles start anew. While both twins pass the gate the
- * orientation is not known, and what is known expires when nothing decides for long. */
+ * a row with the same verdict the measurement is believed and the angles start anew. While one twin passes the gate and
+ * the other three times that gate the orientation is not known, and what is known expires when nothing decides for
+ * long. */
 #ifndef DROGUE_TRACK_H
 #define DROGUE_TRACK_H
 
@@ -57,8 +58,8 @@ typedef struct drogue_track_config {
     int32_t min_region_px;           /* 32 px */
     int32_t max_region_px;           /* DROGUE_MAX_SIDE; see drogue_track_frame() for what the workspace holds */
     drogue_q16 lateral_std_q16;      /* 0.0005: standard deviation of x and y, share of the distance, where a result has
-                                       no covariance; the gate allows for it, too */
-    drogue_q16 depth_std_q16;        /* 0.002: the same of z, share of the distance */
+                                       no covariance */
+    drogue_q16 depth_std_q16;        /* 0.002: the same of z, share of the distance; the gate allows for it always */
     drogue_q16 angle_std_rad_q16;    /* 0.02 rad: the same of pitch and yaw */
     drogue_q16 position_floor_m_q16; /* 0.0001 m: added in quadrature to the measured standard deviations */
     drogue_q16 angle_floor_rad_q16;  /* 0.0005 rad */

@@ -70,7 +70,7 @@ static void cast(drogue_ray rays[RAYS], const drogue_image *view, const drogue_e
                  int32_t phase, drogue_ray_look look, int32_t least)
 {
     drogue_rays_cast(rays, view, about, reach_of(beyond_px_q16), phase, 1, least, look);
-    drogue_rays_keep(rays, -(beyond_px_q16 / 2), DROGUE_Q16_MAX);
+    drogue_rays_keep(rays, NULL, -(beyond_px_q16 / 2), DROGUE_Q16_MAX);
 }
 
 /* Do the edges that are looked for make an outline, and how far off is it? */

@@ -6,10 +6,12 @@
 
 #include "shade.h"
 
-#define APART DROGUE_Q16(3, 4)     /* px */
-#define EVERY 2                    /* so many-th ray will do to find a disc, and to measure a small one */
-#define SMALL DROGUE_Q16(10, 1)    /* px: semi-axis below which a disc is small */
-#define INWARD DROGUE_Q16(45, 100) /* px: a quarter of a blurred step is this far within its middle */
+#define APART DROGUE_Q16(3, 4)       /* px */
+#define EVERY 2                      /* so many-th ray will do to find a disc, and to measure a small one */
+#define SMALL DROGUE_Q16(10, 1)      /* px: semi-axis below which a disc is small */
+#define INWARD DROGUE_Q16(45, 100)   /* px: a quarter of a blurred step is this far within its middle */
+#define APPEAR (RAYS / 4 / EVERY)    /* rays that see two edges apart; */
+#define APPEAR_FINE (APPEAR * 3 / 2) /* of those that are less than 3 px apart, where noise shows more */
 #define LARGER 64 /* so many-th part of its size: a disc that is larger by more may be something else */
 
 /* The band narrows to what agrees. */
@@ -30,45 +32,29 @@ static int narrow(drogue_ray_sums *s, drogue_q16 v_px_q16[3], drogue_q16 *within
     return 1;
 }
 
-/* Of the edges those that lie beyond a first circle on the side of what was expected. */
-static void keep_beyond(drogue_ray rays[RAYS], const drogue_q16 first_px_q16[3])
-{
-    int32_t k;
-    for (k = 0; k < RAYS; k++) {
-        drogue_ray *r = &rays[k];
-        const drogue_q16 at = r->count > 0 ? drogue_ray_along(r, first_px_q16) : 0;
-        uint32_t kept = 0;
-        uint32_t i;
-        for (i = 0; i < r->count; i++) { /* bound: DROGUE_RAY_EDGES */
-            const drogue_q16 off = drogue_q16_sub(r->edges[i].at_px_q16, at);
-            if (first_px_q16[2] > 0 ? off < -APART : off > APART) {
-                r->edges[kept++] = r->edges[i];
-            }
-        }
-        r->count = kept;
-    }
-}
-
 /* Where the steepest edge is of another size than expected, as a collar's about the disc, one of the size that lies
- * beyond it takes its place: so many rays see it apart, elsewhere both may be one. */
-static void prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], uint32_t least)
+ * beyond it takes its place: so many rays see it apart, elsewhere both may be one. Returns whether there is one. */
+static int prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], uint32_t least)
 {
     drogue_q16 v[3];
     drogue_ray_sums s;
     v[0] = v_px_q16[0];
     v[1] = v_px_q16[1];
     v[2] = 0;
-    keep_beyond(rays, v_px_q16);
-    if (drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(drogue_q16_abs(v_px_q16[2]), DROGUE_Q16(1, 1)), APART, 0) &&
-        s.rays >= least) {
-        memcpy(v_px_q16, v, sizeof v);
+    drogue_rays_keep(rays, v_px_q16, v_px_q16[2] > 0 ? DROGUE_Q16_MIN : APART,
+                     v_px_q16[2] > 0 ? -APART : DROGUE_Q16_MAX);
+    if (!drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(drogue_q16_abs(v_px_q16[2]), DROGUE_Q16(1, 1)), APART, 0) ||
+        s.rays < least) {
+        return 0;
     }
+    memcpy(v_px_q16, v, sizeof v);
+    return 1;
 }
 
 /* Measure about a first place: which rays see the edge, and how large it is, by its steepest place; where it is, by
  * half as many rays as it has pixels, at most 512. */
 static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
-                             const drogue_ellipse *e, const drogue_config *config)
+                             const drogue_ellipse *e, drogue_ray_look look, const drogue_config *config)
 {
     drogue_q16 within = DROGUE_Q16(3, 2);
     drogue_q16 v[3] = {0, 0, 0};
@@ -80,7 +66,7 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     const int32_t every = e->a_px_q16 < SMALL ? EVERY : 1;
     int32_t k;
     phases = drogue_clamp_s32(phases, 1, 8);
-    drogue_rays_cast(rays, image, e, 0, 4, every, config->min_inner_contrast, DROGUE_RAY_RISES);
+    drogue_rays_cast(rays, image, e, 0, 4, every, config->min_inner_contrast, look);
     if (!narrow(&s, v, &within, rays) || !drogue_inner_shade_find(&grey, rays, image, config->transfer, v, within)) {
         return DROGUE_E_NO_INNER_PART;
     }
@@ -133,13 +119,16 @@ static void name_nearer(drogue_inner_edge *edge, const drogue_inner_expected *ex
 /* Rounded to 1/256 px, in which rays read the image: a first place's last bits need not move them. */
 static drogue_q16 whole(drogue_q16 v_px_q16) { return drogue_q16_add(v_px_q16, 128) & ~255; }
 
-/* Where an expected disc may be: how far off and how much larger, and how steep the edges are that say so. */
+/* Where an expected disc may be: how far off and how much larger, how steep the edges are that say so, and what shows
+ * it. */
 typedef struct first_place {
     drogue_q16 v_px_q16[3];
     int32_t slopes_q8; /* 0: nowhere */
+    drogue_ray_look look;
 } first_place;
 
-/* Look for a disc within the gate about where it is expected. Returns 1 when it is seen in its place, of its size. */
+/* Look for a disc within the gate about where it is expected. One that shade surrounds, as within a coupling, is the
+ * smaller step of two that are near each other. Returns 1 when it is seen in its place, of its size. */
 static int look_about(first_place *out, drogue_ray rays[RAYS], const drogue_image *image, const drogue_ellipse *e,
                       drogue_q16 gate_px_q16, const drogue_config *config)
 {
@@ -155,7 +144,11 @@ static int look_about(first_place *out, drogue_ray rays[RAYS], const drogue_imag
     }
     out->slopes_q8 = s.slopes_q8;
     if (drogue_q16_abs(v[2]) > drogue_q16_add(e->a_px_q16 / 64, DROGUE_Q16(1, 2))) {
-        prefer_size(v, rays, RAYS / 4 / EVERY);
+        const int is_too_large = v[2] > room;
+        if (!prefer_size(v, rays, APPEAR) && is_too_large) {
+            drogue_rays_cast(rays, image, e, reach, 4, EVERY, config->min_inner_contrast, DROGUE_RAY_FINE_RISES);
+            out->look = prefer_size(v, rays, APPEAR_FINE) ? DROGUE_RAY_FINE_RISES : DROGUE_RAY_RISES;
+        }
     }
     return 8 * s.rays * EVERY >= 7 * RAYS && drogue_q16_abs(v[2]) <= room &&
            drogue_square_sum(v[0], v[1]) <= drogue_square_sum(gate_px_q16, 0);
@@ -177,7 +170,7 @@ static drogue_status measure_at(drogue_inner_edge *out, drogue_ray rays[RAYS], c
     if (at.b_px_q16 < DROGUE_Q16_ONE) {
         return DROGUE_E_NO_INNER_PART;
     }
-    status = measure(out, rays, image, &at, config);
+    status = measure(out, rays, image, &at, first->look, config);
     if (status != DROGUE_OK) {
         memset(out, 0, sizeof *out);
         return status;

@@ -29,15 +29,18 @@ int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogu
     return best;
 }
 
-void drogue_rays_keep(drogue_ray rays[RAYS], drogue_q16 above_px_q16, drogue_q16 below_px_q16)
+void drogue_rays_keep(drogue_ray rays[RAYS], const drogue_q16 v_px_q16[3], drogue_q16 above_px_q16,
+                      drogue_q16 below_px_q16)
 {
     int32_t k;
     for (k = 0; k < RAYS; k++) {
         drogue_ray *r = &rays[k];
+        const drogue_q16 from = v_px_q16 != NULL && r->count > 0 ? drogue_ray_along(r, v_px_q16) : 0;
         uint32_t kept = 0;
         uint32_t i;
         for (i = 0; i < r->count; i++) { /* bound: DROGUE_RAY_EDGES */
-            if (r->edges[i].at_px_q16 > above_px_q16 && r->edges[i].at_px_q16 < below_px_q16) {
+            const drogue_q16 off = r->edges[i].at_px_q16 - from;
+            if (off > above_px_q16 && off < below_px_q16) {
                 r->edges[kept++] = r->edges[i];
             }
         }

@@ -33,8 +33,10 @@ drogue_q16 drogue_ray_along(const drogue_ray *r, const drogue_q16 v_px_q16[3]);
  * tolerance. */
 int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogue_q16 within_px_q16);
 
-/* Of the edges on the rays keep those between two places. */
-void drogue_rays_keep(drogue_ray rays[RAYS], drogue_q16 above_px_q16, drogue_q16 below_px_q16);
+/* Of the edges on the rays keep those between two places, seen from where an offset puts the edge; NULL: from the
+ * ellipse. */
+void drogue_rays_keep(drogue_ray rays[RAYS], const drogue_q16 v_px_q16[3], drogue_q16 above_px_q16,
+                      drogue_q16 below_px_q16);
 
 /* Add what a ray says: 'off' from what is known. Its weight is at most 255^2. */
 void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int32_t weight, int32_t off_q16);

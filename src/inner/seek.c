@@ -104,7 +104,7 @@ uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[RAYS], const d
     }
     out[1] = out[0];
     drogue_rays_cast(rays, view, &out[1], out[0].a_px_q16 / 2, PHASE, EVERY, least, DROGUE_RAY_RISES);
-    drogue_rays_keep(rays, -DROGUE_Q16_MAX, -(out[0].a_px_q16 / 16));
+    drogue_rays_keep(rays, NULL, -DROGUE_Q16_MAX, -(out[0].a_px_q16 / 16));
     return settle(&out[1], rays, -(out[0].a_px_q16 / 4), out[0].a_px_q16 / 4) > 0 ? 2 : 1;
 }
 

@@ -99,7 +99,6 @@ static int32_t see_bin(outer_bin *bin, int32_t *count, const int32_t one[SAMPLES
 static int32_t see(outer_bin bins[BINS], drogue_ray rays[DROGUE_RAYS], const drogue_image *view, drogue_q16 step_px_q16)
 {
     int32_t grey_q8[2][SAMPLES];
-    int32_t first_q8[SAMPLES];
     int64_t own = 0;
     int64_t outside = 0;
     int32_t least = IN_BIN * LEAST_Q8;
@@ -107,15 +106,9 @@ static int32_t see(outer_bin bins[BINS], drogue_ray rays[DROGUE_RAYS], const dro
     int32_t count = 0; /* of them there are three in each bin and more */
     int32_t noise;
     int32_t k;
-    read_pair(first_q8, rays, 0, view, step_px_q16);
-    memcpy(grey_q8[0], first_q8, sizeof first_q8);
+    read_pair(grey_q8[0], rays, 0, view, step_px_q16);
     for (k = 0; k < BINS; k++) {
-        int32_t *const next_q8 = grey_q8[1 - k % 2];
-        if (k + 1 < BINS) {
-            read_pair(next_q8, rays, k + 1, view, step_px_q16);
-        } else {
-            memcpy(next_q8, first_q8, sizeof first_q8);
-        }
+        read_pair(grey_q8[1 - k % 2], rays, (k + 1) % BINS, view, step_px_q16);
         outside += see_bin(&bins[k], &count, grey_q8[0], grey_q8[1], step_px_q16);
         own += bins[k].slope[0];
     }
@@ -157,31 +150,30 @@ static drogue_q16 at_bin(const drogue_q16 v_px_q16[WAVES], const int32_t basis_q
  * one, and enough of them an outer one. */
 static int fit(drogue_q16 v_px_q16[WAVES], const outer_bin bins[BINS], drogue_q16 within_px_q16, int32_t least)
 {
-    int64_t sum_q46[WAVES] = {0, 0, 0, 0, 0};
+    drogue_q16 at_px_q16[BINS];
     int32_t agree = 0;
     int32_t outside = 0;
     uint32_t k;
-    int i;
     for (k = 0; k < BINS; k++) {
         int32_t basis_q30[WAVES];
-        drogue_q16 at;
         int32_t edge;
         drogue_support_basis(basis_q30, k);
-        at = at_bin(v_px_q16, basis_q30);
-        edge = within_px_q16 == 0 ? bins[k].slope[1] >= least : nearest(&bins[k], at, within_px_q16, least);
+        at_px_q16[k] = at_bin(v_px_q16, basis_q30);
+        edge = within_px_q16 == 0 ? bins[k].slope[1] >= least : nearest(&bins[k], at_px_q16[k], within_px_q16, least);
         if (edge < EDGES) {
-            at = bins[k].at_px_q16[edge];
+            at_px_q16[k] = bins[k].at_px_q16[edge];
             agree++;
             outside += edge > 0;
         }
-        for (i = 0; i < WAVES; i++) {
-            sum_q46[i] += drogue_product(at, basis_q30[i]);
-        }
     }
-    for (i = 0; i < WAVES; i++) {
-        v_px_q16[i] = (drogue_q16)drogue_shr_round_s64(sum_q46[i], i > 0 ? 34 : 35);
-    }
+    drogue_fit_waves(v_px_q16, at_px_q16);
     return agree >= AGREE && outside >= OUTSIDE;
+}
+
+/* What an offset is of a length. */
+static int32_t part_q24(drogue_q16 off_px_q16, int64_t of_px_q16)
+{
+    return (int32_t)drogue_div_round_s64(off_px_q16 * (INT64_C(1) << 24), of_px_q16);
 }
 
 /* Look in steps of a size. */
@@ -191,6 +183,8 @@ static int look(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], const drogu
     drogue_q16 v_px_q16[WAVES] = {0, 0, 0, 0, 0};
     drogue_q16 last_px_q16[WAVES];
     int32_t pull_q24[WAVES];
+    int32_t along_q24; /* by how much it is longer, and wider */
+    int32_t across_q24;
     const int32_t least = see(bins, rays, view, step_px_q16);
     int i;
     if (!fit(v_px_q16, bins, 0, least)) {
@@ -203,13 +197,18 @@ static int look(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], const drogu
     if (v_px_q16[0] < GROWN || !fit(last_px_q16, bins, ON_IT_PX, least)) {
         return 0;
     }
-    for (i = 0; i < WAVES; i++) { /* in mean semi-axes: of a rim in one plane both grow in proportion */
+    for (i = 0; i < WAVES; i++) {
         if (drogue_abs_s32(v_px_q16[i]) > outer->b_px_q16 / PARTS) {
             return 0;
         }
-        pull_q24[i] = (int32_t)drogue_div_round_s64(-v_px_q16[i] * (INT64_C(1) << 25),
-                                                    (int64_t)outer->a_px_q16 + outer->b_px_q16);
     }
+    along_q24 = part_q24(v_px_q16[0] + v_px_q16[3], outer->a_px_q16);
+    across_q24 = part_q24(v_px_q16[0] - v_px_q16[3], outer->b_px_q16);
+    pull_q24[0] = -(along_q24 + across_q24) / 2;
+    pull_q24[1] = -part_q24(v_px_q16[1], outer->a_px_q16);
+    pull_q24[2] = -part_q24(v_px_q16[2], outer->b_px_q16);
+    pull_q24[3] = -(along_q24 - across_q24) / 2;
+    pull_q24[4] = -part_q24(2 * v_px_q16[4], (int64_t)outer->a_px_q16 + outer->b_px_q16);
     drogue_outline_put_back(outer, pull_q24);
     return 1;
 }

@@ -66,9 +66,6 @@ drogue_status drogue_ellipse_frame_of(drogue_ellipse_frame *out, const drogue_el
     return DROGUE_OK;
 }
 
-/* a - b, saturated */
-static int32_t away(int32_t a, int32_t b) { return drogue_sat_s32((int64_t)a - b); }
-
 static int32_t clamp_q24(int64_t v_q46)
 {
     const int64_t most = INT64_C(16) << 24;
@@ -79,8 +76,8 @@ static int32_t clamp_q24(int64_t v_q46)
 void drogue_ellipse_frame_point(int32_t *u_q24, int32_t *v_q24, const drogue_ellipse_frame *frame, drogue_q16 x_px_q16,
                                 drogue_q16 y_px_q16)
 {
-    const int32_t dx = away(x_px_q16, frame->xc_px_q16);
-    const int32_t dy = away(y_px_q16, frame->yc_px_q16);
+    const int32_t dx = drogue_q16_sub(x_px_q16, frame->xc_px_q16);
+    const int32_t dy = drogue_q16_sub(y_px_q16, frame->yc_px_q16);
     *u_q24 = clamp_q24(drogue_product(dx, frame->cos_over_a_q30) + drogue_product(dy, frame->sin_over_a_q30));
     *v_q24 = clamp_q24(drogue_product(dy, frame->cos_over_b_q30) - drogue_product(dx, frame->sin_over_b_q30));
     DROGUE_NOTE("quality: u, Q24", *u_q24, 29);

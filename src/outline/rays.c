@@ -237,17 +237,18 @@ void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, c
 {
     const drogue_q16 reach = drogue_clamp_s32(reach_px_q16, NEAREST, FARTHEST);
     const drogue_q16 least_step = reach / (SAMPLES / 2);
-    const drogue_q16 finest = look == DROGUE_RAY_LINES ? QUARTER : HALF;
+    const drogue_q16 finest = look >= DROGUE_RAY_FINE_RISES ? QUARTER : HALF;
     const drogue_q16 step = finest < least_step ? least_step : finest;
     const int32_t least_q8 = least * DROGUE_RAY_WEIGHT * ((step < HALF ? step : HALF) >> 8); /* blur may leave half */
     const int32_t out = drogue_clamp_s32(reach / step + 1, 1, SAMPLES / 2);
+    const int either = look == DROGUE_RAY_STEPS || look == DROGUE_RAY_LINES;
     int32_t k;
     aim(rays, e, phase, 0, DROGUE_RAYS / 2, every);
     for (k = 0; k < DROGUE_RAYS; k++) {
         rays[k].count = 0;
         if (k % every == 0) {
             rays[k].step_px_q16 = step;
-            find_edges(&rays[k], image, out, least_q8, look != DROGUE_RAY_RISES);
+            find_edges(&rays[k], image, out, least_q8, either);
         }
     }
 }

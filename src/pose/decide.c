@@ -252,7 +252,6 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
         together = solve_together(&joint, &index, &agree, &out->orientation_resolved, &outline, evidence, setup);
     }
     if (!together) {
-        out->orientation_resolved = 0;
         index = evidence->nearer;
         if (drogue_joint_settle(&joint, &evidence->poses[index], &outline, &none, setup->camera, setup->model, 0, 1) !=
             DROGUE_OK) {

@@ -13,7 +13,7 @@
 #define RIGHT DROGUE_PACKED(FIT, 0)
 #define CHI2 DROGUE_PACKED(FIT, FIT)
 
-/* a . b, exact; |a|, |b| <= 2^31, one of them 2^30 */
+/* a . b, exact; one within 2^30, the other, a row, within 3 2^29: five products stay below 2^63 */
 static int64_t products(const int32_t a[FIT], const int32_t b[FIT])
 {
     int64_t sum = 0;
@@ -41,7 +41,7 @@ static void normal_equations(drogue_real normal[CHI2 + 1], const drogue_joint_ro
         int32_t exponent;
         for (i = 0; i < FIT; i++) {
             sum[i] = 0;
-            for (q = 0; q < FIT; q++) { /* |weights| <= 2^30, |rows| <= 2^31 */
+            for (q = 0; q < FIT; q++) { /* the same bounds */
                 sum[i] += drogue_product(w->weight[DROGUE_PACKED(i, q)], column->outline[q]);
             }
         }
@@ -62,7 +62,7 @@ static void normal_equations(drogue_real normal[CHI2 + 1], const drogue_joint_ro
     }
 }
 
-static int32_t limited(int32_t v, int32_t most) { return v > most ? most : v < -most ? -most : v; }
+static int32_t limited(int32_t v, int32_t most) { return drogue_clamp_s32(v, -most, most); }
 
 /* One step, at most half a radian in each angle and half the distance in each direction, so that no step passes the
  * camera. Returns whether it is small. */

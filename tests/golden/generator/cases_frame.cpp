@@ -353,6 +353,30 @@ Frame dashed_drogue(const Dashed &d)
     return f;
 }
 
+/* A whole rim about a disc in shade, as a coupling's: a dark band about it, or of its own grey, so that it is hidden. */
+struct Shaded {
+    double rim_px, shade_px;
+    int disc, shade;
+    double blur_px, x_px, y_px; /* disc and shade beside the middle */
+};
+
+Frame shaded_drogue(const Shaded &d)
+{
+    constexpr int WIDTH = 160;
+    Frame f;
+    f.camera = {800, 800, WIDTH / 2, WIDTH / 2};
+    const double z = f.camera.fx_px * f.radius / d.rim_px, disc_px = f.camera.fx_px * f.inner_radius / (z + f.depth);
+    f.image = image_from(WIDTH, WIDTH, [&](int x, int y) {
+        const double u = x - WIDTH / 2 + 0.3, v = y - WIDTH / 2 - 0.2, r = std::hypot(u - d.x_px, v - d.y_px);
+        const auto rise = [&](double by) { return (1 + std::erf(by / (d.blur_px * std::sqrt(2.0)))) / 2; };
+        return cvRound(d.disc + (d.shade - d.disc) * rise(r - disc_px) + (100 - d.shade) * rise(r - d.shade_px) +
+                       100 * rise(std::hypot(u, v) - d.rim_px));
+    });
+    const int side = cvRound(2.5 * d.rim_px);
+    f.region = {(WIDTH - side) / 2, (WIDTH - side) / 2, side, side};
+    return f;
+}
+
 /* A rim so much darker than what is behind it, in noise of up to so many grey levels. */
 Frame noisy_drogue(int step, int noise, uint32_t seed)
 {
@@ -426,6 +450,15 @@ void add_led_by_disc(Set &set)
     k = 0;
     for (const uint32_t seed : {1u, 2u, 3u, 4u}) {
         add_frame(set, "noisy-rim-" + std::to_string(k++), Tier::stress, {"noise"}, noisy_drogue(12, 20, seed));
+    }
+    k = 0;
+    for (const Shaded &d : {Shaded{28, 12.9, 12, 30, 0.5, -1.6, -0.9},
+                            Shaded{56, 21.7, 16, 30, 0.5, 1.1, 1.1}, /* it shows in the shade, */
+                            Shaded{48, 19.6, 8, 36, 0.7, 0.5, 1.1}, Shaded{32, 14.2, 16, 36, 0.7, -0.3, -1.1},
+                            Shaded{36, 14.7, 12, 36, 0.5, 1.7, -0.9}, /* or not quite, */
+                            Shaded{36, 15.6, 8, 8, 0.9, -1.9, 0}, Shaded{24, 11.9, 12, 8, 0.5, 0.7, -1.9}, /* or not, */
+                            Shaded{40, 19, 10, 10, 0.8, 0, 0}}) { /* nor that to any pose */
+        add_frame(set, "shaded-disc-" + std::to_string(k++), Tier::stress, {}, shaded_drogue(d));
     }
     add_frame(set, "rim-missing", Tier::must_reject, {}, dashed_drogue({40, 0, 0, 1, 76}));
 }
@@ -559,7 +592,7 @@ void add_between(Set &set)
     add_frame(set, "between-larger", Tier::stress, {}, another);
     for (k = 0; k < 4; k++) {
         accuracy::Random random(500 + static_cast<uint64_t>(k));
-        Frame f = banded_drogue({k < 2 ? 40.0 + k : 46.5 + 2 * k, 0, 0, 30, 30, 6 + 3 * k, 0.9});
+        Frame f = banded_drogue({k < 2 ? 40.0 + 2 * k : 46.5 + 2 * k, 0, 0, 30, 30, 6 + 3 * k, 0.9});
         const int noise = 10 + 5 * k;
         for (auto p = f.image.begin<uint8_t>(); p != f.image.end<uint8_t>(); ++p) {
             *p = static_cast<uint8_t>(std::clamp(std::max<int>(*p, 30) + between(random, -noise, noise), 0, 255));

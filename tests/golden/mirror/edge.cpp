@@ -101,7 +101,7 @@ bool settle(Sums &s, Offset &v, const Rays &rays, Real within, Real last, bool s
 namespace {
 
 /* An edge of the size expected for one that is not: among the edges that lie beyond the first on that side. */
-void prefer_size(Offset &first, Rays rays, int least)
+bool prefer_size(Offset &first, Rays rays, int least)
 {
     Offset v = {first[0], first[1], 0};
     Sums s;
@@ -113,15 +113,16 @@ void prefer_size(Offset &first, Rays rays, int least)
         });
         r.count = static_cast<uint32_t>(end - r.edges);
     }
-    if (settle(s, v, rays, std::fabs(first[2]) + 1, 0.75L, false) && s.rays >= least) {
-        first = v;
-    }
+    const bool found = settle(s, v, rays, std::fabs(first[2]) + 1, 0.75L, false) && s.rays >= least;
+    first = found ? v : first;
+    return found;
 }
 
-Rays cast(const drogue_image &view, const drogue_ellipse &e, drogue_q16 reach, int every, int least)
+Rays cast(const drogue_image &view, const drogue_ellipse &e, drogue_q16 reach, int every, int least,
+          drogue_ray_look look)
 {
     Rays rays;
-    drogue_rays_cast(rays.data(), &view, &e, reach, 4, every, least, DROGUE_RAY_RISES);
+    drogue_rays_cast(rays.data(), &view, &e, reach, 4, every, least, look);
     return rays;
 }
 
@@ -238,6 +239,7 @@ void cross(Rays &rays, const drogue_image &view, drogue_transfer transfer, const
 struct Place {
     int which;
     std::array<int, 3> at; /* x, y, size */
+    drogue_ray_look look;
 };
 
 /* Measure about a first place. */
@@ -256,7 +258,7 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     }
     const int phases = std::min(std::max(at.a_px_q16 / (20 * 65536), 1), 8);
     const int every = at.a_px_q16 < 10 * 65536 ? 2 : 1;
-    Rays rays = cast(view, at, 0, every, config.min_inner_contrast);
+    Rays rays = cast(view, at, 0, every, config.min_inner_contrast, place.look);
     Offset v = {0, 0, 0};
     Shade shade;
     Sums s;
@@ -317,20 +319,28 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
 struct First {
     Offset v = {0, 0, 0};
     Real slopes = 0;
+    drogue_ray_look look = DROGUE_RAY_RISES;
 };
 
 /* Look for a disc about where it is expected. 1 when it is seen in its place, of its size. */
 bool look_about(First &out, const drogue_image &view, const drogue_ellipse &e, Real gate, const drogue_config &config)
 {
     const Real reach = gate + real(e.a_px_q16) / 16 + 2;
-    const Rays rays = cast(view, e, reference::q16(reach), 2, config.min_inner_contrast);
+    const auto seen = [&](drogue_ray_look look) {
+        return cast(view, e, reference::q16(reach), 2, config.min_inner_contrast, look);
+    };
+    const Rays rays = seen(DROGUE_RAY_RISES);
     Sums s;
     if (!settle(s, out.v, rays, gate + 1, std::max<Real>(1.5, reach / 16), true)) {
         return false;
     }
     out.slopes = s.slopes;
     if (std::fabs(out.v[2]) > real(e.a_px_q16) / 64 + 0.5L) {
-        prefer_size(out.v, rays, DROGUE_RAYS / 8);
+        const bool too_large = out.v[2] > room_of(real_of(e), config);
+        if (!prefer_size(out.v, rays, DROGUE_RAYS / 8) && too_large &&
+            prefer_size(out.v, seen(DROGUE_RAY_FINE_RISES), 3 * DROGUE_RAYS / 16)) {
+            out.look = DROGUE_RAY_FINE_RISES;
+        }
     }
     return 16 * s.rays >= 7 * DROGUE_RAYS && std::fabs(out.v[2]) <= room_of(real_of(e), config) &&
            std::hypot(out.v[0], out.v[1]) <= gate;
@@ -356,12 +366,13 @@ bool look_between(First &out, const drogue_image &view, const drogue_inner_expec
 
 /* Measure about a first place; near the middle between two in which rays read the image, that of the library's disc is
  * taken. */
-Disc measure_at(const drogue_image &view, const drogue_inner_expected &expected, int which, const Offset &first,
+Disc measure_at(const drogue_image &view, const drogue_inner_expected &expected, int which, const First &place_of,
                 const drogue_config &config, const drogue_inner_edge *library)
 {
     const drogue_ellipse &e = expected.disc[which];
+    const Offset &first = place_of.v;
     const Real exact[3] = {256 * (real(e.xc_px_q16) + first[0]), 256 * (real(e.yc_px_q16) + first[1]), 256 * first[2]};
-    Place place = {which, {0, 0, 0}};
+    Place place = {which, {0, 0, 0}, place_of.look};
     Disc best;
     Real nearest = -1;
     for (int way = 0; way < 8; way++) {
@@ -423,7 +434,7 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     }
     First between;
     if (!seen && expected.count == 2 && look_between(between, view, expected, gate, config)) {
-        const Disc d = measure_at(view, expected, 0, between.v, config, library);
+        const Disc d = measure_at(view, expected, 0, between, config, library);
         if (holds(d) && d.grown <= room_of(real_of(expected.disc[d.which]), config)) {
             return d;
         }
@@ -431,9 +442,9 @@ Disc inner_edge(const drogue_image &view, const drogue_inner_expected &expected,
     if (first[which].slopes == 0) {
         return {};
     }
-    const Disc steeper = measure_at(view, expected, static_cast<int>(which), first[which].v, config, library);
+    const Disc steeper = measure_at(view, expected, static_cast<int>(which), first[which], config, library);
     if (first[1 - which].slopes > 0 && !holds(steeper)) {
-        const Disc other = measure_at(view, expected, static_cast<int>(1 - which), first[1 - which].v, config, library);
+        const Disc other = measure_at(view, expected, static_cast<int>(1 - which), first[1 - which], config, library);
         if (holds(other) && other.grown <= real(expected.disc[other.which].a_px_q16) / 64) {
             return other;
         }

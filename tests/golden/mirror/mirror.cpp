@@ -58,7 +58,8 @@ struct Frame {
     Outline outline;
     bool filled = false; /* thresholds of the noise filled a table */
     drogue_second_look second_look = DROGUE_SECOND_NONE;
-    Real ring = 0; /* semi-axis of the outline that a disc allows which was sought */
+    Real ring = 0; /* semi-axis of the outline that a disc allows which was sought, and how much of it shows */
+    Real ring_cover = 0;
 };
 
 /* Run the front end on a region. */
@@ -258,7 +259,7 @@ struct Together {
 /* Is all of an outline in the image? */
 bool lies_within(const Ellipse &e, const cv::Mat &image)
 {
-    return e.xc >= e.a && e.yc >= e.a && e.xc + e.a < image.cols && e.yc + e.a < image.rows;
+    return e.xc >= e.a && e.yc >= e.a && e.xc + e.a <= image.cols - 1 && e.yc + e.a <= image.rows - 1;
 }
 
 Together solve_together(const std::array<Pose, 2> &poses, size_t nearer, const Features &f,
@@ -520,6 +521,7 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     if (!found) {
         look_beyond(*f.front, f.view, about, by);
         found = f.front->list.edge_count > 0 && settle_there(out, f, about, 0, task);
+        found = found && (config == nullptr || (out.outline.ellipse.a >= was.a && out.outline.ellipse.b >= was.b));
     }
     out.status = found ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
     out.outline.quality = best.outline.quality;
@@ -555,7 +557,7 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
     if (out.status != DROGUE_OK) {
         return false;
     }
-    const drogue_ellipse ring = rounded_ellipse(seeker.best(*f.front, f.mask, out.region.tl()));
+    const drogue_ellipse ring = rounded_ellipse(seeker.best(f.ring_cover, *f.front, f.mask, out.region.tl()));
     out.contradicted = seeker.contradicted();
     f.follow.library = follow ? &f.decided : nullptr;
     f.ring = real(ring.a_px_q16);
@@ -568,7 +570,7 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
     return found && std::fabs(e.a - was.a) <= was.a / 16 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 8;
 }
 
-bool about_one_size(Real a, Real of, int part) { return std::fabs(a - of) <= of / part; }
+bool is_another_size(Real a, Real of) { return std::fabs(a - of) > of / 8; }
 
 bool is_full(drogue_status status)
 {
@@ -700,17 +702,14 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
                                                                : DROGUE_SECOND_NONE;
         }
         contradicted = out.contradicted;
-        const bool shows_less = best.status == DROGUE_OK && best.larger_q16 == 0 && out.seen.a < best.seen.a &&
-                                about_one_size(out.seen.a, best.seen.a, 16) &&
-                                out.outline.cover < best.outline.cover * 7 / 8;
         const Real most = best.status == DROGUE_OK && least == 1 ? 0.04L : 1 / 64.0L;
-        if (out.status == DROGUE_OK && out.has_inner && out.doubt < most && !shows_less) {
+        if (out.status == DROGUE_OK && out.has_inner && out.doubt < most) {
             keep(out, from, doubt);
         }
     }
     for (const bool outer : {false, true}) {
         const bool asked_beyond =
-            least > SURE && best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.2L;
+            least > SURE && best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.6L;
         Result out;
         Features from = {};
         const bool asked_outer = best.outline.outside > 0 || best.seen.a > 160;
@@ -728,15 +727,18 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             keep(out, from, doubt);
         }
     }
-    const bool another = least == 1 && ((best.outline.cover < 0.7L && lies_within(best.seen, task.image)) ||
-                                        (f.ring > 0 && !about_one_size(best.seen.a, f.ring, 8)));
-    const bool whole =
-        best.status == DROGUE_OK && !best.too_large && !another && best.second_look <= DROGUE_SECOND_BETTER;
+    const bool outermost = best.outline.cover >= 0.875L && best.outline.outside == 0 &&
+                           (best.larger_q16 == 0 || real(best.larger_q16) > 0.2L) &&
+                           (f.ring <= best.seen.a || f.ring_cover < 0.25L);
+    const bool another = least == 1 && !outermost &&
+                         (best.larger_q16 > 0 || (best.outline.cover < 0.7L && lies_within(best.seen, task.image)) ||
+                          (f.ring > 0 && is_another_size(best.seen.a, f.ring)));
+    const bool whole = best.status == DROGUE_OK && !another && best.second_look <= DROGUE_SECOND_BETTER;
     if (room != DROGUE_SECOND_NONE) {
         best.second_look = whole ? DROGUE_SECOND_ROOM : room;
     }
     best.contradicted = contradicted;
-    if (best.status == DROGUE_OK && (best.too_large || another)) {
+    if (best.status == DROGUE_OK && another) {
         Result refused;
         refused.contradicted = contradicted;
         refused.second_look = best.second_look;

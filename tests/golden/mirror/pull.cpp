@@ -518,10 +518,8 @@ static bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellips
             return false;
         }
     }
-    for (Real &c : v) {
-        c *= -2 / (e.a + e.b);
-    }
-    put_back(e, v);
+    const Real along = (v[0] + v[3]) / e.a, across = (v[0] - v[3]) / e.b;
+    put_back(e, {-(along + across) / 2, -v[1] / e.a, -v[2] / e.b, -(along - across) / 2, -2 * v[4] / (e.a + e.b)});
     return true;
 }
 

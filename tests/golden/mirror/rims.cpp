@@ -85,10 +85,10 @@ Real Seeker::cover(const Ellipse &e, const FrontEnd &front, const drogue_mask &m
     return own;
 }
 
-Ellipse Seeker::best(const FrontEnd &front, const drogue_mask &mask, cv::Point origin)
+Ellipse Seeker::best(Real &most, const FrontEnd &front, const drogue_mask &mask, cv::Point origin)
 {
     Ellipse out = {0, 0, 0, 0, 0, false};
-    Real most = 0;
+    most = 0;
     for (const Seen &seen : seen_) {
         for (int yaw = 0; yaw <= TURNS; yaw++) { /* what is turned the opposite way comes with it */
             for (int pitch = yaw == 0 ? 0 : -TURNS; pitch <= TURNS; pitch++) {

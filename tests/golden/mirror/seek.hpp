@@ -32,8 +32,8 @@ public:
     /* The first outline about the disc, or the one within it, in coordinates of a region; not ok: none. */
     reference::Ellipse head_on(cv::Point origin);
 
-    /* Of the outlines that the discs allow the first that edge points cover best; not ok: they cover none. */
-    reference::Ellipse best(const FrontEnd &front, const drogue_mask &mask, cv::Point origin);
+    /* Of the outlines that the discs allow the first that edge points cover best, and by how much; not ok: they cover none. */
+    reference::Ellipse best(Real &most, const FrontEnd &front, const drogue_mask &mask, cv::Point origin);
 
     bool contradicted() const { return contradicted_; }
 

@@ -369,6 +369,18 @@ START_TEST(rays_meet_the_edge)
         ck_assert_int_ge(rays[k].step_px_q16, DROGUE_Q16(1, 2)); /* and half of it is needed */
         ck_assert_uint_eq(rays[k].count, 0);
     }
+    drogue_rays_cast(rays, &image, &e, DROGUE_Q16(2, 1), 4, 1, 190, DROGUE_RAY_FINE_RISES);
+    for (k = 0; k < DROGUE_RAYS; k++) {
+        ck_assert_int_eq(rays[k].step_px_q16, DROGUE_Q16(1, 4));
+        ck_assert_uint_eq(rays[k].count, 1);
+    }
+    for (k = 0; k < SIDE * SIDE; k++) { /* what falls does not rise */
+        pixels[k] = (uint8_t)(255 - pixels[k]);
+    }
+    drogue_rays_cast(rays, &image, &e, DROGUE_Q16(2, 1), 4, 1, 190, DROGUE_RAY_FINE_RISES);
+    for (k = 0; k < DROGUE_RAYS; k++) {
+        ck_assert_uint_eq(rays[k].count, 0);
+    }
     drogue_rays_cast(rays, &image, &e, DROGUE_Q16(1000, 1), 4, 1, 6, DROGUE_RAY_RISES);
     for (k = 0; k < DROGUE_RAYS; k++) {
         ck_assert_int_eq(rays[k].step_px_q16, DROGUE_Q16(16, 1)); /* from sample to sample */
