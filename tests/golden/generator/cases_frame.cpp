@@ -319,6 +319,14 @@ void add_choices(Set &set)
     }
 }
 
+/* A camera from which the rim has so many px and the drogue is seen head-on; returns the disc's. */
+double look_head_on(Frame &f, int width, double rim_px)
+{
+    f.camera = {800, 800, width / 2.0, width / 2.0};
+    const double z = f.camera.fx_px * f.radius / rim_px;
+    return f.camera.fx_px * f.inner_radius / (z + f.depth);
+}
+
 /* A disc of the model's size in a rim that is drawn for part of each so many-th of a turn, a collar between and a circle
  * about it; the disc lies (x, y) off the middle. */
 struct Dashed {
@@ -333,8 +341,7 @@ Frame dashed_drogue(const Dashed &d)
 {
     constexpr int WIDTH = 160;
     Frame f;
-    f.camera = {800, 800, WIDTH / 2, WIDTH / 2};
-    const double z = f.camera.fx_px * f.radius / d.rim_px, disc_px = f.camera.fx_px * f.inner_radius / (z + f.depth);
+    const double disc_px = look_head_on(f, WIDTH, d.rim_px);
     f.image = image_from(WIDTH, WIDTH, [&](int x, int y) {
         double sum = 0;
         for (int k = 0; k < 16; k++) {
@@ -364,8 +371,7 @@ Frame shaded_drogue(const Shaded &d)
 {
     constexpr int WIDTH = 160;
     Frame f;
-    f.camera = {800, 800, WIDTH / 2, WIDTH / 2};
-    const double z = f.camera.fx_px * f.radius / d.rim_px, disc_px = f.camera.fx_px * f.inner_radius / (z + f.depth);
+    const double disc_px = look_head_on(f, WIDTH, d.rim_px);
     f.image = image_from(WIDTH, WIDTH, [&](int x, int y) {
         const double u = x - WIDTH / 2 + 0.3, v = y - WIDTH / 2 - 0.2, r = std::hypot(u - d.x_px, v - d.y_px);
         const auto rise = [&](double by) { return (1 + std::erf(by / (d.blur_px * std::sqrt(2.0)))) / 2; };
@@ -452,12 +458,15 @@ void add_led_by_disc(Set &set)
         add_frame(set, "noisy-rim-" + std::to_string(k++), Tier::stress, {"noise"}, noisy_drogue(12, 20, seed));
     }
     k = 0;
-    for (const Shaded &d : {Shaded{28, 12.9, 12, 30, 0.5, -1.6, -0.9},
-                            Shaded{56, 21.7, 16, 30, 0.5, 1.1, 1.1}, /* it shows in the shade, */
-                            Shaded{48, 19.6, 8, 36, 0.7, 0.5, 1.1}, Shaded{32, 14.2, 16, 36, 0.7, -0.3, -1.1},
-                            Shaded{36, 14.7, 12, 36, 0.5, 1.7, -0.9}, /* or not quite, */
-                            Shaded{36, 15.6, 8, 8, 0.9, -1.9, 0}, Shaded{24, 11.9, 12, 8, 0.5, 0.7, -1.9}, /* or not, */
-                            Shaded{40, 19, 10, 10, 0.8, 0, 0}}) { /* nor that to any pose */
+    static const Shaded shaded[] = {{28, 12.9, 12, 30, 0.5, -1.6, -0.9}, /* the disc shows in the shade, */
+                                    {56, 21.7, 16, 30, 0.5, 1.1, 1.1},
+                                    {48, 19.6, 8, 36, 0.7, 0.5, 1.1},
+                                    {32, 14.2, 16, 36, 0.7, -0.3, -1.1},
+                                    {36, 14.7, 12, 36, 0.5, 1.7, -0.9}, /* or not quite, */
+                                    {36, 15.6, 8, 8, 0.9, -1.9, 0},     /* or not, */
+                                    {24, 11.9, 12, 8, 0.5, 0.7, -1.9},
+                                    {40, 19, 10, 10, 0.8, 0, 0}}; /* nor is the shade where any pose expects it */
+    for (const Shaded &d : shaded) {
         add_frame(set, "shaded-disc-" + std::to_string(k++), Tier::stress, {}, shaded_drogue(d));
     }
     add_frame(set, "rim-missing", Tier::must_reject, {}, dashed_drogue({40, 0, 0, 1, 76}));
@@ -537,8 +546,7 @@ Frame banded_drogue(const Banded &b)
 {
     constexpr int WIDTH = 160, FINE = 6;
     Frame f;
-    f.camera = {800, 800, WIDTH / 2, WIDTH / 2};
-    const double z = f.camera.fx_px * f.radius / b.rim_px, disc_px = f.camera.fx_px * f.inner_radius / (z + f.depth);
+    const double disc_px = look_head_on(f, WIDTH, b.rim_px);
     f.image = image_from(WIDTH, WIDTH, [&](int x, int y) {
         double sum = 0;
         for (int k = 0; k < FINE * FINE; k++) { /* two pixels wide */
