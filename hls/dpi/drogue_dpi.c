@@ -46,11 +46,7 @@ void *drogue_dpi_open(int width, int height)
     m->width_px = width;
     m->height_px = height;
     drogue_config_default(&m->config);
-    /* A label and an edge point a pixel are the most that any image can ask for. */
-    capacity.width_px = (uint32_t)width;
-    capacity.edges = (uint32_t)width * (uint32_t)height;
-    capacity.labels = capacity.edges + 2;
-    capacity.arcs = capacity.edges / 10 + 1;
+    drogue_capacity_for_any(&capacity, width, height, 1); /* whatever drogue_dpi_thresholds() is given */
     bytes = drogue_workspace_bytes(&capacity);
     m->pixels = calloc((size_t)width, (size_t)height);
     m->memory = malloc(bytes);

@@ -18,7 +18,9 @@ drogue_block_status drogue_block_examine(const drogue_bank_of_registers *bank, c
     }
     return drogue_bank_read(bank, DROGUE_BANK_WIDTH) < capacity->width_px ||
                    drogue_bank_read(bank, DROGUE_BANK_EDGES) < capacity->edges ||
-                   drogue_bank_read(bank, DROGUE_BANK_ARCS) < capacity->arcs || capacity->edges > DROGUE_BANK_LIST_WORDS
+                   drogue_bank_read(bank, DROGUE_BANK_ARCS) < capacity->arcs ||
+                   drogue_bank_read(bank, DROGUE_BANK_LABELS) < capacity->labels ||
+                   capacity->edges > DROGUE_BANK_LIST_WORDS
                ? DROGUE_BLOCK_SMALL
                : DROGUE_BLOCK_OK;
 }

@@ -21,7 +21,8 @@ typedef enum drogue_block_status {
     DROGUE_BLOCK_BUSY,   /* the frame before is still under way: nothing was started, or read */
     DROGUE_BLOCK_EARLY,  /* no frame has ended since the last start: nothing was read */
     DROGUE_BLOCK_STUCK,  /* the frame did not end in time; the block was reset */
-    DROGUE_BLOCK_LENGTH, /* a list longer than its table, or than the workspace's */
+    DROGUE_BLOCK_LENGTH, /* a list longer than its table, or than the workspace's; block_frontend.c: rows outside the
+                            frame memory or not one stride apart */
     DROGUE_BLOCK_LIST,   /* arcs that do not lie one after the other among the points, or a status that is none */
     DROGUE_BLOCK_STATUSES
 } drogue_block_status;

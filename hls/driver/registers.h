@@ -11,6 +11,7 @@ enum {
     DROGUE_BANK_CONTROL = 0x10,   /* write: START, or RESET, which ends whatever is under way */
     DROGUE_BANK_STATE = 0x14,     /* read: BUSY, DONE (from the end of a frame until the next START) */
     DROGUE_BANK_INTERRUPT = 0x18, /* write, at any time: 1: the interrupt's line is high while DONE; 0: it is low */
+    DROGUE_BANK_LABELS = 0x1C,    /* read: labels that it can give, of components and of arcs */
     /* of the frame; write, not while BUSY */
     DROGUE_BANK_WIDTH_PX = 0x20,
     DROGUE_BANK_HEIGHT_PX = 0x24,

@@ -48,7 +48,8 @@ uint64_t drogue_hls_vertex_rest(uint64_t vertex);
 uint64_t drogue_hls_vertex_step(uint64_t vertex, int32_t bit);
 uint32_t drogue_hls_offset(uint64_t vertex, uint32_t sector);
 
-/* Ring mask: is the column whose (2x - centre2_x)^2 this is within it? The bounds are those of drogue_mask_ring_row(). */
+/* Ring mask: is the column whose (2x - centre2_x)^2 this is within it? The bounds are what drogue_mask_in_ring() leaves
+ * to the columns of a row. */
 uint32_t drogue_hls_in_ring(int64_t square, int64_t square_x9, int64_t least_x9, int64_t most);
 
 #endif

@@ -175,7 +175,7 @@ typedef struct drogue_hls_frame {
     uint16_t low;
     uint16_t high;
     int32_t use_ring;
-    int64_t ring_least_x9; /* as in drogue_ring_row */
+    int64_t ring_least_x9; /* of drogue_hls_in_ring() */
     int64_t ring_most;
 } drogue_hls_frame;
 

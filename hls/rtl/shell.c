@@ -111,7 +111,8 @@ static void outputs(void)
 int main(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "sizes") == 0) {
-        printf("localparam WIDTH = %d, EDGES = %d, ARCS = %d;\n", DROGUE_HLS_WIDTH, DROGUE_HLS_EDGES, DROGUE_HLS_ARCS);
+        printf("localparam WIDTH = %d, EDGES = %d, ARCS = %d, LABELS = %d;\n", DROGUE_HLS_WIDTH, DROGUE_HLS_EDGES,
+               DROGUE_HLS_ARCS, DROGUE_HLS_LABELS);
         return 0;
     }
     if (argc > 1) {

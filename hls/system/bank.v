@@ -7,7 +7,7 @@ module drogue_bank (
     output wire irq, // a level: high from the end of a frame until INTERRUPT is 0 or the next START
     // the frame memory's: the word about the pixel that lies at 'frame_at', a clock later
     output wire running, output wire [31:0] frame_at, input wire [31:0] frame_word);
-    `include "sizes.vh" // WIDTH, EDGES, ARCS of the block, ../rtl/rtl.sh
+    `include "sizes.vh" // WIDTH, EDGES, ARCS, LABELS of the block, ../rtl/rtl.sh
     localparam EDGE_BITS = $clog2(EDGES), ARC_BITS = $clog2(ARCS);
     reg [31:0] asked [0:11]; // WIDTH_PX .. STRIDE
     reg started, done, interrupting, was_running;
@@ -110,6 +110,7 @@ module drogue_bank (
             18'h04: plain <= WIDTH;
             18'h08: plain <= EDGES;
             18'h0C: plain <= ARCS;
+            18'h1C: plain <= LABELS;
             18'h14: plain <= {30'd0, done, running || was_running}; // never neither from START on
             18'h50: plain <= status;
             18'h54: plain <= edge_count;

@@ -29,20 +29,15 @@ static inline drogue_sector drogue_canny_sector_of(uint32_t ax, uint32_t ay, uin
     return flat ? DROGUE_SECTOR_HORIZONTAL : steep ? DROGUE_SECTOR_VERTICAL : DROGUE_SECTOR_DIAGONAL;
 }
 
-/* The same with the signs of gx and gy, which tell the diagonals apart. This, drogue_canny_sector() and
+/* Sector of a gradient: the signs tell the diagonals apart; (0, 0), which is no edge, counts as diagonal. This and
  * drogue_canny_neighbours() are the reference form, for tests and proofs: row loops and hardware write the same rule
  * for what they have at hand. */
-static inline drogue_sector drogue_canny_sector_by(int16_t gx, int16_t gy, uint32_t ax, uint32_t tg22)
-{
-    const drogue_sector sector = drogue_canny_sector_of(ax, (uint32_t)(gy < 0 ? -gy : gy), tg22);
-    return sector == DROGUE_SECTOR_DIAGONAL && (gx ^ gy) < 0 ? DROGUE_SECTOR_ANTIDIAGONAL : sector;
-}
-
-/* Sector of a gradient by itself; (0, 0), which is no edge, counts as diagonal. */
 static inline drogue_sector drogue_canny_sector(int16_t gx, int16_t gy)
 {
     const uint32_t ax = (uint32_t)(gx < 0 ? -gx : gx);
-    return drogue_canny_sector_by(gx, gy, ax, ax * (uint32_t)DROGUE_CANNY_TG22);
+    const uint32_t ay = (uint32_t)(gy < 0 ? -gy : gy);
+    const drogue_sector sector = drogue_canny_sector_of(ax, ay, ax * (uint32_t)DROGUE_CANNY_TG22);
+    return sector == DROGUE_SECTOR_DIAGONAL && (gx ^ gy) < 0 ? DROGUE_SECTOR_ANTIDIAGONAL : sector;
 }
 
 /* |gx| tan(22.5 degrees), rounded down; |gx| in [0, 1023]. In rows of 16-bit numbers the sector is horizontal where

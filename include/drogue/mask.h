@@ -24,43 +24,14 @@ static inline int drogue_mask_valid(const drogue_mask *mask)
            mask->centre2_x <= most && mask->centre2_y >= -most && mask->centre2_y <= most;
 }
 
-/* What the ring leaves to the columns of one row: bounds of (2x - centre2_x)^2. */
-typedef struct drogue_ring_row {
-    int64_t least_x9;  /* nine times the least one */
-    int64_t most;      /* the largest one */
-    int32_t centre2_x; /* of the mask */
-} drogue_ring_row;
-
-/* Ring: longest / 3 <= distance <= longest / 2 (paper, section III-A-1). */
-static inline drogue_ring_row drogue_mask_ring_row(const drogue_mask *mask, int32_t y)
-{
-    int64_t side2 = (int64_t)mask->longest_px * mask->longest_px;
-    int64_t dy = 2 * (int64_t)y - mask->centre2_y;
-    drogue_ring_row row;
-    row.least_x9 = 4 * side2 - 9 * dy * dy;
-    row.most = side2 - dy * dy;
-    row.centre2_x = mask->centre2_x;
-    return row;
-}
-
-/* Is the column whose (2x - centre2_x)^2 is d in the ring? */
-static inline int drogue_ring_row_holds_square(const drogue_ring_row *row, int64_t d)
-{
-    return (9 * d >= row->least_x9) & (d <= row->most);
-}
-
-/* x in [-2^29, 2^29]. */
-static inline int drogue_ring_row_holds(const drogue_ring_row *row, int32_t x)
-{
-    const int32_t dx = 2 * x - row->centre2_x;
-    return drogue_ring_row_holds_square(row, (int64_t)dx * dx);
-}
-
-/* Is a pixel in the ring?  x as above, y in [-2^29, 2^29]. */
+/* Is a pixel in the ring, longest / 3 <= distance <= longest / 2 (paper, section III-A-1)?  x, y in [-2^28, 2^28]. */
 static inline int drogue_mask_in_ring(const drogue_mask *mask, int32_t x, int32_t y)
 {
-    drogue_ring_row row = drogue_mask_ring_row(mask, y);
-    return drogue_ring_row_holds(&row, x);
+    const int64_t side2 = (int64_t)mask->longest_px * mask->longest_px;
+    const int64_t dx = 2 * x - mask->centre2_x;
+    const int64_t dy = 2 * y - mask->centre2_y;
+    const int64_t twice2 = dx * dx + dy * dy;
+    return (9 * twice2 >= 4 * side2) & (twice2 <= side2);
 }
 
 /* Columns of a row: [begin[0], end[0]), then [begin[1], end[1]); of what is empty both are equal. */

@@ -27,6 +27,17 @@ typedef struct drogue_capacity {
 #define DROGUE_LABELS_FOR(side_px) (3u * (size_t)(side_px) + (size_t)(side_px) * (size_t)(side_px) / 140u + 2u)
 #define DROGUE_ARCS_FOR(side_px) ((size_t)(side_px) > 896u ? 82u + (size_t)(side_px) / 64u : 96u)
 
+/* Capacity that no image of a size fills, where RAM is plenty: an edge point and a label a pixel, and arcs of no fewer
+ * points than min_arc_px of the configuration that is used. */
+static inline void drogue_capacity_for_any(drogue_capacity *out, int32_t width_px, int32_t height_px,
+                                           uint32_t min_arc_px)
+{
+    out->width_px = (uint32_t)width_px;
+    out->edges = (uint32_t)width_px * (uint32_t)height_px;
+    out->labels = out->edges + 2u;
+    out->arcs = out->edges / (min_arc_px > 0 ? min_arc_px : 1u) + 1u;
+}
+
 #define DROGUE_HALF(width_px) (((size_t)(width_px) + 7u) / 8u * 4u) /* half of a row, rounded up to four pixels */
 
 /* Bytes of the row buffers. What the outline needs after them lies in the same place: constraints.h, outline.h and

@@ -20,15 +20,10 @@ static int32_t overlap(int32_t start, int32_t size, int32_t limit)
 
 int frame_workspace_fit(frame_workspace *w, const char *path, int32_t width_px, int32_t height_px, uint32_t min_arc_px)
 {
-    /* A label and an edge point a pixel are the most that any image can ask for. */
-    uint32_t pixels = (uint32_t)width_px * (uint32_t)height_px;
     drogue_capacity capacity;
     size_t bytes;
     drogue_status status;
-    capacity.width_px = (uint32_t)width_px;
-    capacity.edges = pixels;
-    capacity.labels = pixels + 2;
-    capacity.arcs = pixels / (min_arc_px > 0 ? min_arc_px : 1) + 1;
+    drogue_capacity_for_any(&capacity, width_px, height_px, min_arc_px);
     bytes = drogue_workspace_bytes(&capacity);
     if (bytes > w->bytes) {
         free(w->memory);

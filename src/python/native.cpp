@@ -206,9 +206,8 @@ py::dict from_result(const drogue_result &r)
 
 void Memory::fit(int32_t width, int32_t height, uint32_t min_arc_px)
 {
-    const uint32_t pixels = static_cast<uint32_t>(width) * static_cast<uint32_t>(height);
-    const drogue_capacity capacity = {static_cast<uint32_t>(width), pixels, pixels + 2,
-                                      pixels / std::max(min_arc_px, 1u) + 1};
+    drogue_capacity capacity;
+    drogue_capacity_for_any(&capacity, width, height, min_arc_px);
     const size_t words = drogue_workspace_bytes(&capacity) / 8 + 1;
     if (words > workspace_words) {
         workspace_memory.reset(new uint64_t[words]);

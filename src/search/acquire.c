@@ -179,9 +179,9 @@ static int surrounds(const drogue_sighting *s, const drogue_sighting *what)
 {
     const int32_t dx = s->x_px - what->x_px;
     const int32_t dy = s->y_px - what->y_px;
-    const int32_t within = what->radius_px / 4 + 1;
-    return 8 * s->radius_px > 9 * what->radius_px && s->radius_px < 2 * what->radius_px && dx <= within &&
-           dx >= -within && dy <= within && dy >= -within;
+    const int32_t most = what->radius_px / 4 + 1;
+    return 8 * s->radius_px > 9 * what->radius_px && s->radius_px < 2 * what->radius_px && dx <= most && dx >= -most &&
+           dy <= most && dy >= -most;
 }
 
 static void put_asked(drogue_region *out, const drogue_region *region, const drogue_image *image)

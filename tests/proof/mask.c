@@ -32,7 +32,7 @@ void ring(void)
 /* The products grow with every operand's magnitude: where the ends of the stated ranges do not overflow, nothing does. */
 void ends(void)
 {
-    static const int32_t pixel[4] = {-(1 << 20), 0, 7 << 16, 1 << 20}; /* the third is in the large ring */
+    static const int32_t pixel[4] = {-(1 << 28), 0, 7 << 16, 1 << 28}; /* the third is in the large ring */
     static const int32_t centre[2] = {-(1 << 15), 1 << 15};
     drogue_mask m;
     int i;

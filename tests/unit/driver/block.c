@@ -8,13 +8,14 @@
 #include "drogue_hls.h"
 #include "frontend/frontend.h"
 
-enum { SIDE = 64, WORDS = 0x30000 / 4 };
+enum { SIDE = 64, LABELS = 400, WORDS = 0x30000 / 4 };
 
 /* What the bank does wrong, once. */
 typedef enum fault {
     NONE,
     OTHER_IDENTITY,
     SMALL_TABLE,
+    FEW_LABELS,
     LARGE_TABLE,
     NEVER_ENDS,
     EDGES_TOO_MANY,
@@ -75,6 +76,7 @@ uint32_t drogue_bank_read(const drogue_bank_of_registers *of, uint32_t offset)
     case DROGUE_BANK_WIDTH: return SIDE;
     case DROGUE_BANK_EDGES: return wrong == SMALL_TABLE ? 10 : wrong == LARGE_TABLE ? 10000 : DROGUE_HLS_EDGES;
     case DROGUE_BANK_ARCS: return DROGUE_HLS_ARCS;
+    case DROGUE_BANK_LABELS: return wrong == FEW_LABELS ? LABELS - 1 : DROGUE_HLS_LABELS;
     case DROGUE_BANK_STATE:
         if (polls_left > 0 && wrong != NEVER_ENDS && --polls_left == 0) {
             run_block();
@@ -145,7 +147,7 @@ static test_workspace begin(fault f)
     memset(words, 0, sizeof words);
     draw_disc();
     drogue_block_use(&bank);
-    return test_workspace_of(SIDE, 400, 400, 20);
+    return test_workspace_of(SIDE, 400, LABELS, 20);
 }
 
 /* A frame from start to lists; returns what reading them gave. */
@@ -264,6 +266,8 @@ START_TEST(another_block)
     wide.width_px = SIDE + 1;
     ck_assert_int_eq(drogue_block_examine(&bank, &t.workspace.capacity), DROGUE_BLOCK_ABSENT);
     wrong = SMALL_TABLE;
+    ck_assert_int_eq(drogue_block_examine(&bank, &t.workspace.capacity), DROGUE_BLOCK_SMALL);
+    wrong = FEW_LABELS;
     ck_assert_int_eq(drogue_block_examine(&bank, &t.workspace.capacity), DROGUE_BLOCK_SMALL);
     wrong = NONE;
     ck_assert_int_eq(drogue_block_examine(&bank, &wide), DROGUE_BLOCK_SMALL);
