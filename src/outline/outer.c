@@ -30,6 +30,7 @@
 #define OUTSIDE 8                  /* those of them with an outer edge, */
 #define PARTS 8                    /* of b: an outer edge is no farther off than one of them */
 #define GROWN DROGUE_Q16(3, 10)    /* and px by which the ellipse is larger */
+#define OF_RAY 5                   /* samples of one ray about a bin's edge */
 
 /* Edges in a bin of an outline. */
 typedef struct outer_bin {
@@ -170,6 +171,35 @@ static int fit(drogue_q16 v_px_q16[WAVES], const outer_bin bins[BINS], drogue_q1
     return agree >= AGREE && outside >= OUTSIDE;
 }
 
+/* Has each ray by itself the outer edge that its bin has? Where lobes of the rim alternate, two of a bin have their edge
+ * in two places, and their sum both: three quarters of the rays have half the slope that the four have on average. */
+static int on_rays(drogue_ray rays[DROGUE_RAYS], const drogue_image *view, const outer_bin bins[BINS],
+                   const drogue_q16 v_px_q16[WAVES], drogue_q16 step_px_q16, int32_t least)
+{
+    int32_t seen = 0;
+    int32_t count = 0;
+    int32_t k;
+    for (k = 0; k < DROGUE_RAYS; k++) {
+        const outer_bin *bin = &bins[k / 2];
+        int32_t basis_q30[WAVES];
+        int32_t grey_q8[OF_RAY];
+        int32_t most = 0;
+        int32_t i;
+        drogue_support_basis(basis_q30, (uint32_t)(k / 2));
+        if (nearest(bin, at_bin(v_px_q16, basis_q30), ON_IT_PX, least) != 1) {
+            continue;
+        }
+        drogue_ray_read(grey_q8, &rays[k], view, bin->at_px_q16[1] - 2 * step_px_q16, OF_RAY);
+        for (i = 0; i < OF_RAY - 2; i++) {
+            const int32_t slope = drogue_abs_s32(grey_q8[i + 2] - grey_q8[i]);
+            most = slope > most ? slope : most;
+        }
+        seen += 2 * IN_BIN * most >= bin->slope[1];
+        count++;
+    }
+    return 4 * seen >= 3 * count;
+}
+
 /* What an offset is of a length. */
 static int32_t part_q24(drogue_q16 off_px_q16, int64_t of_px_q16)
 {
@@ -194,7 +224,8 @@ static int look(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], const drogu
         (void)fit(v_px_q16, bins, i < WIDE_ROUNDS ? WIDE_PX : NEAR_PX, least);
     }
     memcpy(last_px_q16, v_px_q16, sizeof last_px_q16);
-    if (v_px_q16[0] < GROWN || !fit(last_px_q16, bins, ON_IT_PX, least)) {
+    if (v_px_q16[0] < GROWN || !fit(last_px_q16, bins, ON_IT_PX, least) ||
+        !on_rays(rays, view, bins, v_px_q16, step_px_q16, least)) {
         return 0;
     }
     for (i = 0; i < WAVES; i++) {

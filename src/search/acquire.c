@@ -10,7 +10,9 @@
 /* What a search must show to be sure: where the model knows no inner part cover of the outline and reliability; else an
  * inner part that is dark, sharp and near to its size, and cover. One that decides the orientation and has its size
  * needs less of it, least where it is so sharp and so exactly of its size as nothing else is, a witness; or it need
- * not be sharp; nor need one of some pixels within an outline that is whole. */
+ * not be sharp; nor need one of some pixels within an outline that is whole. Shade about a disc makes it larger: sharp
+ * and deciding it is one still, and the covariance has what that leaves in doubt. A large one of its size and nearly as
+ * sharp may lie beside its place: then the outline's shape is a little off. */
 #define SURE_COVER DROGUE_Q16(3, 4)
 #define SURE_RELIABILITY DROGUE_Q16(9, 10)
 #define DECIDED_COVER DROGUE_Q16(6, 10)
@@ -23,8 +25,12 @@
 #define WITNESS_SPREAD_PX DROGUE_Q16(5, 10)
 #define WITNESS_PX DROGUE_Q16(2, 10)    /* and a 64th, of the inner part's radius: by no chance; */
 #define MOST_OFF_PX DROGUE_Q16(6, 10)   /* and a tenth, of the inner part's radius: near; */
-#define MOST_DOUBT DROGUE_Q16(1, 8)     /* in the distance: an inner part of more may be something else */
+#define MOST_DOUBT DROGUE_Q16(1, 8)     /* in the distance: an inner part of more may be something else, */
+#define SHADED_DOUBT DROGUE_Q16(3, 10)  /* or, where it is too large, in shade; */
+#define SHADED_PX DROGUE_Q16(35, 10)    /* one of this radius */
 #define EXACT_PX DROGUE_Q16(3, 10)      /* and a twenty-fifth: its size */
+#define BESIDE_PX DROGUE_Q16(9, 1)      /* radius of an inner part that may lie beside its place, */
+#define BESIDE_COVER DROGUE_Q16(7, 8)   /* in such an outline */
 #define SETTLED_COVER DROGUE_Q16(8, 10) /* of a result after which only larger outlines about it are looked at */
 #define SURE (2 * DROGUE_Q16_ONE)       /* the worth of what is sure is more */
 #define LARGER (DROGUE_Q16_ONE / 8)     /* the worth of being the larger one of two outlines about one inner part */
@@ -40,8 +46,8 @@ static int64_t radius_of(const drogue_inner_part *p)
 }
 
 /* Radii of the inner part, px Q16, as circles of its area: what the model expects in this outline, and by how much it
- * is off. A ring about some dark disc has another; and of concentric outlines the rim fits best. */
-static int sizes(int64_t *expected, int64_t *off, const drogue_result *r, const drogue_model *model)
+ * is larger. A ring about some dark disc has another; and of concentric outlines the rim fits best. */
+static int sizes(int64_t *expected, int64_t *larger, const drogue_result *r, const drogue_model *model)
 {
     const int64_t z = r->pose.position_m_q16[2];
     const int64_t end = z + model->inner_depth_m_q16;
@@ -53,27 +59,40 @@ static int sizes(int64_t *expected, int64_t *off, const drogue_result *r, const 
     *expected = *expected < MOST_PRODUCT / z ? *expected : MOST_PRODUCT / z; /* of a model that fits no outline */
     *expected = drogue_div_round_s64(*expected * z, end);
     *expected = *expected < MOST_EXPECTED ? *expected : MOST_EXPECTED;
-    *off = radius_of(&r->inner) - *expected;
-    *off = *off < 0 ? -*off : *off;
+    *larger = radius_of(&r->inner) - *expected;
     return 1;
 }
 
 /* Does the inner part decide which pose it is, and agree with the outline, in its place and about its size? */
 static int decided(const drogue_result *r) { return r->orientation_resolved && r->doubt_q16 < DROGUE_CONTRADICTED_Q16; }
 
+static int64_t apart(int64_t larger) { return larger < 0 ? -larger : larger; }
+
+/* Is what is too large a disc in shade? */
+static int is_shaded(const drogue_result *r, int64_t expected)
+{
+    return r->orientation_resolved && r->doubt_q16 <= SHADED_DOUBT && expected >= SHADED_PX &&
+           r->cover_q16 >= SURE_COVER;
+}
+
 /* drogue_result_sure() of what was found where nothing is darker than this. */
 static int is_sure(const drogue_result *r, const drogue_model *model, int32_t darkest)
 {
     int64_t expected;
+    int64_t larger;
     int64_t off;
     int sharp;
     int witness;
     if (model->inner_radius_m_q16 == 0) {
         return r->cover_q16 >= SURE_COVER && r->quality.reliability_q16 >= SURE_RELIABILITY;
     }
-    if (!sizes(&expected, &off, r, model) || 4 * r->inner.contrast < r->inner.threshold - darkest ||
-        r->doubt_q16 > MOST_DOUBT) {
+    if (!sizes(&expected, &larger, r, model) || 4 * r->inner.contrast < r->inner.threshold - darkest) {
         return 0;
+    }
+    off = apart(larger);
+    sharp = r->inner.spread_px_q16 <= MOST_SPREAD_PX;
+    if (r->doubt_q16 > MOST_DOUBT || 10 * (off - MOST_OFF_PX) > expected) {
+        return larger > 0 && sharp && is_shaded(r, expected);
     }
     witness = decided(r) && expected >= EVIDENT_PX && 64 * (off - WITNESS_PX) <= expected &&
               r->inner.spread_px_q16 <= WITNESS_SPREAD_PX;
@@ -81,15 +100,15 @@ static int is_sure(const drogue_result *r, const drogue_model *model, int32_t da
         return decided(r) && expected >= EVIDENT_PX && 25 * (off - EXACT_PX) <= expected &&
                r->cover_q16 >= (witness ? DECIDED_COVER : BLURRED_COVER);
     }
-    sharp = r->inner.spread_px_q16 <= MOST_SPREAD_PX;
     if (witness) {
         return r->cover_q16 >= EXACT_COVER;
     }
     if (decided(r) && 25 * (off - EXACT_PX) <= expected) {
         return r->cover_q16 >= (sharp ? DECIDED_COVER : BLURRED_COVER);
     }
-    if (10 * (off - MOST_OFF_PX) > expected) {
-        return 0;
+    if (expected >= BESIDE_PX && 25 * (off - EXACT_PX) <= expected && r->inner.spread_px_q16 <= WITNESS_SPREAD_PX &&
+        r->doubt_q16 <= DROGUE_CONTRADICTED_Q16 && r->cover_q16 >= BESIDE_COVER) {
+        return 1;
     }
     return sharp ? r->cover_q16 >= SURE_COVER
                  : r->orientation_resolved && expected >= EVIDENT_PX && r->cover_q16 >= EVIDENT_COVER &&
@@ -104,6 +123,7 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model) { retu
 static int32_t worth(const drogue_result *r, const drogue_model *model, int32_t darkest)
 {
     int64_t expected;
+    int64_t larger;
     int64_t off;
     if (r->status != DROGUE_OK) {
         return 0;
@@ -111,10 +131,10 @@ static int32_t worth(const drogue_result *r, const drogue_model *model, int32_t 
     if (!is_sure(r, model, darkest)) {
         return 1 + r->cover_q16 + (r->has_inner + decided(r)) * (DROGUE_Q16_ONE / 4);
     }
-    if (!sizes(&expected, &off, r, model)) {
+    if (!sizes(&expected, &larger, r, model)) {
         return SURE + r->cover_q16;
     }
-    off = drogue_div_round_s64(off * DROGUE_Q16_ONE, expected > 0 ? expected : 1);
+    off = drogue_div_round_s64(apart(larger) * DROGUE_Q16_ONE, expected > 0 ? expected : 1);
     return (decided(r) ? 5 * DROGUE_Q16_ONE : 3 * DROGUE_Q16_ONE) + r->cover_q16 -
            (int32_t)(off < DROGUE_Q16_ONE ? off : DROGUE_Q16_ONE);
 }
@@ -123,12 +143,12 @@ static int32_t worth(const drogue_result *r, const drogue_model *model, int32_t 
 static int settles(const drogue_result *r, const drogue_model *model, int32_t darkest)
 {
     int64_t expected;
-    int64_t off;
+    int64_t larger;
     if (r->cover_q16 < SETTLED_COVER || !is_sure(r, model, darkest)) {
         return 0;
     }
     return model->inner_radius_m_q16 == 0 ||
-           (decided(r) && sizes(&expected, &off, r, model) && 16 * (off - MOST_OFF_PX / 2) <= expected);
+           (decided(r) && sizes(&expected, &larger, r, model) && 16 * (apart(larger) - MOST_OFF_PX / 2) <= expected);
 }
 
 static int within(drogue_q16 x, drogue_q16 y, drogue_q16 of_x, drogue_q16 of_y, drogue_q16 px_q16)

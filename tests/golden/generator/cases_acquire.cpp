@@ -229,6 +229,11 @@ void add_acquire(Set &set)
     add_ask(set, "inner-unknown", Tier::ordinary, {"inner-missing"}, p, ask);
     p.inner_radius = 0.2; /* not of its size: seen, not sure */
     add_ask(set, "inner-of-another-size", Tier::stress, {"inner-missing"}, p, ask);
+    for (const int larger : {25, 40, 48}) { /* as shade makes it, by per cent; the last too much so */
+        p = picture(71, 90, 80, -0.05, 0.05, 9, 0.2, -0.15);
+        p.inner_radius = 0.12 / (1 + larger / 100.0);
+        add_ask(set, "inner-in-shade-" + std::to_string(larger), Tier::stress, {}, p, ask);
+    }
     p = picture(63, 130, 110, -0.2, 0.2, 7, -0.1, 0.2);
     fill(p.image, 0, 0, 62, 110, 150); /* half of it is hidden */
     add_ask(set, "half-hidden", Tier::stress, {"occlusion"}, p, ask);

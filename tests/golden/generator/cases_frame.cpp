@@ -565,6 +565,26 @@ Frame banded_drogue(const Banded &b)
     return f;
 }
 
+/* A rim with lobes: their crests are farther out than what is between them, and no ray has both. */
+Frame lobed_drogue(double rim_px, double deep_px, int lobes)
+{
+    constexpr int WIDTH = 220;
+    Frame f;
+    const double disc_px = look_head_on(f, WIDTH, rim_px);
+    f.image = image_from(WIDTH, WIDTH, [&](int x, int y) {
+        double sum = 0;
+        for (int k = 0; k < 64; k++) {
+            const double u = x + k % 8 / 4.0 - WIDTH / 2 - 0.6, v = y + k / 8 / 4.0 - WIDTH / 2 - 1.1;
+            const double r = std::hypot(u, v);
+            sum += r < disc_px ? 20 : r < rim_px + deep_px * std::sin(lobes * std::atan2(v, u)) ? 90 : 200;
+        }
+        return static_cast<int>(sum / 64 + 0.5);
+    });
+    const int side = cvRound(2.4 * rim_px);
+    f.region = {(WIDTH - side) / 2, (WIDTH - side) / 2, side, side};
+    return f;
+}
+
 /* The rim's outer edge where its inner one is clearer, and saturated ground. */
 void add_bands(Set &set)
 {
@@ -578,6 +598,7 @@ void add_bands(Set &set)
           Banded{52, 2.6, 4, 60, 220, 0, 0.5}}) { /* the last two have it at once, or on one side */
         add_frame(set, "banded-rim-" + std::to_string(k++), Tier::stress, {}, banded_drogue(b));
     }
+    add_frame(set, "lobed-rim", Tier::stress, {}, lobed_drogue(90, 1.6, 20));
     k = 0;
     for (const Banded &b :
          {Banded{40, 0, 0, 80, 80, 0, 1.3}, Banded{20, 0, 0, 40, 40, 3, 2.2}, Banded{50, 8, 3, 60, 400, 0, 0.3},

@@ -188,12 +188,14 @@ public:
         seen_ = ok_ && r.has_inner && z > 0 && end > 0;
         if (seen_) { /* radii of the inner part, px: as expected, and of its area */
             expected_ = std::sqrt(r.seen.a * r.seen.b) * m.inner_radius / m.rim_radius * z / end;
-            off_ = std::fabs(std::sqrt(std::floor(r.area + 0.5L) / std::acos(Real(-1))) - expected_);
+            const Real larger = std::sqrt(std::floor(r.area + 0.5L) / std::acos(Real(-1))) - expected_;
+            off_ = std::fabs(larger);
+            larger_ = larger > 0;
+            doubt_ = r.doubt;
             spread_ = r.part.rms;
             sharp_ = spread_ <= 0.3L;
             dark_ = 4 * r.part.contrast >= r.part.level;
             hazy_ = !dark_ && 4 * r.part.contrast >= r.part.level - darkest;
-            agrees_ = r.doubt <= 1 / 8.0L;
         }
     }
     bool sure() const
@@ -203,15 +205,22 @@ public:
         }
         const bool decides = resolved_ && off_ <= 0.3L + expected_ / 25;
         const bool witness = resolved_ && spread_ <= 0.5L && expected_ >= 5 && off_ <= 0.2L + expected_ / 64;
-        if (seen_ && agrees_ && hazy_) {
+        if (!seen_ || (!dark_ && !hazy_)) {
+            return false;
+        }
+        if (doubt_ > 1 / 8.0L || off_ > 0.6L + expected_ / 10) {
+            return larger_ && sharp_ && oriented_ && doubt_ <= 0.3L && expected_ >= 3.5L && cover_ >= 0.75L;
+        }
+        if (hazy_) {
             return decides && expected_ >= 5 && cover_ >= (witness ? 0.6L : 0.9L);
         }
-        return seen_ && agrees_ && dark_ &&
-               (witness                        ? cover_ >= 0.5L
-                : decides                      ? cover_ >= (sharp_ ? 0.6L : 0.9L)
-                : off_ > 0.6L + expected_ / 10 ? false
-                : sharp_                       ? cover_ >= 0.75L
-                                               : oriented_ && expected_ >= 5 && cover_ >= 31 / 32.0L && evident_);
+        const bool beside = expected_ >= 9 && off_ <= 0.3L + expected_ / 25 && spread_ <= 0.5L && doubt_ <= 1 / 64.0L &&
+                            cover_ >= 0.875L;
+        return witness   ? cover_ >= 0.5L
+               : decides ? cover_ >= (sharp_ ? 0.6L : 0.9L)
+               : beside  ? true
+               : sharp_  ? cover_ >= 0.75L
+                         : oriented_ && expected_ >= 5 && cover_ >= 31 / 32.0L && evident_;
     }
     bool settles() const
     {
@@ -238,11 +247,11 @@ private:
     }
 
     bool ok_, has_inner_, reliable_ = false, evident_ = false, oriented_ = false, seen_ = false, sharp_ = false,
-                          dark_ = false, hazy_ = false, agrees_ = false;
+                          dark_ = false, hazy_ = false, larger_ = false;
     Real cover_;
     bool resolved_;
     reference::Model model_;
-    Real expected_ = 0, off_ = 0, spread_ = 0;
+    Real expected_ = 0, off_ = 0, spread_ = 0, doubt_ = 0;
 };
 
 } // namespace

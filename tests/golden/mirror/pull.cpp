@@ -465,6 +465,19 @@ OuterBin outer_bin(const drogue_ray *rays, size_t k, const drogue_image &view, d
 
 } // namespace
 
+/* Has a ray of a bin by itself half the slope at its outer edge that the four have on average? */
+static bool has_outer(drogue_ray ray, const OuterBin &bin, const drogue_image &view, drogue_q16 step)
+{
+    std::array<int32_t, 5> grey;
+    int64_t most = 0;
+    ray.step_px_q16 = step;
+    drogue_ray_read(grey.data(), &ray, &view, reference::q16(bin.at[1]) - 2 * step, 5);
+    for (size_t i = 0; i < 3; i++) {
+        most = std::max<int64_t>(most, std::abs(grey[i + 2] - grey[i]));
+    }
+    return 8 * most >= bin.slope[1];
+}
+
 static bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellipse &aim, drogue_q16 step)
 {
     constexpr size_t BINS32 = reference::SUPPORT_BINS;
@@ -472,7 +485,7 @@ static bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellips
     std::array<OuterBin, BINS32> bins;
     std::array<Real, 5> v = {};
     int64_t outside = 0, count = 0, own = 0;
-    int agree = 0, outer = 0;
+    int agree = 0, outer = 0, by_itself = 0;
     drogue_rays_aim(rays.data(), &aim, 4, 0, DROGUE_RAYS / 2);
     for (size_t k = 0; k < BINS32; k++) {
         bins[k] = outer_bin(rays.data(), k, view, step, outside, count);
@@ -482,7 +495,7 @@ static bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellips
     for (int round = 0; round <= 17; round++) { /* the outermost edges, six of 2 px, ten of 1 px, what agrees */
         const Real most = round < 7 ? 2 : round < 17 ? 1 : 0.6L;
         std::array<Real, 5> sum = {};
-        agree = outer = 0;
+        agree = outer = by_itself = 0;
         for (size_t k = 0; k < BINS32; k++) {
             const Real t = (static_cast<Real>(k) + 0.5L) * 2 * std::acos(Real(-1)) / BINS32;
             const std::array<Real, 5> basis = {1, std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)};
@@ -504,11 +517,15 @@ static bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellips
             }
             agree += edge < 2;
             outer += edge == 1;
+            for (size_t r = 2 * k; round == 17 && edge == 1 && r < 2 * k + 2; r++) {
+                by_itself += has_outer(rays[r], bin, view, step);
+            }
             for (size_t i = 0; i < 5; i++) {
                 sum[i] += at * basis[i] / (i > 0 ? BINS32 / 2 : BINS32);
             }
         }
-        if ((round == 0 && outer < 8) || (round == 17 && (v[0] < 0.3L || agree < 22 || outer < 8))) {
+        if ((round == 0 && outer < 8) ||
+            (round == 17 && (v[0] < 0.3L || agree < 22 || outer < 8 || 2 * by_itself < 3 * outer))) {
             return false;
         }
         v = round < 17 ? sum : v;

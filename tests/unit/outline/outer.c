@@ -13,9 +13,9 @@ static drogue_ray rays[DROGUE_RAYS];
  * semi-axes, and shifted along the axes; on a part of the outline alone, or waving to and fro. */
 typedef struct band {
     double a, b, angle, larger, share, u, v;
-    int grey[3];       /* inside, of the band, outside */
-    double from, span; /* span 0: all about */
-    double wave, noise;
+    int grey[3];               /* inside, of the band, outside */
+    double from, span;         /* span 0: all about */
+    double wave, lobes, noise; /* lobes 0: 9 */
     int taken;
 } band;
 
@@ -35,7 +35,8 @@ static drogue_image draw(const band *s)
             const double level = hypot(u / s->a, v / s->b);
             const double d = (level - 1) * level / (hypot(nx, ny) + 1e-9); /* px outside, near it */
             const double grown = s->larger + s->share / hypot(cos(turn) / s->a, sin(turn) / s->b);
-            const double out = grown + s->u * cos(turn) + s->v * sin(turn) + s->wave * sin(9 * turn);
+            const double out =
+                grown + s->u * cos(turn) + s->v * sin(turn) + s->wave * sin((s->lobes > 0 ? s->lobes : 9) * turn);
             const double rim = s->span == 0 || since < s->span ? step(d - out) : step(d);
             double grey = s->grey[0] + (s->grey[1] - s->grey[0]) * step(d) + (s->grey[2] - s->grey[1]) * rim;
             for (i = 0; i < 4; i++) {
@@ -86,8 +87,10 @@ START_TEST(bands)
         {.a = 60, .b = 54, .angle = 0.3, .larger = 4, .grey = {60, 200, 120}, .from = 0.2, .span = 2},
         /* one that is beside the outline, not about it, */
         {.a = 60, .b = 56, .angle = 0.7, .u = 2.2, .grey = {60, 60, 200}},
-        /* and of none at all */
-        {.a = 60, .b = 54, .angle = 0.3, .larger = 2.7, .grey = {60, 200, 120}, .wave = 1.6}};
+        /* of none at all, */
+        {.a = 60, .b = 54, .angle = 0.3, .larger = 2.7, .grey = {60, 200, 120}, .wave = 1.6},
+        /* and the crests of a rim with lobes, which no ray has beside a trough */
+        {.a = 220, .b = 200, .angle = 0.3, .grey = {60, 60, 200}, .wave = 2.5, .lobes = 33}};
     size_t i;
     for (i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         const band *s = &cases[i];

@@ -113,6 +113,7 @@ START_TEST(dark_and_sharp)
     ck_assert(drogue_result_sure(&r, &model));
     r.orientation_resolved = 0;
     ck_assert(drogue_result_sure(&r, &model));
+    r.inner.area_px = 2880; /* 30.3 px, off by 2.0: only near its size */
     r.inner.spread_px_q16 = DROGUE_Q16(31, 100);
     r.cover_q16 = DROGUE_Q16_ONE;
     ck_assert(!drogue_result_sure(&r, &model));
@@ -143,6 +144,68 @@ START_TEST(dark_and_sharp)
     ck_assert(drogue_result_sure(&r, &model));
     r.inner.contrast = 32;
     ck_assert(!drogue_result_sure(&r, &model));
+}
+END_TEST
+
+/* A disc that is too large, as shade about it makes it: sharp, and it decides. */
+START_TEST(in_shade)
+{
+    drogue_result r = measured();
+    r.inner.area_px = 4500; /* 37.8 px for 32.3 */
+    r.cover_q16 = DROGUE_Q16(3, 4);
+    r.doubt_q16 = DROGUE_Q16(3, 10);
+    ck_assert(drogue_result_sure(&r, &model));
+    r.doubt_q16++;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.doubt_q16 = DROGUE_Q16(1, 10); /* too large, whatever doubt that gives */
+    ck_assert(drogue_result_sure(&r, &model));
+    r.cover_q16--;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.cover_q16 = DROGUE_Q16_ONE;
+    r.inner.spread_px_q16 = DROGUE_Q16(3, 10) + 1;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.inner.spread_px_q16 = DROGUE_Q16(3, 10);
+    r.orientation_resolved = 0;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.orientation_resolved = 1;
+    r.inner.area_px = 2100; /* 25.9 px: no shade makes it smaller */
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.inner.area_px = 70;
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(108, 10); /* where 3.48 px are expected */
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(109, 10); /* 3.52 px; it has 4.72 */
+    ck_assert(drogue_result_sure(&r, &model));
+}
+END_TEST
+
+/* A large disc of its size, beside its place: nearly as sharp, in an outline that is nearly whole. */
+START_TEST(beside_its_place)
+{
+    drogue_result r = measured();
+    r.doubt_q16 = DROGUE_Q16(1, 64);
+    r.cover_q16 = DROGUE_Q16(7, 8);
+    r.inner.spread_px_q16 = DROGUE_Q16(1, 2);
+    ck_assert(drogue_result_sure(&r, &model));
+    r.orientation_resolved = 0;
+    ck_assert(drogue_result_sure(&r, &model));
+    r.cover_q16--;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.cover_q16++;
+    r.inner.spread_px_q16++;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.inner.spread_px_q16--;
+    r.doubt_q16++;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.doubt_q16--;
+    r.inner.area_px = 2980; /* 30.8 px: off by 1.5, a twenty-fifth and 0.3 are 1.6 */
+    ck_assert(drogue_result_sure(&r, &model));
+    r.inner.area_px = 2880; /* 30.3 px */
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.inner.area_px = 254;                                         /* 8.99 px */
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(278, 10); /* where 8.97 px are expected */
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(280, 10); /* 9.04 px */
+    ck_assert(drogue_result_sure(&r, &model));
 }
 END_TEST
 
@@ -215,5 +278,6 @@ START_TEST(acquire_without_an_inner_part)
 }
 END_TEST
 
-SUITE_MAIN("sure", limits_of_sure, a_witness, dark_and_sharp, behind_or_beside_the_camera_nothing_is_sure,
-           without_an_inner_part_cover_and_reliability_decide, acquire_without_an_inner_part)
+SUITE_MAIN("sure", limits_of_sure, a_witness, dark_and_sharp, in_shade, beside_its_place,
+           behind_or_beside_the_camera_nothing_is_sure, without_an_inner_part_cover_and_reliability_decide,
+           acquire_without_an_inner_part)
