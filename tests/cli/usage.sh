@@ -135,4 +135,17 @@ run 2 edges scene.png out.png --low 50.1 --high 50
 says '--low'
 [ ! -e out.png ] || fail 'a refused command wrote a file'
 
+# A complaint is one line (run() looks), whatever a value holds.
+broken=$(printf '1,2\n\r\033\177x')
+for option in --camera --distortion --roi --drogue --min-reliability --set --low; do
+    run 2 measure scene.png $camera $option "$broken"
+done
+for option in --raw --fps --max-missed; do
+    run 2 track scene.png $camera $option "$broken"
+done
+run 2 track scene.png $camera --raw "1,$broken"
+says "'2????x' is not gray8"
+run 2 measure scene.png $camera --set "$(printf 'foo\nbar=1')"
+says "named 'foo?bar'"
+
 finish
