@@ -98,6 +98,9 @@ run 2 track - scene.png $camera
 says 'stand alone'
 run 2 track gray8 gray8 $camera --raw 320,240,gray8
 says 'stand alone'
+run 2 track frames $camera --raw 320,240,gray8
+says 'drogue: frames: is a folder'
+[ ! -s out ] || fail 'a folder of raw video: lines before the refusal'
 mkdir empty
 run 2 track empty $camera
 says 'a folder without'
