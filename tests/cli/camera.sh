@@ -135,6 +135,17 @@ refused message.yaml 's/805.0/8050.0/' 'too unlike'
 refused message.yaml 's/0.003\]/0.003, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1]/' 'more than 14'
 refused opencv.xml 's,</data>,,' 'no sound XML'
 refused ros.yaml 's/data: \[800.0/data: [800.0, [/' 'no YAML'
+# Bounds of depth and of the number of keys, in both forms; as many as that are read.
+refused ros.yaml '$a deep: [[[[[[[[1]]]]]]]]' 'nested too deep'
+refused opencv.xml '$i <a><a><a><a><a><a><a><a>1</a></a></a></a></a></a></a></a>' 'nested too deep'
+yes 'word: 1' | head -n 20000 >keys.yaml
+{ echo '<x>' && yes '<word>1 2</word>' | head -n 10000 && echo '</x>'; } >keys.xml
+for file in keys.yaml keys.xml; do
+    run 2 measure scene.png --camera $file
+    says 'has no camera_matrix'
+done
+refused keys.yaml '$a word: 1' 'too large'
+refused keys.xml '$i <word>1</word>' 'too large'
 : >bad
 run 2 measure scene.png --camera bad
 says 'empty'
