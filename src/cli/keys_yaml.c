@@ -53,6 +53,10 @@ static void scalar(walk *w, const yaml_event_t *e)
 {
     level *l = &w->levels[w->depth];
     const char *text = (const char *)e->data.scalar.value;
+    if (memchr(text, '\0', e->data.scalar.length) != NULL) { /* names and values end there */
+        w->wrong = "is no camera file: it holds a NUL";
+        return;
+    }
     if (w->depth > 0 && !l->is_sequence && !l->has_key) {
         extend(w, text, e->data.scalar.length);
         l->has_key = 1;

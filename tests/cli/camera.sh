@@ -122,6 +122,8 @@ refused opencv.yaml 's/-1.0000000000000001e-01/-2.561e+02/' 'a coefficient of di
 run 2 measure scene.png --camera 800,805,159.5,119.5 --distortion 0,0,0,0,257
 says 'drogue: --distortion: a coefficient of distortion is beyond 256'
 refused opencv.yaml 's/805/x&/;s/8.0500000000000000e+02/eight/' 'no number'
+refused ros.yaml 's/805.0/"805.0\\0junk"/' 'holds a NUL'
+refused ros.yaml 's/^image_width/"image_width\\0junk"/' 'holds a NUL'
 refused ros.yaml 's/805.0/"8\\n05"/' "'8?05' is no number"
 refused opencv.yaml 's/data: \[ 8.0/data: [ -8.0/' 'above 0'
 refused opencv.yaml 's/+02, 0., 1.595/+02, 1., 1.595/' skew
