@@ -48,7 +48,9 @@ says 'needs a value'
 run 2 measure scene.png $camera --overlay
 says 'needs a value'
 run 2 measure scene.png $camera --json=yes
-says 'takes no value'
+says 'drogue: --json=yes: takes no value'
+run 2 measure scene.png $camera --he
+says 'drogue: --he: unknown or ambiguous option'
 run 2 measure scene.png $camera --fps 30
 says '--fps'
 run 2 measure scene.png $camera --low 30
