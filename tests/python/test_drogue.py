@@ -272,6 +272,16 @@ def test_arrays_of_any_layout():
     (lambda i: drogue.measure(i, DEMO, config={'nonsense': 1}), KeyError),
     (lambda i: drogue.measure(i, DEMO, config={'min_cover': 2}), ValueError),
     (lambda i: drogue.measure(i, DEMO, config={'canny_low': 100}), ValueError),
+    (lambda i: drogue.measure(i, drogue.Camera(None, 1, 0, 0)), TypeError),
+    (lambda i: drogue.measure(i, drogue.Camera('1', 1, 0, 0)), TypeError),
+    (lambda i: drogue.measure(i, drogue.Camera(10**400, 1, 0, 0)), ValueError),
+    (lambda i: drogue.measure(i, DEMO, drogue.Model('1')), TypeError),
+    (lambda i: drogue.measure(i, DEMO, region=(152.0, 134.0, 214.0, 214.0)), TypeError),
+    (lambda i: drogue.measure(i, DEMO, region='1234'), TypeError),
+    (lambda i: drogue.measure(i, DEMO, region=(10**30, 0, 1, 1)), ValueError),
+    (lambda i: drogue.measure(i, DEMO, config={1: 1}), KeyError),
+    (lambda i: drogue.measure(i, DEMO, config={'min_cover': 'x'}), TypeError),
+    (lambda i: drogue.measure(i, DEMO, config={'min_cover': None}), TypeError),
     (lambda i: drogue.canny(i, 2, 1), ValueError),
     (lambda i: drogue.Tracker(DEMO).frame(i, 0), ValueError),
     (lambda i: drogue.Tracker(DEMO).frame(i, 1e9), ValueError),
@@ -281,6 +291,17 @@ def test_arrays_of_any_layout():
 def test_misuse(call, error):
     with pytest.raises(error):
         call(drogue.images.read(VECTORS / 'frame/demo.png'))
+
+
+def test_a_refusal_says_what_is_wrong():
+    image = np.zeros((9, 9), np.uint8)
+    with pytest.raises(TypeError, match='^fx must be a number$'):
+        drogue.measure(image, drogue.Camera(None, 1, 0, 0))
+    with pytest.raises(TypeError, match='^min_cover must be a number$'):
+        drogue.measure(image, DEMO, config={'min_cover': 'x'})
+    with pytest.raises(TypeError, match='of a region must be whole numbers$'):
+        drogue.measure(image, DEMO, region=(1, 2, 3.0, 4))
+    drogue.measure(image, DEMO, region=np.array([1, 2, 3, 4]))  # whole numbers of numpy's are
 
 
 def test_thresholds():
