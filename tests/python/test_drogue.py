@@ -182,6 +182,14 @@ def page(*arguments):
     return __main__.main(['report', *map(str, arguments), '--camera', '1465.5,1465.5,403.5,143.5'])
 
 
+def test_a_report_on_too_large_an_image_is_one_line(tmp_path, capsys):
+    large = tmp_path / 'large.pgm'
+    large.write_bytes(b'P5 20000 20000 255 ')
+    assert page(large, '-o', tmp_path / 'page.html') == 2
+    error = capsys.readouterr().err
+    assert error.startswith(f'drogue: {large}: ') and error.count('\n') == 1, error
+
+
 def test_a_report_never_writes_over_its_input(tmp_path, capsys):
     demo = (VECTORS / 'frame/demo.png').read_bytes()
     (tmp_path / 'g8.png').write_bytes(demo)
