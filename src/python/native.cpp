@@ -269,6 +269,7 @@ static py::dict measure(const py::array &array, const py::sequence &camera_, con
 {
     const Grey grey = to_image(array);
     const drogue_camera camera = to_camera(camera_);
+    refuse(ranges_centre(&camera, grey.image.width_px, grey.image.height_px));
     const drogue_model model = to_model(model_);
     const drogue_config config = to_config(config_);
     const drogue_setup setup = {&camera, &model, &config};

@@ -65,9 +65,9 @@ run 2 measure scene.png $camera --json --csv
 says 'excludes'
 run 2 measure scene.png $camera --raw 1,1,gray8
 run 2 measure scene.png --camera 800,800,5000,119.5
-says 'principal point'
+says 'the principal point lies far outside the image: scene.png has 320x240 pixels'
 run 2 track scene.png --camera 800,800,159.5,-4500
-says 'principal point'
+says 'the principal point lies far outside the image: scene.png has 320x240 pixels'
 for r in -0.1 1.1 x '' 0.5,0.5; do
     run 2 track scene.png $camera --min-reliability "$r"
     run 2 measure scene.png $camera --min-reliability "$r"

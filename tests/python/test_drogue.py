@@ -179,7 +179,7 @@ def test_sixteen_bits_are_those_of_the_program(channels, tmp_path):
 
 
 def page(*arguments):
-    return __main__.main(['report', *map(str, arguments), '--camera', '1465.5,1465.5,403.5,143.5'])
+    return __main__.main(['report', '--camera', '1465.5,1465.5,403.5,143.5', *map(str, arguments)])
 
 
 def test_a_report_on_too_large_an_image_is_one_line(tmp_path, capsys):
@@ -208,6 +208,9 @@ def test_a_report_never_writes_over_its_input(tmp_path, capsys):
     (['--distortion', '300,0,0,0,0'], 'beyond 256'),
     (['--drogue', '1e-9'], 'radius must be at least 0.01'),
     (['--drogue', '0.005,0.002,0.003'], 'radius must be at least 0.01'),
+    (['--drogue', '0.35,0,0.25'], 'INNER must be above 0'),
+    (['--drogue', '0.35,1e-7,0.25'], 'INNER must be above 0'),
+    (['--camera', '1465.5,1465.5,5000,143.5'], 'the principal point lies far outside the image'),
     (['--roi', '1,2,3,0'], 'greater than 0'),
     (['--roi', '1,2,8193,4'], '8192'),
     ([VECTORS / 'smooth/ramp.image.png'], 'ramp.image.png: 52x20 pixels, unlike the first frame\'s 640x480'),
@@ -274,6 +277,8 @@ def test_arrays_of_any_layout():
     (lambda i: drogue.measure(i, drogue.Camera(1e6, 1, 0, 0)), ValueError),
     (lambda i: drogue.measure(i, drogue.Camera(1465.5, 14.655, 0, 0)), ValueError),
     (lambda i: drogue.measure(i, drogue.Camera(1, 1, 0, 0, k1=300)), ValueError),
+    (lambda i: drogue.measure(i, drogue.Camera(1, 1, 5000, 0)), ValueError),
+    (lambda i: drogue.Tracker(drogue.Camera(1, 1, 0, -4500)).frame(i), ValueError),
     (lambda i: drogue.measure(i, DEMO, drogue.Model(0.1, 0.2)), ValueError),
     (lambda i: drogue.measure(i, DEMO, drogue.Model(0.005)), ValueError),
     (lambda i: drogue.measure(i, DEMO, region=(1, 2, 3)), ValueError),
