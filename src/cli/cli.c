@@ -7,18 +7,28 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { REASON_BYTES = 8192 }; /* a longer reason, by what was given, is cut */
+
+/* A complaint is one line, whatever a file is called or a value holds. */
+static void put_clean(const char *text)
+{
+    for (; *text != '\0'; text++) {
+        fputc((unsigned char)*text < 0x20 || *text == 0x7F ? '?' : *text, stderr);
+    }
+}
+
 int complain(const char *subject, const char *format, ...)
 {
+    char reason[REASON_BYTES] = "";
     va_list arguments;
-    fputs("drogue: ", stderr);
-    for (; *subject != '\0'; subject++) { /* a complaint is one line, whatever a file is called */
-        fputc((unsigned char)*subject < 0x20 ? '?' : *subject, stderr);
-    }
-    fputs(": ", stderr);
     va_start(arguments, format);
-    vfprintf(stderr, format, arguments);
-    fputc('\n', stderr);
+    vsnprintf(reason, sizeof reason, format, arguments);
     va_end(arguments);
+    fputs("drogue: ", stderr);
+    put_clean(subject);
+    fputs(": ", stderr);
+    put_clean(reason);
+    fputc('\n', stderr);
     return EXIT_BAD;
 }
 

@@ -7,7 +7,8 @@ const char *explain_status(drogue_status status)
     switch (status) {
     case DROGUE_OK: return "measured";
     case DROGUE_E_ARGUMENT: return "camera, drogue or a threshold is outside its range";
-    case DROGUE_E_REGION: return "the region does not meet the image, or is too large to be measured as a whole";
+    case DROGUE_E_REGION:
+        return "the region does not meet the image, ends beyond pixel 32766, or is too large to be measured as a whole";
     case DROGUE_E_WORKSPACE: return "the workspace is too small for the region";
     case DROGUE_E_LABELS_FULL: return "more components than the workspace holds";
     case DROGUE_E_EDGES_FULL: return "more edge points than the workspace holds";

@@ -5,11 +5,7 @@
 #include <stdlib.h>
 
 #include "cli.h"
-
-enum {
-    MOST_OUTSIDE = 4, /* longest sides that a principal point may lie outside: of a part cut from an image */
-    LEAST_FAR = 1024  /* px: the least longest side that counts for it */
-};
+#include "ranges.h"
 
 /* Pixels of [start, start + size) inside [0, limit). */
 static int32_t overlap(int32_t start, int32_t size, int32_t limit)
@@ -90,28 +86,17 @@ drogue_image frame_image(const picture *grey)
     return image;
 }
 
-/* Pixels by which a coordinate lies outside [0, size). */
-static int64_t outside(drogue_q16 v_q16, int32_t size)
-{
-    const int64_t v = v_q16 / DROGUE_Q16_ONE;
-    return v < 0 ? -v : v >= size ? v - size : 0;
-}
-
 int frame_check_camera(const options *o, const char *path, const picture *grey)
 {
-    const drogue_camera *c = &o->camera;
-    const int32_t longest = grey->width_px > grey->height_px ? grey->width_px : grey->height_px;
-    const int64_t far = longest < LEAST_FAR ? MOST_OUTSIDE * LEAST_FAR : (int64_t)MOST_OUTSIDE * longest;
+    const char *centre = ranges_centre(&o->camera, grey->width_px, grey->height_px);
     if (o->camera_width_px > 0 && o->camera_height_px > 0 &&
         (o->camera_width_px != grey->width_px || o->camera_height_px != grey->height_px)) {
         return complain(path, "%dx%d pixels, but the camera of %s has %dx%d", grey->width_px, grey->height_px,
                         o->camera_file, o->camera_width_px, o->camera_height_px);
     }
-    if (outside(c->cx_px_q16, grey->width_px) > far || outside(c->cy_px_q16, grey->height_px) > far) {
-        return complain("--camera", "the principal point lies far outside the %dx%d pixels of %s", grey->width_px,
-                        grey->height_px, path);
-    }
-    return EXIT_MEASURED;
+    return centre == NULL
+               ? EXIT_MEASURED
+               : complain("--camera", "%s: %s has %dx%d pixels", centre, path, grey->width_px, grey->height_px);
 }
 
 int frame_region(drogue_region *out, const options *o, const char *path, const picture *grey)

@@ -11,7 +11,7 @@
 int keys_add(keys *k, const char *name, const char *value, size_t length)
 {
     const size_t name_bytes = strlen(name) + 1;
-    char **more = realloc(k->names, (k->count + 1) * sizeof *more);
+    char **more = k->count < KEYS_MOST ? realloc(k->names, (k->count + 1) * sizeof *more) : NULL;
     char *block;
     if (more == NULL) {
         return 0;

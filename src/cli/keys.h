@@ -25,10 +25,12 @@ const char *keys_value(const keys *k, const char *name);
 /* Is there a key that begins so? */
 int keys_has(const keys *k, const char *beginning);
 
-/* For the readers: add a key. Returns 0 when there is no memory. */
-int keys_add(keys *k, const char *name, const char *value, size_t length);
+/* For the readers: bounds, and what is said beyond one. */
+enum { KEYS_NAME = 256, KEYS_DEPTH = 8, KEYS_MOST = 20000 };
+#define KEYS_TOO_MUCH "is no camera file: nested too deep, or too large"
 
-#define KEYS_NAME 256
+/* For the readers: add a key. Returns 0 when there are KEYS_MOST, or no memory. */
+int keys_add(keys *k, const char *name, const char *value, size_t length);
 
 /* The two forms; each returns NULL, or what is wrong. */
 const char *keys_read_yaml(keys *k, FILE *in);

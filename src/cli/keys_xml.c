@@ -7,27 +7,25 @@
 #ifdef HAVE_EXPAT
 #include <expat.h>
 
-enum { MOST_DEPTH = 8, MOST_TEXT = 16384, MOST_KEYS = 20000 };
+enum { MOST_TEXT = 16384 };
 
 typedef struct walk {
     keys *k;
     char name[KEYS_NAME];
-    size_t lengths[MOST_DEPTH]; /* of the name, by depth */
+    size_t lengths[KEYS_DEPTH]; /* of the name, by depth */
     int depth;
     char text[MOST_TEXT];
     size_t length;
     const char *wrong;
 } walk;
 
-static const char TOO_MUCH[] = "is no camera file: nested too deep, or too large";
-
 static void XMLCALL begin(void *data, const XML_Char *element, const XML_Char **attributes)
 {
     walk *w = data;
     const size_t at = w->depth > 1 ? w->lengths[w->depth] + 1 : 0;
     (void)attributes;
-    if (w->depth + 1 >= MOST_DEPTH || at + strlen(element) + 16 > KEYS_NAME) {
-        w->wrong = TOO_MUCH;
+    if (w->depth + 1 >= KEYS_DEPTH || at + strlen(element) + 16 > KEYS_NAME) {
+        w->wrong = KEYS_TOO_MUCH;
         return;
     }
     if (w->depth > 0) {
@@ -45,7 +43,7 @@ static void XMLCALL text(void *data, const XML_Char *bytes, int length)
 {
     walk *w = data;
     if (w->length + (size_t)length >= MOST_TEXT) {
-        w->wrong = TOO_MUCH;
+        w->wrong = KEYS_TOO_MUCH;
         return;
     }
     memcpy(w->text + w->length, bytes, (size_t)length);
@@ -63,11 +61,11 @@ static void add_words(walk *w)
     for (at += strspn(at, SPACE); *at != '\0'; at += strspn(at, SPACE)) {
         const size_t length = strcspn(at, SPACE);
         if (place == 0 && at[length + strspn(at + length, SPACE)] == '\0' && !keys_add(w->k, w->name, at, length)) {
-            w->wrong = TOO_MUCH;
+            w->wrong = KEYS_TOO_MUCH;
         }
         snprintf(w->name + stem, KEYS_NAME - stem, ".%d", place++);
-        if (w->k->count >= MOST_KEYS || !keys_add(w->k, w->name, at, length)) {
-            w->wrong = TOO_MUCH;
+        if (!keys_add(w->k, w->name, at, length)) {
+            w->wrong = KEYS_TOO_MUCH;
         }
         w->name[stem] = '\0';
         at += length;

@@ -7,8 +7,6 @@
 #ifdef HAVE_YAML
 #include <yaml.h>
 
-enum { MOST_DEPTH = 8, MOST_KEYS = 20000 };
-
 typedef struct level {
     int is_sequence;
     int place;
@@ -19,19 +17,17 @@ typedef struct level {
 typedef struct walk {
     keys *k;
     char name[KEYS_NAME];
-    level levels[MOST_DEPTH];
+    level levels[KEYS_DEPTH];
     int depth;
     const char *wrong;
 } walk;
-
-static const char TOO_MUCH[] = "is no camera file: nested too deep, or too large";
 
 /* Append a word to the name behind the present level's. */
 static void extend(walk *w, const char *word, size_t length)
 {
     const size_t at = w->levels[w->depth].length;
     if (at + length + 2 > KEYS_NAME) {
-        w->wrong = TOO_MUCH;
+        w->wrong = KEYS_TOO_MUCH;
         return;
     }
     if (at > 0) {
@@ -57,22 +53,26 @@ static void scalar(walk *w, const yaml_event_t *e)
 {
     level *l = &w->levels[w->depth];
     const char *text = (const char *)e->data.scalar.value;
+    if (memchr(text, '\0', e->data.scalar.length) != NULL) { /* names and values end there */
+        w->wrong = "is no camera file: it holds a NUL";
+        return;
+    }
     if (w->depth > 0 && !l->is_sequence && !l->has_key) {
         extend(w, text, e->data.scalar.length);
         l->has_key = 1;
         return;
     }
     begin_node(w);
-    if (w->wrong == NULL && (w->k->count >= MOST_KEYS || !keys_add(w->k, w->name, text, e->data.scalar.length))) {
-        w->wrong = TOO_MUCH;
+    if (w->wrong == NULL && !keys_add(w->k, w->name, text, e->data.scalar.length)) {
+        w->wrong = KEYS_TOO_MUCH;
     }
 }
 
 static void open_level(walk *w, int is_sequence)
 {
     begin_node(w);
-    if (w->depth + 1 >= MOST_DEPTH) {
-        w->wrong = TOO_MUCH;
+    if (w->depth + 1 >= KEYS_DEPTH) {
+        w->wrong = KEYS_TOO_MUCH;
         return;
     }
     w->depth++;

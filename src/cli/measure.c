@@ -64,10 +64,10 @@ static int measure(const options *o, frame_workspace *w, const picture *grey)
         return EXIT_BAD;
     }
     remark(o, &m);
-    if (o->overlay != NULL && overlay_write(o->overlay, o, grey, &region, &w->workspace, &result, NULL)) {
+    if (o->overlay != NULL && overlay_write(o->overlay, o, grey, &region, &w->workspace, &m, NULL)) {
         return EXIT_BAD;
     }
-    return result.status == DROGUE_OK && !m.unreliable ? EXIT_MEASURED : EXIT_NOTHING;
+    return measurement_known(&m) ? EXIT_MEASURED : EXIT_NOTHING;
 }
 
 int command_measure(const options *o)

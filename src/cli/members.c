@@ -141,10 +141,12 @@ const char *measurement_status(const measurement *m)
     return m->unreliable ? "unreliable" : drogue_status_name(m->result->status);
 }
 
+int measurement_known(const measurement *m) { return m->result->status == DROGUE_OK && !m->unreliable; }
+
 void members_of_measurement(const member_sink *s, const measurement *m)
 {
     const drogue_result *r = m->result;
-    const int known = r->status == DROGUE_OK && !m->unreliable;
+    const int known = measurement_known(m);
     s->text(s->state, "image", m->path);
     s->text(s->state, "status", measurement_status(m));
     put_region(s, "region", &r->region, r->region.width_px > 0 && r->region.height_px > 0);

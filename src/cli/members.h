@@ -37,6 +37,9 @@ typedef struct track_line {
 /* Status in words: the library's, or "unreliable". */
 const char *measurement_status(const measurement *m);
 
+/* Is there a pose to show? */
+int measurement_known(const measurement *m);
+
 void members_of_measurement(const member_sink *sink, const measurement *m);
 void members_of_track_line(const member_sink *sink, const track_line *line);
 

@@ -294,6 +294,35 @@ static int check_use(options *out, unsigned given, char **operands, int count)
     return EXIT_MEASURED;
 }
 
+/* What getopt_long does not take: it said ':' of an option without its value, '?' of any other. */
+static int complain_of(int option, char **argv)
+{
+    const char text[] = {'-', (char)optopt, '\0'};
+    if (option == ':') {
+        return complain(argv[optind - 1], "needs a value");
+    }
+    if (optopt > 0 && optopt < OPTION_END) {
+        return complain(argv[optind - 1], "takes no value");
+    }
+    return optopt != 0 ? complain(text, "unknown option; see drogue --help")
+                       : complain(argv[optind - 1], "unknown or ambiguous option; see drogue --help");
+}
+
+/* What no option alone can show. */
+static int check_together(const options *o, const uint64_t thresholds[2])
+{
+    if (check_camera(o)) {
+        return EXIT_BAD;
+    }
+    if (o->command == COMMAND_TRACK && o->overlay != NULL && strcmp(o->overlay, "-") == 0) {
+        return complain("--overlay", "track writes numbered files, not to standard output");
+    }
+    if (!drogue_config_valid(&o->config)) {
+        return complain("--set", "thresholds contradict each other: low above high, or least above most");
+    }
+    return thresholds[0] <= thresholds[1] ? EXIT_MEASURED : complain("--low", "must not exceed --high");
+}
+
 int options_parse(options *out, int argc, char **argv)
 {
     uint64_t thresholds[2] = {0, 0};
@@ -312,20 +341,9 @@ int options_parse(options *out, int argc, char **argv)
         case 'V':
         case OPTION_VERSION: out->command = COMMAND_VERSION; return EXIT_MEASURED;
         case OPTION_HELP_CONFIG: out->command = COMMAND_HELP_CONFIG; return EXIT_MEASURED;
+        case ':':
+        case '?': return complain_of(option, argv);
         default: break;
-        }
-        if (option == ':') {
-            return complain(argv[optind - 1], "needs a value");
-        }
-        if (option == '?' && optopt > 0 && optopt < OPTION_END) {
-            return complain(argv[optind - 1], "takes no value");
-        }
-        if (option == '?' && optopt != 0) {
-            char text[] = {'-', (char)optopt, '\0'};
-            return complain(text, "unknown option; see drogue --help");
-        }
-        if (option == '?') {
-            return complain(argv[optind - 1], "unknown or ambiguous option; see drogue --help");
         }
         if (parse_option(out, thresholds, option, optarg)) {
             return EXIT_BAD;
@@ -333,20 +351,8 @@ int options_parse(options *out, int argc, char **argv)
         given |= BIT(option);
     }
     if (check_use(out, given, argv + optind, argc - optind) ||
-        take_camera(out, (given & BIT(OPTION_DISTORTION)) != 0)) {
+        take_camera(out, (given & BIT(OPTION_DISTORTION)) != 0) || check_together(out, thresholds)) {
         return EXIT_BAD;
-    }
-    if (check_camera(out)) {
-        return EXIT_BAD;
-    }
-    if (out->command == COMMAND_TRACK && out->overlay != NULL && strcmp(out->overlay, "-") == 0) {
-        return complain("--overlay", "track writes numbered files, not to standard output");
-    }
-    if (!drogue_config_valid(&out->config)) {
-        return complain("--set", "thresholds contradict each other: low above high, or least above most");
-    }
-    if (thresholds[0] > thresholds[1]) {
-        return complain("--low", "must not exceed --high");
     }
     out->canny_low = (int32_t)(thresholds[0] / BILLION);
     out->canny_high = (int32_t)(thresholds[1] / BILLION);

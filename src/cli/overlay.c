@@ -231,11 +231,12 @@ static void put_legend(view *v, int32_t line)
     (void)canvas_text(&v->canvas, x, y, v->word_scale, REGION_COLOUR, " region");
 }
 
-static void put_words(view *v, const options *o, const drogue_result *r, const char *state)
+static void put_words(view *v, const measurement *m, const char *state)
 {
+    const drogue_result *r = m->result;
     char line[128], x[DECIMAL_TEXT], y[DECIMAL_TEXT], z[DECIMAL_TEXT];
     snprintf(line, sizeof line, "%s%sstatus %s", state != NULL ? state : "", state != NULL ? ", " : "",
-             drogue_status_name(r->status));
+             measurement_status(m));
     put_line(v, 0, line);
     put_legend(v, WORD_LINES - 1);
     if (r->ellipse.a_px_q16 > 0) {
@@ -246,13 +247,13 @@ static void put_words(view *v, const options *o, const drogue_result *r, const c
                                                          : "dark and bright");
         put_line(v, 1, line);
     }
-    if (r->status != DROGUE_OK) {
+    if (!measurement_known(m)) {
         return;
     }
     decimal_format_q16(x, r->pose.position_m_q16[0], 3);
     decimal_format_q16(y, r->pose.position_m_q16[1], 3);
     decimal_format_q16(z, r->pose.position_m_q16[2], 3);
-    snprintf(line, sizeof line, "position %s, %s, %s %s", x, y, z, options_length_unit(o));
+    snprintf(line, sizeof line, "position %s, %s, %s %s", x, y, z, m->length_unit);
     put_line(v, 2, line);
     decimal_format_degrees(x, r->pose.yaw_rad_q16, 2);
     decimal_format_degrees(y, r->pose.pitch_rad_q16, 2);
@@ -262,8 +263,9 @@ static void put_words(view *v, const options *o, const drogue_result *r, const c
 }
 
 int overlay_write(const char *path, const options *o, const picture *grey, const drogue_region *region,
-                  const drogue_workspace *workspace, const drogue_result *result, const char *state)
+                  const drogue_workspace *workspace, const measurement *m, const char *state)
 {
+    const drogue_result *result = m->result;
     view v;
     int code;
     choose_part(&v, grey, region);
@@ -276,7 +278,7 @@ int overlay_write(const char *path, const options *o, const picture *grey, const
     if (result->ellipse.a_px_q16 > 0) {
         draw_ellipse(&v, &result->ellipse);
     }
-    if (result->status == DROGUE_OK) {
+    if (measurement_known(m)) {
         if (!result->orientation_resolved) {
             draw_axis(&v, &result->alternative, o, TWIN_COLOUR);
         }
@@ -287,7 +289,7 @@ int overlay_write(const char *path, const options *o, const picture *grey, const
     }
     /* Lines that left the image must not cross the words. */
     canvas_fill(&v.canvas, 0, v.height_px * v.scale, v.canvas.width_px, v.canvas.height_px, BAND_COLOUR, 256);
-    put_words(&v, o, result, state);
+    put_words(&v, m, state);
     code = picture_write(&v.canvas, path);
     picture_free(&v.canvas);
     return code;

@@ -7,7 +7,9 @@
 
 #include "cli.h"
 
-/* The next number of the header, at most 10^6; -1 when there is none. Comments run from # to the end of the line. */
+enum { MOST_DIGITS = 8 }; /* as PICTURE_MAX_PIXELS has, which bounds the sides */
+
+/* The next number of the header; -1 when there is none. Comments run from # to the end of the line. */
 static long header_number(FILE *in)
 {
     long value = 0;
@@ -22,12 +24,12 @@ static long header_number(FILE *in)
             c = getc(in);
         }
     }
-    while (isdigit(c) && digits < 7) {
+    while (isdigit(c) && digits <= MOST_DIGITS) {
         value = value * 10 + (c - '0');
         digits++;
         c = getc(in);
     }
-    return digits > 0 && digits < 7 && isspace(c) ? value : -1; /* the one white space is read, too */
+    return digits > 0 && digits <= MOST_DIGITS && isspace(c) ? value : -1; /* the one white space is read, too */
 }
 
 /* Samples from 0 to 'most', a byte each or two with the greater first. */

@@ -10,7 +10,9 @@
 #define TEXT(x) #x
 #define TEXT_OF(x) TEXT(x)
 
-#define MOST_ASPECT 8                /* of a pixel; beyond it one of the two is no focal length */
+#define MOST_ASPECT 8  /* of a pixel; beyond it one of the two is no focal length */
+#define MOST_OUTSIDE 4 /* longest sides that a principal point may lie outside: of a part cut from an image */
+#define LEAST_FAR 1024 /* px: the least longest side that counts for it */
 #define LEAST_RIM DROGUE_Q16(1, 100) /* rounded by less than a thousandth of itself, and with it the distance */
 
 const char *ranges_focal(const drogue_camera *c)
@@ -27,6 +29,22 @@ const char *ranges_focal(const drogue_camera *c)
 const char *ranges_lens(const drogue_camera *c)
 {
     return drogue_lens_valid(c) ? NULL : "a coefficient of distortion is beyond 256";
+}
+
+/* Pixels by which a coordinate lies outside [0, size). */
+static int64_t outside(drogue_q16 v_q16, int32_t size)
+{
+    const int64_t v = v_q16 / DROGUE_Q16_ONE;
+    return v < 0 ? -v : v >= size ? v - size : 0;
+}
+
+const char *ranges_centre(const drogue_camera *c, int32_t width_px, int32_t height_px)
+{
+    const int32_t longest = width_px > height_px ? width_px : height_px;
+    const int64_t far = longest < LEAST_FAR ? MOST_OUTSIDE * LEAST_FAR : (int64_t)MOST_OUTSIDE * longest;
+    return outside(c->cx_px_q16, width_px) > far || outside(c->cy_px_q16, height_px) > far
+               ? "the principal point lies far outside the image"
+               : NULL;
 }
 
 const char *ranges_model(const drogue_model *m)

@@ -11,6 +11,7 @@ extern "C" {
 
 const char *ranges_focal(const drogue_camera *c);
 const char *ranges_lens(const drogue_camera *c);
+const char *ranges_centre(const drogue_camera *c, int32_t width_px, int32_t height_px); /* of the image */
 const char *ranges_model(const drogue_model *m);
 const char *ranges_region(const drogue_region *r);
 

@@ -77,6 +77,9 @@ int sequence_expand(options *o)
         if (o->file_count > 1 && (strcmp(o->files[i], "-") == 0 || o->raw.kind != RAW_NONE)) {
             return complain(o->files[i], "standard input and raw video stand alone");
         }
+        if (is_folder(o->files[i]) && o->raw.kind != RAW_NONE) {
+            return complain(o->files[i], "is a folder: raw video is one file or standard input");
+        }
         if (is_folder(o->files[i]) ? append_folder(o, o->files[i]) : append(o, copy("", o->files[i]))) {
             return EXIT_BAD;
         }

@@ -72,7 +72,7 @@ void table_print(const measurement *m)
 {
     table t;
     const member_sink sink = {&t, begin, end, value, text};
-    const int unresolved = m->result->status == DROGUE_OK && !m->unreliable && !m->result->orientation_resolved;
+    const int unresolved = measurement_known(m) && !m->result->orientation_resolved;
     memset(&t, 0, sizeof t);
     printf("%s: %s%s\n", m->path, measurement_status(m),
            unresolved ? ", orientation unresolved: either pose, this or the alternative" : "");

@@ -56,28 +56,24 @@ static int begin_track(tracker *s, const char *path, const picture *grey)
 
 /* Draw frame 'number', counted from 1, into OUT-0001.png for OUT.png. */
 static int draw_frame(const tracker *s, int number, const picture *grey, const drogue_region *region,
-                      const drogue_result *result, drogue_track_state state)
+                      const measurement *m, drogue_track_state state)
 {
     char *path = output_numbered(s->o->overlay, number);
     int code;
     if (path == NULL) {
         return EXIT_BAD;
     }
-    code = overlay_write(path, s->o, grey, region, &s->w.workspace, result, drogue_track_state_name(state));
+    code = overlay_write(path, s->o, grey, region, &s->w.workspace, m, drogue_track_state_name(state));
     free(path);
     return code;
 }
 
-static void print_line(const tracker *s, const char *path, const drogue_result *result, const drogue_region *region)
+static void print_line(const tracker *s, const measurement *m, const drogue_region *region)
 {
     drogue_track_estimate estimate;
     track_line line;
     drogue_track_get(&estimate, &s->track);
-    line.raw.path = path;
-    line.raw.result = result;
-    line.raw.length_unit = options_length_unit(s->o);
-    line.raw.searched = -1; /* the tracker does not say */
-    line.raw.unreliable = frame_unreliable(s->o, result);
+    line.raw = *m;
     line.frame = s->frames;
     line.time_us = s->clock.us;
     line.track = &s->track;
@@ -107,6 +103,7 @@ static uint32_t advance(frame_clock *c, uint64_t rate)
 
 static int track_frame(tracker *s, const char *path, const picture *grey)
 {
+    measurement m = {path, NULL, options_length_unit(s->o), -1, 0}; /* the tracker does not say where it searched */
     drogue_region region;
     drogue_result result;
     drogue_track_state state;
@@ -125,12 +122,14 @@ static int track_frame(tracker *s, const char *path, const picture *grey)
     state = s->track.state;
     s->frames++;
     s->of_status[result.status]++;
-    s->unreliable += frame_unreliable(s->o, &result);
-    print_line(s, path, &result, &region);
+    m.result = &result;
+    m.unreliable = frame_unreliable(s->o, &result);
+    s->unreliable += m.unreliable;
+    print_line(s, &m, &region);
     if (flush_output()) {
         return EXIT_BAD;
     }
-    return s->o->overlay == NULL ? EXIT_MEASURED : draw_frame(s, (int)s->frames, grey, &region, &result, state);
+    return s->o->overlay == NULL ? EXIT_MEASURED : draw_frame(s, (int)s->frames, grey, &region, &m, state);
 }
 
 /* How many frames gave nothing, a line a status. */

@@ -29,6 +29,41 @@ void refuse(const char *wrong)
     }
 }
 
+// A float, or what Python makes one of; TypeError or ValueError that names it otherwise.
+static double to_number(const py::handle &value, const char *what)
+{
+    const double number = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred() == nullptr) {
+        return number;
+    }
+    if (PyErr_ExceptionMatches(PyExc_TypeError)) {
+        PyErr_Clear();
+        throw py::type_error(std::string(what) + " must be a number");
+    }
+    if (PyErr_ExceptionMatches(PyExc_OverflowError)) {
+        PyErr_Clear();
+        throw py::value_error(std::string(what) + " is outside its range");
+    }
+    throw py::error_already_set();
+}
+
+// A coordinate or side of a region, as Python's own indices: no float, whatever its value.
+static int32_t to_pixels(const py::handle &value)
+{
+    const long long most = 1 << 20;
+    const py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    int beyond = 0;
+    if (!whole) {
+        PyErr_Clear();
+        throw py::type_error("x, y, width and height of a region must be whole numbers");
+    }
+    const long long pixels = PyLong_AsLongLongAndOverflow(whole.ptr(), &beyond);
+    if (beyond != 0 || pixels < -most || pixels > most) {
+        throw py::value_error("a region lies within +-1048576 px");
+    }
+    return static_cast<int32_t>(pixels);
+}
+
 static double q16(int64_t v) { return static_cast<double>(v) / 65536.0; }
 
 Grey to_image(const py::array &array)
@@ -50,11 +85,12 @@ Grey to_image(const py::array &array)
 
 drogue_camera to_camera(const py::sequence &v)
 {
+    static const char *const what[] = {"fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3"};
     drogue_camera c;
     drogue_q16 *const members[] = {&c.fx_px_q16, &c.fy_px_q16, &c.cx_px_q16, &c.cy_px_q16, &c.k1_q16,
                                    &c.k2_q16,    &c.p1_q16,    &c.p2_q16,    &c.k3_q16};
     for (size_t i = 0; i < 9; i++) {
-        *members[i] = to_q16(v[i].cast<double>(), "a number of the camera");
+        *members[i] = to_q16(to_number(v[i], what[i]), what[i]);
     }
     refuse(ranges_focal(&c));
     refuse(ranges_lens(&c));
@@ -64,9 +100,11 @@ drogue_camera to_camera(const py::sequence &v)
 drogue_model to_model(const py::sequence &v)
 {
     drogue_model m;
-    m.rim_radius_m_q16 = to_q16(v[0].cast<double>(), "the rim's radius");
-    m.inner_radius_m_q16 = to_q16(v[1].cast<double>(), "the inner part's radius");
-    m.inner_depth_m_q16 = to_q16(v[2].cast<double>(), "the inner part's depth");
+    drogue_q16 *const members[] = {&m.rim_radius_m_q16, &m.inner_radius_m_q16, &m.inner_depth_m_q16};
+    static const char *const what[] = {"the rim's radius", "the inner part's radius", "the inner part's depth"};
+    for (size_t i = 0; i < 3; i++) {
+        *members[i] = to_q16(to_number(v[i], what[i]), what[i]);
+    }
     refuse(ranges_model(&m));
     return m;
 }
@@ -79,11 +117,7 @@ drogue_region to_region(const py::sequence &v)
         throw py::value_error("a region is x, y, width, height");
     }
     for (size_t i = 0; i < 4; i++) {
-        const long long value = v[i].cast<long long>();
-        if (value < -(1 << 20) || value > 1 << 20) {
-            throw py::value_error("a region lies within +-1048576 px");
-        }
-        *members[i] = static_cast<int32_t>(value);
+        *members[i] = to_pixels(v[i]);
     }
     return r;
 }
@@ -101,12 +135,12 @@ drogue_config to_config(const py::dict &changed)
     drogue_config config;
     drogue_config_default(&config);
     for (const auto &item : changed) {
-        const std::string name = py::cast<std::string>(item.first);
+        const std::string name = py::str(item.first);
         const threshold *t = find_threshold(name);
         if (t == nullptr) {
             throw py::key_error("no threshold is named " + name + "; see drogue.thresholds()");
         }
-        const double value = py::cast<double>(item.second);
+        const double value = to_number(item.second, name.c_str());
         const double kept = t->is_q16 ? std::floor(value * 65536.0 + 0.5) : value;
         if (!(kept >= t->least && kept <= t->most) || (!t->is_q16 && kept != std::floor(kept))) {
             throw py::value_error(name + " is outside its range");
@@ -234,6 +268,7 @@ static py::dict measure(const py::array &array, const py::sequence &camera_, con
 {
     const Grey grey = to_image(array);
     const drogue_camera camera = to_camera(camera_);
+    refuse(ranges_centre(&camera, grey.image.width_px, grey.image.height_px));
     const drogue_model model = to_model(model_);
     const drogue_config config = to_config(config_);
     const drogue_setup setup = {&camera, &model, &config};

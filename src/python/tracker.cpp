@@ -82,6 +82,7 @@ private:
     void take_size(const drogue_image &image)
     {
         if (width_px == 0) {
+            refuse(ranges_centre(&track.camera, image.width_px, image.height_px));
             width_px = image.width_px;
             height_px = image.height_px;
         }

@@ -122,6 +122,9 @@ refused opencv.yaml 's/-1.0000000000000001e-01/-2.561e+02/' 'a coefficient of di
 run 2 measure scene.png --camera 800,805,159.5,119.5 --distortion 0,0,0,0,257
 says 'drogue: --distortion: a coefficient of distortion is beyond 256'
 refused opencv.yaml 's/805/x&/;s/8.0500000000000000e+02/eight/' 'no number'
+refused ros.yaml 's/805.0/"805.0\\0junk"/' 'holds a NUL'
+refused ros.yaml 's/^image_width/"image_width\\0junk"/' 'holds a NUL'
+refused ros.yaml 's/805.0/"8\\n05"/' "'8?05' is no number"
 refused opencv.yaml 's/data: \[ 8.0/data: [ -8.0/' 'above 0'
 refused opencv.yaml 's/+02, 0., 1.595/+02, 1., 1.595/' skew
 refused opencv.yaml 's/3.0e-03 \]/3.0e-03, 1. ]/' rational
@@ -134,6 +137,17 @@ refused message.yaml 's/805.0/8050.0/' 'too unlike'
 refused message.yaml 's/0.003\]/0.003, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1]/' 'more than 14'
 refused opencv.xml 's,</data>,,' 'no sound XML'
 refused ros.yaml 's/data: \[800.0/data: [800.0, [/' 'no YAML'
+# Bounds of depth and of the number of keys, in both forms; as many as that are read.
+refused ros.yaml '$a deep: [[[[[[[[1]]]]]]]]' 'nested too deep'
+refused opencv.xml '$i <a><a><a><a><a><a><a><a>1</a></a></a></a></a></a></a></a>' 'nested too deep'
+yes 'word: 1' | head -n 20000 >keys.yaml
+{ echo '<x>' && yes '<word>1 2</word>' | head -n 10000 && echo '</x>'; } >keys.xml
+for file in keys.yaml keys.xml; do
+    run 2 measure scene.png --camera $file
+    says 'has no camera_matrix'
+done
+refused keys.yaml '$a word: 1' 'too large'
+refused keys.xml '$i <word>1</word>' 'too large'
 : >bad
 run 2 measure scene.png --camera bad
 says 'empty'

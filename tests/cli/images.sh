@@ -104,6 +104,8 @@ for image in widest tallest; do
 done
 run 1 measure widest.png $camera --roi 100,0,100,1
 run 1 track widest.png $camera --roi 100,0,100,1
+run 1 measure widest.png $camera --roi 32700,0,100,1
+says 'ends beyond pixel 32766'
 run 0 measure scene_large.png $far_camera --drogue 0.35,0.175,0.02 --json --overlay over.png
 near "$(json ellipse.xc)" 2241.25 0.02
 near "$(json ellipse.yc)" 118.5 0.02

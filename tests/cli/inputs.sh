@@ -47,6 +47,24 @@ for header in 'P5 0 1 255 ' 'P5 1 1 0 ' 'P5 1 1 65536 ' 'P5 1 x 255 ' 'P5' 'P5 9
     run 2 measure bad.pgm $camera
     says 'drogue: bad.pgm: '
 done
+# The pixels decide, whatever a side is: 2^26 are read.
+for size in '1000000 1' '1 67108864'; do
+    printf 'P5 %s 255 x' "$size" >bad.pgm
+    run 2 measure bad.pgm $camera
+    says 'ends early'
+done
+for size in '1 67108865' '99999999 1'; do
+    printf 'P5 %s 255 x' "$size" >bad.pgm
+    run 2 measure bad.pgm $camera
+    says 'more than the 67108864 that are read'
+done
+for number in 000000001 123456789; do
+    printf 'P5 %s 1 255 x' $number >bad.pgm
+    run 2 measure bad.pgm $camera
+    says 'no sound header'
+done
+{ printf 'P5 1000000 1 255 ' && head -c 1000000 /dev/zero; } >row.pgm
+run 1 measure row.pgm $camera --roi 100,0,100,1
 head -c 1000 scene.pgm >bad.pgm
 run 2 measure bad.pgm $camera
 says 'ends early'
@@ -98,6 +116,9 @@ run 2 track - scene.png $camera
 says 'stand alone'
 run 2 track gray8 gray8 $camera --raw 320,240,gray8
 says 'stand alone'
+run 2 track frames $camera --raw 320,240,gray8
+says 'drogue: frames: is a folder'
+[ ! -s out ] || fail 'a folder of raw video: lines before the refusal'
 mkdir empty
 run 2 track empty $camera
 says 'a folder without'

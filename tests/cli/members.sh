@@ -95,6 +95,20 @@ same "$(json position_m)" null
 near "$(json reliability)" "$reliability" 0
 says 'unreliable: '
 
+# Its overlay shows no pose, either: the same picture whatever the rim's radius, and another one than with a pose.
+unseen='--roi 0,-30,200,200 --min-reliability 1'
+for command in measure track; do
+    for radius in 0.35 0.7; do
+        # shellcheck disable=SC2086
+        run 1 $command scene_cut.png $camera $unseen --drogue $radius --overlay $command-$radius.png
+    done
+done
+run 0 measure scene_cut.png $camera --roi 0,-30,200,200 --drogue 0.35 --overlay pose.png
+cmp -s measure-0.35.png measure-0.7.png || fail 'measure: the overlay of an unreliable result shows a pose'
+cmp -s track-0.35-0001.png track-0.7-0001.png || fail 'track: the overlay of an unreliable result shows a pose'
+cmp -s measure-0.35.png pose.png && fail 'the overlay of an unreliable result says that it is measured'
+checks=$((checks + 3))
+
 # A frame of a track below it is missed; of one that is reliable enough nothing changes.
 cut='track scene_cut.png scene_cut.png --roi 0,-30,200,200'
 # shellcheck disable=SC2086

@@ -48,7 +48,9 @@ says 'needs a value'
 run 2 measure scene.png $camera --overlay
 says 'needs a value'
 run 2 measure scene.png $camera --json=yes
-says 'takes no value'
+says 'drogue: --json=yes: takes no value'
+run 2 measure scene.png $camera --he
+says 'drogue: --he: unknown or ambiguous option'
 run 2 measure scene.png $camera --fps 30
 says '--fps'
 run 2 measure scene.png $camera --low 30
@@ -63,9 +65,9 @@ run 2 measure scene.png $camera --json --csv
 says 'excludes'
 run 2 measure scene.png $camera --raw 1,1,gray8
 run 2 measure scene.png --camera 800,800,5000,119.5
-says 'principal point'
+says 'the principal point lies far outside the image: scene.png has 320x240 pixels'
 run 2 track scene.png --camera 800,800,159.5,-4500
-says 'principal point'
+says 'the principal point lies far outside the image: scene.png has 320x240 pixels'
 for r in -0.1 1.1 x '' 0.5,0.5; do
     run 2 track scene.png $camera --min-reliability "$r"
     run 2 measure scene.png $camera --min-reliability "$r"
@@ -134,5 +136,18 @@ done
 run 2 edges scene.png out.png --low 50.1 --high 50
 says '--low'
 [ ! -e out.png ] || fail 'a refused command wrote a file'
+
+# A complaint is one line (run() looks), whatever a value holds.
+broken=$(printf '1,2\n\r\033\177x')
+for option in --camera --distortion --roi --drogue --min-reliability --set --low; do
+    run 2 measure scene.png $camera $option "$broken"
+done
+for option in --raw --fps --max-missed; do
+    run 2 track scene.png $camera $option "$broken"
+done
+run 2 track scene.png $camera --raw "1,$broken"
+says "'2????x' is not gray8"
+run 2 measure scene.png $camera --set "$(printf 'foo\nbar=1')"
+says "named 'foo?bar'"
 
 finish

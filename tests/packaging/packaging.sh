@@ -6,7 +6,6 @@
 # usage: packaging.sh      DROGUE_PACK_XSD=FILE names PACK.xsd of Open-CMSIS-Pack-Spec where it cannot be downloaded
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit
-. src/sources.sh
 root=$PWD
 work=$root/build/packaging
 schema_url=https://raw.githubusercontent.com/Open-CMSIS-Pack/Open-CMSIS-Pack-Spec/v1.7.36/schema/PACK.xsd
@@ -157,18 +156,19 @@ cmsis_pack() {
     not_tried 'CMSIS-Pack: packchk, CMSIS-Toolbox' 'in neither Debian nor PyPI'
 }
 
-# use_platformio: compile as library.json says
+# use_platformio FOLDER: compile what PlatformIO takes by FOLDER/library.json
 use_platformio() {
-    local folders
-    folders=$(python3 - library.json <<'END'
-import json, sys
-build = json.load(open(sys.argv[1]))['build']
-assert build['srcFilter'] == ['+<*>', '-<cli/>'], build
-print(build['srcDir'], build['includeDir'])
+    "$work/tools/bin/python" - "$1" >"$work/arguments" <<'END'
+import json, pathlib, sys
+from platformio import fs
+folder = pathlib.Path(sys.argv[1])
+build = json.loads((folder / 'library.json').read_text())['build']
+print('-I', folder / build['includeDir'])
+sources = folder / build['srcDir']
+for name in fs.match_src_files(str(sources), build['srcFilter'], ['c', 'cc', 'cpp']):
+    print(sources / name)
 END
-    )
-    core_files "$1" '*.c' >"$work/sources"
-    gcc -std=c99 -I "$1/${folders#* }" @"$work/sources" tests/checks/consumer/main.c -o "$work/consumer"
+    gcc -std=c99 @"$work/arguments" tests/checks/consumer/main.c -o "$work/consumer"
     "$work/consumer" "$version"
 }
 
@@ -192,8 +192,8 @@ pack_platformio() {
 
 platformio() {
     same library.json "$(python3 -c 'import json; print(json.load(open("library.json"))["version"])')"
-    try 'PlatformIO: sources compiled as library.json says, used by a program' use_platformio .
     if tool pio; then
+        try 'PlatformIO: sources compiled as library.json says, used by a program' use_platformio .
         try 'PlatformIO: library.json valid, packed, the package used by a program' pack_platformio
         [ ! -e "$work/platformio/no_licence" ] ||
             not_tried 'PlatformIO: licence in library.json' 'its tool has no access to the list of licences'

@@ -179,7 +179,15 @@ def test_sixteen_bits_are_those_of_the_program(channels, tmp_path):
 
 
 def page(*arguments):
-    return __main__.main(['report', *map(str, arguments), '--camera', '1465.5,1465.5,403.5,143.5'])
+    return __main__.main(['report', '--camera', '1465.5,1465.5,403.5,143.5', *map(str, arguments)])
+
+
+def test_a_report_on_too_large_an_image_is_one_line(tmp_path, capsys):
+    large = tmp_path / 'large.pgm'
+    large.write_bytes(b'P5 20000 20000 255 ')
+    assert page(large, '-o', tmp_path / 'page.html') == 2
+    error = capsys.readouterr().err
+    assert error.startswith(f'drogue: {large}: ') and error.count('\n') == 1, error
 
 
 def test_a_report_never_writes_over_its_input(tmp_path, capsys):
@@ -200,6 +208,9 @@ def test_a_report_never_writes_over_its_input(tmp_path, capsys):
     (['--distortion', '300,0,0,0,0'], 'beyond 256'),
     (['--drogue', '1e-9'], 'radius must be at least 0.01'),
     (['--drogue', '0.005,0.002,0.003'], 'radius must be at least 0.01'),
+    (['--drogue', '0.35,0,0.25'], 'INNER must be above 0'),
+    (['--drogue', '0.35,1e-7,0.25'], 'INNER must be above 0'),
+    (['--camera', '1465.5,1465.5,5000,143.5'], 'the principal point lies far outside the image'),
     (['--roi', '1,2,3,0'], 'greater than 0'),
     (['--roi', '1,2,8193,4'], '8192'),
     ([VECTORS / 'smooth/ramp.image.png'], 'ramp.image.png: 52x20 pixels, unlike the first frame\'s 640x480'),
@@ -266,12 +277,24 @@ def test_arrays_of_any_layout():
     (lambda i: drogue.measure(i, drogue.Camera(1e6, 1, 0, 0)), ValueError),
     (lambda i: drogue.measure(i, drogue.Camera(1465.5, 14.655, 0, 0)), ValueError),
     (lambda i: drogue.measure(i, drogue.Camera(1, 1, 0, 0, k1=300)), ValueError),
+    (lambda i: drogue.measure(i, drogue.Camera(1, 1, 5000, 0)), ValueError),
+    (lambda i: drogue.Tracker(drogue.Camera(1, 1, 0, -4500)).frame(i), ValueError),
     (lambda i: drogue.measure(i, DEMO, drogue.Model(0.1, 0.2)), ValueError),
     (lambda i: drogue.measure(i, DEMO, drogue.Model(0.005)), ValueError),
     (lambda i: drogue.measure(i, DEMO, region=(1, 2, 3)), ValueError),
     (lambda i: drogue.measure(i, DEMO, config={'nonsense': 1}), KeyError),
     (lambda i: drogue.measure(i, DEMO, config={'min_cover': 2}), ValueError),
     (lambda i: drogue.measure(i, DEMO, config={'canny_low': 100}), ValueError),
+    (lambda i: drogue.measure(i, drogue.Camera(None, 1, 0, 0)), TypeError),
+    (lambda i: drogue.measure(i, drogue.Camera('1', 1, 0, 0)), TypeError),
+    (lambda i: drogue.measure(i, drogue.Camera(10**400, 1, 0, 0)), ValueError),
+    (lambda i: drogue.measure(i, DEMO, drogue.Model('1')), TypeError),
+    (lambda i: drogue.measure(i, DEMO, region=(152.0, 134.0, 214.0, 214.0)), TypeError),
+    (lambda i: drogue.measure(i, DEMO, region='1234'), TypeError),
+    (lambda i: drogue.measure(i, DEMO, region=(10**30, 0, 1, 1)), ValueError),
+    (lambda i: drogue.measure(i, DEMO, config={1: 1}), KeyError),
+    (lambda i: drogue.measure(i, DEMO, config={'min_cover': 'x'}), TypeError),
+    (lambda i: drogue.measure(i, DEMO, config={'min_cover': None}), TypeError),
     (lambda i: drogue.canny(i, 2, 1), ValueError),
     (lambda i: drogue.Tracker(DEMO).frame(i, 0), ValueError),
     (lambda i: drogue.Tracker(DEMO).frame(i, 1e9), ValueError),
@@ -281,6 +304,17 @@ def test_arrays_of_any_layout():
 def test_misuse(call, error):
     with pytest.raises(error):
         call(drogue.images.read(VECTORS / 'frame/demo.png'))
+
+
+def test_a_refusal_says_what_is_wrong():
+    image = np.zeros((9, 9), np.uint8)
+    with pytest.raises(TypeError, match='^fx must be a number$'):
+        drogue.measure(image, drogue.Camera(None, 1, 0, 0))
+    with pytest.raises(TypeError, match='^min_cover must be a number$'):
+        drogue.measure(image, DEMO, config={'min_cover': 'x'})
+    with pytest.raises(TypeError, match='of a region must be whole numbers$'):
+        drogue.measure(image, DEMO, region=(1, 2, 3.0, 4))
+    drogue.measure(image, DEMO, region=np.array([1, 2, 3, 4]))  # whole numbers of numpy's are
 
 
 def test_thresholds():

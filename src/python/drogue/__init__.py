@@ -35,8 +35,8 @@ def measure(image: npt.NDArray[np.uint8], camera: Camera, model: Optional[Model]
     region  x, y, width, height in pixels, the drogue about its middle, longest side 2 to 3 major semi-axes; None: the
             whole image is searched
     config  thresholds by name, see thresholds()
-    return  the result; its status says why when there is no pose. Raises TypeError, ValueError or KeyError for what is
-            not a picture, a number out of range, a threshold that does not exist
+    return  the result; its status says why when there is no pose. Raises TypeError for what is not a picture or a number
+            (whole ones in a region), ValueError for a number out of range, KeyError for a threshold that does not exist
     """
     return result_from(_native.measure(image, camera.numbers(), (model or Model(1.0)).numbers(), region,
                                        dict(config or {})))

@@ -41,6 +41,13 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
+def model(lengths: List[float]) -> Model:
+    """As the program: who gives three lengths knows the inner part, which a Model's inner radius of 0 says nobody does."""
+    if len(lengths) == 3 and lengths[1] < 0.5 / 65536:
+        raise ValueError('--drogue: INNER must be above 0 (at least 1/65536)')
+    return Model(*lengths)
+
+
 def check_output(names: List[str], output: pathlib.Path) -> None:
     for path in images.files(names) if output.exists() else ():
         if path.exists() and path.samefile(output):
@@ -53,7 +60,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     try:
         check_output(a.frames, output)
         camera = Camera(*a.camera, *a.distortion)
-        tracker = Tracker(camera, Model(*(a.drogue or [1.0])), a.roi)
+        tracker = Tracker(camera, model(a.drogue or [1.0]), a.roi)
         page = report.build(images.frames(a.frames), tracker, camera, a.fps, 'rim radii' if a.drogue is None else 'm')
         output.write_text(page, encoding='utf-8')
     except (OSError, ValueError, ImportError) as error:

@@ -27,7 +27,11 @@ def read(path: Path) -> Grey:
         from PIL import Image
     except ImportError:
         return _read_by_opencv(path, 'images need Pillow or OpenCV: pip install pillow')
-    with Image.open(path) as image:
+    try:
+        opened = Image.open(path)
+    except Image.DecompressionBombError as error:  # of no class that a caller expects of a file
+        raise ValueError(f'{path}: {error}') from None
+    with opened as image:
         if image.mode in ('I', 'I;16', 'I;16B', 'I;16L'):
             wide = np.asarray(image, np.uint32)
             return ((wide * 255 + 32767) // 65535).astype(np.uint8)
