@@ -30,7 +30,7 @@ flags=("--top-fname=$function" --std=c99 -O2 --generate-interface=INFER
     "-I$root/include" "-I$root/hls" "-I$root/hls/bench" "-I$root/tests/conformance")
 # The back end's many functions stay functions: all in one would not come to an end in an hour.
 case $name in
-outline | pose | eigen | fit | cone | filter) flags+=(-finline-hint-functions --range-analysis-mode=skip --enable-function-proxy) ;;
+outline | edge | pose | eigen | fit | cone | filter) flags+=(-finline-hint-functions --range-analysis-mode=skip --enable-function-proxy) ;;
 esac
 design=()
 for file in $sources $core; do

@@ -50,9 +50,15 @@ static void tap(uint8_t taps[5], const int16_t near[5], int32_t i)
     }
 }
 
+/* Read before one is chosen: of a choice among places Bambu makes a table of pointers, which it does not take. */
 static uint16_t pick(uint32_t tap, const uint16_t c[5])
 {
-    return tap == 0 ? c[0] : tap == 1 ? c[1] : tap == 2 ? c[2] : tap == 3 ? c[3] : c[4];
+    const uint16_t c0 = c[0];
+    const uint16_t c1 = c[1];
+    const uint16_t c2 = c[2];
+    const uint16_t c3 = c[3];
+    const uint16_t c4 = c[4];
+    return tap == 0 ? c0 : tap == 1 ? c1 : tap == 2 ? c2 : tap == 3 ? c3 : c4;
 }
 
 /* The pixel that has come and the four above it. */

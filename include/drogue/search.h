@@ -20,7 +20,7 @@ extern "C" {
 
 #define DROGUE_SEARCH_MAX 12   /* candidates */
 #define DROGUE_SEARCH_DARK 4   /* and discs by themselves */
-#define DROGUE_SEARCH_LEVELS 6 /* block means of 2 to 64 px a side: semi-axes from 12 to 800 px */
+#define DROGUE_SEARCH_LEVELS 6 /* block means of 2 to 64 px a side: semi-axes from 12 to 800 px, to 780 in a region */
 
 /* Bytes of memory for frames up to the given width: 100352 for 2048 px. Usable in a static array's size. */
 #define DROGUE_SEARCH_BYTES(width_px) ((size_t)(width_px) * (DROGUE_SEARCH_ROWS + 1u))

@@ -53,7 +53,7 @@ drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, c
  *  x, y    in/out, px Q16; unchanged on failure
  *  return  DROGUE_OK; DROGUE_E_DOMAIN as above, when the model cannot be inverted there (beyond a
  *          fold, which is looked for at 16 places on the way from the axis), or when it stretches more than 64-fold
- *  error   1, 8 and 48 LSB in the same cases; the last two where the lens compresses five times
+ *  error   2, 8 and 48 LSB in the same cases, where the lens compresses no more than five times
  */
 drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);
 

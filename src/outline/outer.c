@@ -171,8 +171,8 @@ static int fit(drogue_q16 v_px_q16[WAVES], const outer_bin bins[BINS], drogue_q1
     return agree >= AGREE && outside >= OUTSIDE;
 }
 
-/* Has each ray by itself the outer edge that its bin has? Where lobes of the rim alternate, two of a bin have their edge
- * in two places, and their sum both: three quarters of the rays have half the slope that the four have on average. */
+/* Has each ray by itself the outer edge that its bin has? Where the rim has lobes the rays of a bin have their edge in
+ * two places, and their sum both: three quarters of them must have half the slope that the four have on average. */
 static int on_rays(drogue_ray rays[DROGUE_RAYS], const drogue_image *view, const outer_bin bins[BINS],
                    const drogue_q16 v_px_q16[WAVES], drogue_q16 step_px_q16, int32_t least)
 {

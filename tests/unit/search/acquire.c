@@ -186,7 +186,8 @@ START_TEST(what_is_worth_more_stands)
     tiny.ellipse.a_px_q16 = tiny.ellipse.b_px_q16 = DROGUE_Q16(1, 10); /* of which an inner part rounds to nothing */
     tiny.inner.area_px = 1;
     wrong.inner.area_px = 3500; /* 33.4 px */
-    whole.inner.area_px = 9000; /* of another size */
+    whole.inner.area_px = 9000; /* of another size, */
+    whole.doubt_q16 = DROGUE_Q16(6, 10);
     better(&tiny, &unsure, &pinprick, DROGUE_OK);
     better(&unsure, &none, &model, DROGUE_E_UNSURE);
     better(&unsure, &less, &model, DROGUE_E_UNSURE);
