@@ -437,6 +437,7 @@ START_TEST(a_model_beyond_measure_is_not_sure)
     ck_assert_int_eq(drogue_result_sure(&r, &huge), 0);
     r.pose.position_m_q16[2] = DROGUE_Q16_ONE;
     ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){1, INT32_MAX, -65532}), 0);
+    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){1, INT32_MAX, -65534}), 0);
     ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){1, INT32_MAX, -65535}), 0);
     r.pose.position_m_q16[2] = 9 * DROGUE_Q16_ONE;
     ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){6553600, 3670016, 0}), 1);
