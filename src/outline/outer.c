@@ -171,31 +171,36 @@ static int fit(drogue_q16 v_px_q16[WAVES], const outer_bin bins[BINS], drogue_q1
     return agree >= AGREE && outside >= OUTSIDE;
 }
 
-/* Has each ray by itself the outer edge that its bin has? Where the rim has lobes the rays of a bin have their edge in
- * two places, and their sum both: three quarters of them must have half the slope that the four have on average. */
-static int on_rays(drogue_ray rays[DROGUE_RAYS], const drogue_image *view, const outer_bin bins[BINS],
+/* Has a ray by itself half the slope at its bin's outer edge that the four have on average? */
+static int on_ray(const drogue_ray *ray, const drogue_image *view, const outer_bin *bin, drogue_q16 step_px_q16)
+{
+    int32_t grey_q8[OF_RAY];
+    int32_t most = 0;
+    int32_t i;
+    drogue_ray_read(grey_q8, ray, view, bin->at_px_q16[1] - 2 * step_px_q16, OF_RAY);
+    for (i = 0; i < OF_RAY - 2; i++) {
+        const int32_t slope = drogue_abs_s32(grey_q8[i + 2] - grey_q8[i]);
+        most = slope > most ? slope : most;
+    }
+    return 2 * IN_BIN * most >= bin->slope[1];
+}
+
+/* Have most rays by themselves the outer edge that their bin has? Where the rim has lobes the rays of a bin have their
+ * edge in two places, and their sum both. */
+static int on_rays(const drogue_ray rays[DROGUE_RAYS], const drogue_image *view, const outer_bin bins[BINS],
                    const drogue_q16 v_px_q16[WAVES], drogue_q16 step_px_q16, int32_t least)
 {
     int32_t seen = 0;
     int32_t count = 0;
     int32_t k;
-    for (k = 0; k < DROGUE_RAYS; k++) {
-        const outer_bin *bin = &bins[k / 2];
+    for (k = 0; k < BINS; k++) {
+        const outer_bin *bin = &bins[k];
         int32_t basis_q30[WAVES];
-        int32_t grey_q8[OF_RAY];
-        int32_t most = 0;
-        int32_t i;
-        drogue_support_basis(basis_q30, (uint32_t)(k / 2));
-        if (nearest(bin, at_bin(v_px_q16, basis_q30), ON_IT_PX, least) != 1) {
-            continue;
+        drogue_support_basis(basis_q30, (uint32_t)k);
+        if (nearest(bin, at_bin(v_px_q16, basis_q30), ON_IT_PX, least) == 1) {
+            seen += on_ray(&rays[2 * k], view, bin, step_px_q16) + on_ray(&rays[2 * k + 1], view, bin, step_px_q16);
+            count += 2;
         }
-        drogue_ray_read(grey_q8, &rays[k], view, bin->at_px_q16[1] - 2 * step_px_q16, OF_RAY);
-        for (i = 0; i < OF_RAY - 2; i++) {
-            const int32_t slope = drogue_abs_s32(grey_q8[i + 2] - grey_q8[i]);
-            most = slope > most ? slope : most;
-        }
-        seen += 2 * IN_BIN * most >= bin->slope[1];
-        count++;
     }
     return 4 * seen >= 3 * count;
 }

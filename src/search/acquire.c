@@ -66,8 +66,6 @@ static int sizes(int64_t *expected, int64_t *larger, const drogue_result *r, con
 /* Does the inner part decide which pose it is, and agree with the outline, in its place and about its size? */
 static int decided(const drogue_result *r) { return r->orientation_resolved && r->doubt_q16 < DROGUE_CONTRADICTED_Q16; }
 
-static int64_t size_off(int64_t larger) { return larger < 0 ? -larger : larger; }
-
 /* Is what is too large a disc in shade? */
 static int is_shaded(const drogue_result *r, int64_t expected)
 {
@@ -82,6 +80,7 @@ static int is_sure(const drogue_result *r, const drogue_model *model, int32_t da
     int64_t larger;
     int64_t off;
     int sharp;
+    int exact;
     int witness;
     if (model->inner_radius_m_q16 == 0) {
         return r->cover_q16 >= SURE_COVER && r->quality.reliability_q16 >= SURE_RELIABILITY;
@@ -89,24 +88,25 @@ static int is_sure(const drogue_result *r, const drogue_model *model, int32_t da
     if (!sizes(&expected, &larger, r, model) || 4 * r->inner.contrast < r->inner.threshold - darkest) {
         return 0;
     }
-    off = size_off(larger);
+    off = (int64_t)drogue_abs_u64(larger);
     sharp = r->inner.spread_px_q16 <= MOST_SPREAD_PX;
     if (r->doubt_q16 > MOST_DOUBT || 10 * (off - MOST_OFF_PX) > expected) {
         return larger > 0 && sharp && is_shaded(r, expected);
     }
+    exact = 25 * (off - EXACT_PX) <= expected;
     witness = decided(r) && expected >= EVIDENT_PX && 64 * (off - WITNESS_PX) <= expected &&
               r->inner.spread_px_q16 <= WITNESS_SPREAD_PX;
     if (4 * r->inner.contrast < r->inner.threshold) { /* dark for what haze leaves */
-        return decided(r) && expected >= EVIDENT_PX && 25 * (off - EXACT_PX) <= expected &&
+        return decided(r) && expected >= EVIDENT_PX && exact &&
                r->cover_q16 >= (witness ? DECIDED_COVER : BLURRED_COVER);
     }
     if (witness) {
         return r->cover_q16 >= EXACT_COVER;
     }
-    if (decided(r) && 25 * (off - EXACT_PX) <= expected) {
+    if (decided(r) && exact) {
         return r->cover_q16 >= (sharp ? DECIDED_COVER : BLURRED_COVER);
     }
-    if (expected >= BESIDE_PX && 25 * (off - EXACT_PX) <= expected && r->inner.spread_px_q16 <= WITNESS_SPREAD_PX &&
+    if (exact && expected >= BESIDE_PX && r->inner.spread_px_q16 <= WITNESS_SPREAD_PX &&
         r->doubt_q16 <= DROGUE_CONTRADICTED_Q16 && r->cover_q16 >= BESIDE_COVER) {
         return 1;
     }
@@ -134,7 +134,7 @@ static int32_t worth(const drogue_result *r, const drogue_model *model, int32_t 
     if (!sizes(&expected, &larger, r, model)) {
         return SURE + r->cover_q16;
     }
-    off = drogue_div_round_s64(size_off(larger) * DROGUE_Q16_ONE, expected > 0 ? expected : 1);
+    off = drogue_div_round_s64((int64_t)drogue_abs_u64(larger) * DROGUE_Q16_ONE, expected > 0 ? expected : 1);
     return (decided(r) ? 5 * DROGUE_Q16_ONE : 3 * DROGUE_Q16_ONE) + r->cover_q16 -
            (int32_t)(off < DROGUE_Q16_ONE ? off : DROGUE_Q16_ONE);
 }
@@ -147,8 +147,8 @@ static int settles(const drogue_result *r, const drogue_model *model, int32_t da
     if (r->cover_q16 < SETTLED_COVER || !is_sure(r, model, darkest)) {
         return 0;
     }
-    return model->inner_radius_m_q16 == 0 ||
-           (decided(r) && sizes(&expected, &larger, r, model) && 16 * (size_off(larger) - MOST_OFF_PX / 2) <= expected);
+    return model->inner_radius_m_q16 == 0 || (decided(r) && sizes(&expected, &larger, r, model) &&
+                                              16 * ((int64_t)drogue_abs_u64(larger) - MOST_OFF_PX / 2) <= expected);
 }
 
 static int within(drogue_q16 x, drogue_q16 y, drogue_q16 of_x, drogue_q16 of_y, drogue_q16 px_q16)
