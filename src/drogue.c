@@ -37,6 +37,8 @@ static void forget(drogue_result *out)
 #define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
 #define ALONE_Q16 DROGUE_Q16(7, 10)    /* least cover of an outline whose disc is not seen */
 #define LARGE DROGUE_Q16(160, 1)       /* px: another edge may lie farther outside than an outline shows */
+#define SMEARED_Q16 DROGUE_Q16(3, 2)   /* px^2 of smear: an edge that is seen twice */
+#define STILL_Q16 DROGUE_Q16(11, 2000) /* no more doubt than outline and disc contradict each other by */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
 
 /* What the best try so far gave. */
@@ -44,15 +46,23 @@ typedef struct best_try {
     drogue_q16 least_q16;  /* its doubt; DROGUE_Q16_MAX: it has no outline */
     drogue_q16 larger_q16; /* as the frame's */
     uint32_t outside;      /* parts of its outline that show another edge outside */
+    int smeared;           /* does motion blur its outline, or what is taken for that? */
     drogue_held held;      /* the edges that it is of */
     drogue_result *result; /* the workspace's, which leaves the stack free */
 } best_try;
+
+static int seems_smeared(const drogue_frame *f)
+{
+    const int32_t *smear = f->outline.support.smear_px2_q16;
+    return drogue_square_sum(smear[0], smear[1]) > drogue_square_sum(SMEARED_Q16, 0);
+}
 
 static void keep(best_try *best, const drogue_frame *f, drogue_status status)
 {
     best->least_q16 = f->doubt_q16;
     best->larger_q16 = f->larger_q16;
     best->outside = f->outline.outside;
+    best->smeared = seems_smeared(f);
     best->held = f->held;
     *best->result = *f->out;
     best->result->status = status;
@@ -216,15 +226,18 @@ static void try_beyond(best_try *best, drogue_frame *f)
     consider(best, f, judge_rays(f, was, drogue_frame_beyond(f, &best->held.region, &was->ellipse, best->larger_q16)));
 }
 
-/* Does another edge show outside the best outline, which is not one beyond another already? */
+/* Does another edge show outside the best outline, which is not one beyond another already, nor one that does not stand
+ * alone? */
 static int asks_outer(const best_try *best)
 {
-    return best->result->status == DROGUE_OK && best->result->tried != DROGUE_TRIED_RAYS &&
-           (best->outside > 0 || best->result->ellipse.a_px_q16 > LARGE);
+    const drogue_result *was = best->result;
+    return was->status == DROGUE_OK && was->tried != DROGUE_TRIED_RAYS &&
+           (best->outside > 0 || was->ellipse.a_px_q16 > LARGE) &&
+           (best->least_q16 != DROGUE_Q16_ONE || was->cover_q16 >= ALONE_Q16);
 }
 
 /* The rim's outer edge where the best outline is an inner one. It stands unless the disc was seen and no longer is, or
- * was exactly of its size and is so no longer. */
+ * was exactly of its size and is so no longer, or motion shows one edge as two. */
 static void try_outer(best_try *best, drogue_frame *f)
 {
     const drogue_result *was = best->result;
@@ -233,8 +246,8 @@ static void try_outer(best_try *best, drogue_frame *f)
     f->second_look = was->second_look;
     status = judge_rays(f, was, drogue_frame_outer(f, &best->held.region, &was->ellipse));
     end_try(best, f, status,
-            status == DROGUE_OK && f->out->has_inner >= was->has_inner &&
-                (f->doubt_q16 <= best->least_q16 + CLEARLY_Q16 || best->least_q16 > 0));
+            status == DROGUE_OK && f->out->has_inner >= was->has_inner && !(best->smeared && seems_smeared(f)) &&
+                (best->least_q16 > 0 || f->doubt_q16 <= STILL_Q16));
 }
 
 static int same_edges(const drogue_held *a, const drogue_held *b)

@@ -12,7 +12,8 @@
 #define AS_ALLOWED 16 /* of a disc's outline: the guess that was settled is good to some per cent of its size, */
 #define THERE 8       /* and to this part in its place */
 
-#define OUTER_Q16 DROGUE_Q16(3, 4) /* least cover of an outer edge of the rim */
+#define OUTER_Q16 DROGUE_Q16(3, 4)  /* least cover of an outer edge of the rim, */
+#define OUTER_BAND DROGUE_Q16(1, 1) /* px: and half the width of the band about it that points along rays lie in */
 
 /* Clip the region to the image; the mask stays that of the region asked for, in the clipped one's coordinates. */
 static drogue_status place_region(drogue_region *clipped, drogue_mask *mask, const drogue_image *image,
@@ -198,20 +199,22 @@ static drogue_ellipse view_again(drogue_frame *f, const drogue_region *region, c
     return here;
 }
 
-/* The outline along rays about an ellipse that is larger than the one found. */
-static drogue_status outline_along_rays(drogue_frame *f, const drogue_region *region, const drogue_ellipse *about,
-                                        drogue_q16 larger_px_q16)
+/* Is there room for edge points along rays? */
+static int bears_rays(const drogue_workspace *workspace)
 {
-    drogue_held *held = &f->held;
-    if (f->workspace->capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
-        return DROGUE_E_EDGES_FULL;
-    }
-    held->region = *region;
-    held->canny_high = DROGUE_BY_RAYS;
+    return workspace->capacity.edges >= DROGUE_INNER_BEYOND_POINTS;
+}
+
+/* The outline about an ellipse by edge points along rays, which the workspace holds now in place of the edges. */
+static drogue_status settle_on_rays(drogue_frame *f, const drogue_region *region, const drogue_ellipse *about,
+                                    uint32_t points, drogue_q16 band_px_q16)
+{
+    f->held.region = *region;
+    f->held.canny_high = DROGUE_BY_RAYS;
     f->list.arc_count = 0;
-    f->list.edge_count = drogue_inner_beyond(f->workspace, &f->view, about, larger_px_q16);
-    return f->list.edge_count > 0 &&
-                   drogue_outline_settle(&f->outline, about, 0, f->workspace, &f->list, &f->mask, f->setup->config)
+    f->list.edge_count = points;
+    return points > 0 && drogue_outline_settle(&f->outline, about, band_px_q16, f->workspace, &f->list, &f->mask,
+                                               f->setup->config)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;
 }
@@ -223,30 +226,48 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
     drogue_ellipse about = view_again(f, region, was);
     about.a_px_q16 = drogue_q16_add(about.a_px_q16, by_px_q16);
     about.b_px_q16 = drogue_q16_add(about.b_px_q16, by_px_q16);
-    return outline_along_rays(f, region, &about, by_px_q16);
+    return bears_rays(f->workspace)
+               ? settle_on_rays(f, region, &about, drogue_inner_beyond(f->workspace, &f->view, &about, by_px_q16), 0)
+               : DROGUE_E_EDGES_FULL;
+}
+
+/* Is an outline larger than the one within by half of what was seen, or back at that one? */
+static int has_grown(const drogue_ellipse *e, const drogue_ellipse *was, const drogue_ellipse *seen)
+{
+    return 2 * ((int64_t)e->a_px_q16 + e->b_px_q16) >=
+           (int64_t)was->a_px_q16 + was->b_px_q16 + seen->a_px_q16 + seen->b_px_q16;
 }
 
 drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was)
 {
     drogue_ellipse about = view_again(f, region, was);
-    drogue_ellipse *e = &f->outline.ellipse;
-    drogue_status status;
-    int64_t grown;
-    if (was->b_px_q16 < DROGUE_Q16_ONE || !drogue_outline_outer(&about, f->workspace->rays, &f->view)) {
+    const drogue_ellipse *e = &f->outline.ellipse;
+    const drogue_config *config = f->setup->config;
+    int32_t grown_q24[5];
+    uint32_t points;
+    if (!drogue_outline_outer(&about, grown_q24, f->workspace->rays, &f->view)) {
         return DROGUE_E_NO_ELLIPSE;
     }
-    grown = ((int64_t)about.a_px_q16 + about.b_px_q16 - was->a_px_q16 - was->b_px_q16) / 2; /* > 0 */
-    if (drogue_outline_settle(&f->outline, &about, f->setup->config->refit_band_px_q16, f->workspace, &f->list,
-                              &f->mask, f->setup->config) &&
-        f->outline.cover_q16 >= OUTER_Q16 &&
-        (int64_t)e->a_px_q16 + e->b_px_q16 - was->a_px_q16 - was->b_px_q16 >= grown) { /* else back to the inner one */
-        return DROGUE_OK;
+    if (drogue_outline_settle(&f->outline, &about, config->refit_band_px_q16, f->workspace, &f->list, &f->mask,
+                              config) &&
+        f->outline.cover_q16 >= OUTER_Q16) {
+        drogue_outline_pull(&f->outline, f->workspace->rays, &f->view, config);
+        if (has_grown(e, was, &about)) {
+            return DROGUE_OK;
+        }
     }
-    status = outline_along_rays(f, region, &about, (drogue_q16)grown);
-    return status == DROGUE_OK &&
-                   (f->outline.cover_q16 < OUTER_Q16 || e->a_px_q16 < was->a_px_q16 || e->b_px_q16 < was->b_px_q16)
-               ? DROGUE_E_NO_ELLIPSE
-               : status;
+    if (!bears_rays(f->workspace)) {
+        return DROGUE_E_EDGES_FULL;
+    }
+    points = drogue_inner_along(f->workspace, &f->view, &about);
+    if (points == 0 || settle_on_rays(f, region, &about, points, OUTER_BAND) != DROGUE_OK ||
+        f->outline.cover_q16 < OUTER_Q16 || !has_grown(e, was, &about)) {
+        return DROGUE_E_NO_ELLIPSE;
+    }
+    f->outline.outer = 1;
+    drogue_turn_pull(f->outline.support.pull_q24, grown_q24,
+                     drogue_q16_sub(f->outline.fitted.angle_rad_q16, was->angle_rad_q16));
+    return DROGUE_OK;
 }
 
 /* Of the outlines that a disc allows the one that edge points cover best, if better than what there is. */

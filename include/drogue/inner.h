@@ -177,14 +177,15 @@ int drogue_inner_sight_of(drogue_inner_sight *sight, const drogue_ellipse *disc,
 void drogue_inner_rims(drogue_inner_expected *rims, const drogue_inner_sight *sight, int32_t yaw, int32_t pitch,
                        const drogue_setup *setup, int32_t x_px, int32_t y_px);
 
-/* Most edge points that drogue_inner_beyond() writes: drogue_outline_settle() still looks at every one of so many. */
+/* Most edge points that drogue_inner_beyond() and drogue_inner_along() write: drogue_outline_settle() still looks at
+ * every one of so many. */
 #define DROGUE_INNER_BEYOND_POINTS 511
 
-/* Look along rays for an outline that is larger than the one found: where an inner disc is of the size for it, or where
- * the rim's outer edge was seen. It is an edge of either sign in six of eight parts, within 3/4 px of one place and
- * size: on 48 of 64 rays by DROGUE_RAY_LINES, as the outer edge of a lip whose inner one was found; or, of a step that
- * may be too low for the edge detector, on 28 rays by DROGUE_RAY_STEPS. Steps are of 16 grey levels and half of
- * drogue_noise_threshold(), or of 10 and a quarter of it, whichever is more: noise alone is none.
+/* Look along rays for an outline that is larger than the one found: where an inner disc is of the size for it. It is
+ * an edge of either sign in six of eight parts, within 3/4 px of one place and size: on 48 of 64 rays by
+ * DROGUE_RAY_LINES, as the outer edge of a lip whose inner one was found; or, of a step that may be too low for the
+ * edge detector, on 28 rays by DROGUE_RAY_STEPS. Steps are of 16 grey levels and half of drogue_noise_threshold(), or
+ * of 10 and a quarter of it, whichever is more: noise alone is none.
  *
  *  workspace  out: its edge points, from 0 on, on eight times the rays; as many as there is room for
  *  view       the region's pixels
@@ -195,6 +196,17 @@ void drogue_inner_rims(drogue_inner_expected *rims, const drogue_inner_sight *si
  */
 uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about,
                              drogue_q16 beyond_px_q16);
+
+/* Edge points along rays where an edge of either sign is within 3/4 px of a place that many rays together have shown,
+ * as drogue_outline_outer() does: a step of 8 grey levels and of three quarters of drogue_noise_threshold(), of which
+ * noise alone has too few; of several the steeper and nearer one.
+ *
+ *  workspace  out: its edge points, from 0 on, on eight times the rays; as many as there is room for
+ *  view       the region's pixels
+ *  about      the place, region coordinates; b >= 1 px and a <= 180 px, else there is none
+ *  return     the number of points
+ */
+uint32_t drogue_inner_along(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about);
 
 #ifdef __cplusplus
 }

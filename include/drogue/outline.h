@@ -30,6 +30,7 @@ typedef struct drogue_outline {
     drogue_q16 cover_q16;     /* share of the circumference that edge points cover */
     drogue_q16 band_px_q16;   /* half width of the band about the ellipse that they lie in */
     drogue_support support;   /* of the last fit */
+    int32_t outer;            /* 1: the rim's outer edge along rays, see drogue_outline_pull() */
     uint32_t outside;         /* parts, of eight, that show another edge outside, as drogue_outline_pull() sees them */
 } drogue_outline;
 
@@ -101,6 +102,10 @@ void drogue_outline_clear(drogue_outline *outline);
  * light 1.2 to 1.5 times what the sensor bears and half of it at 2. White that is not cut off is so near only where
  * there is less blur than is configured.
  *
+ * Of the rim's outer edge, outline.outer, nothing is put back: its points are edges along rays, which no front end has
+ * blurred. support.pull_q24 is there in: by how much it is larger than the inner edge, which of the two is the rim's is
+ * in doubt.
+ *
  *  outline  in: found or enlarged; out: ellipse, and support.pull_q24 with the coefficients that were put back: at most
  *           an eighth of the semi-axis; support.smear_px2_q16 with the motion blur that the edge's widths show. Below 1
  *           px of b: as fitted. outside with the parts where the mean over 8 rays, those of bins without points left
@@ -115,21 +120,26 @@ void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], 
 
 /* Look along rays for the rim's outer edge about an outline that may be its inner one, on one side or all about, as of
  * a band of another grey or a lip that is lit: too narrow or too faint for the edge detector, or cut off by the ring.
- * Between 1 and 5 px outside, where that shows none of a semi-axis above 100 px to a twentieth of it, four rays a bin
- * (support.h) show edges of either sign, by steps of grey over 1 px, or over a hundredth of that semi-axis: of 5
- * levels, of a fifth of what the outline's own have, and of half as much again as the mean farther outside but for the
- * edge. Least squares over size, place and shape, at first of the steepest edges outside, then of those near it, give
- * an ellipse.
+ * Between 1.5 px within and 5 px outside, where that shows none of a semi-axis above 100 px to a twentieth of it, four
+ * rays a bin (support.h) show edges of either sign, by steps of grey over 1 px, or over a hundredth of that semi-axis:
+ * of 5 levels, of a fifth of what the outline's own have, and of half as much again as the mean farther outside but
+ * for the steepest; each an eighth higher than what lies between it and a higher one. From the steepest edges outside,
+ * and from ellipses larger by 0 to 5 px, least squares over size, place and shape settle on the edges nearest to one;
+ * of what they settle on the one that most bins have an edge on, one more of them for a quarter of a pixel of size.
  * It is the rim where its semi-axes are larger by 0.3 px on the mean and by no more than an eighth of b, as no other
- * wave is, and it passes 22 of 32 bins within 0.6 px of an edge, 8 of them of an outer one.
+ * wave is, it passes 22 of 32 bins within 0.6 px of an edge, half of those that it passes farther than 0.7 px from the
+ * outline, 6 at least, and three quarters of the rays show that edge by themselves.
  *
- *  outer   in: the outline, region coordinates, b >= 1 px; out: where there is one, that ellipse, a guess to a pixel;
- *          else as it was
+ *  outer   in: the outline, region coordinates; out: where there is one, that ellipse, a guess to a pixel; else as it
+ *          was, as for b < 16 px
+ *  grown   out: where there is one, by how much it is larger, Q24 of the semi-axes and negative, as waves over the
+ *          eccentric angle of the ellipse that went in, as support.pull_q24; else as it was
  *  rays    memory, as that of the workspace: nothing in it is kept
  *  view    the region's pixels
  *  return  1: there is one
  */
-int drogue_outline_outer(drogue_ellipse *outer, drogue_ray rays[DROGUE_RAYS], const drogue_image *view);
+int drogue_outline_outer(drogue_ellipse *outer, int32_t grown_q24[5], drogue_ray rays[DROGUE_RAYS],
+                         const drogue_image *view);
 
 /* Fit the edge points that belong to an outline, each with the lens distortion removed.
  *

@@ -27,7 +27,8 @@ typedef struct drogue_support {
     uint32_t points;                             /* in these sums */
     uint32_t bright_bins; /* bit k: bin k is brighter inside; all 0 or all 1 for an outline of one polarity */
     int32_t pull_q24[5];  /* by how much what lies beside the outline moved it outwards, in semi-axes: 1, cos t, sin t,
-                             cos 2t, sin 2t over the eccentric angle t */
+                             cos 2t, sin 2t over the eccentric angle t. Half of it remains in doubt; of an outer
+                             edge along rays, which is not moved, it is that alone */
     int32_t smear_px2_q16[2]; /* motion blur: variance along the motion less that across it, px^2, times cosine and sine
                                  of twice its angle from +x; less what edges differ by without: 0 where none stands
                                  out */
@@ -71,6 +72,9 @@ void drogue_support_turn(drogue_support *support, drogue_q16 axis_rad_q16);
 /* A wave of twice the angle, by its cosine's and its sine's part, with all angles larger by so much, (-4, 4) rad;
  * saturates. */
 void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16);
+
+/* A pull as of an ellipse whose major axis is turned by so much against that it was found on. */
+void drogue_turn_pull(int32_t out_q24[5], const int32_t pull_q24[5], drogue_q16 turn_rad_q16);
 
 #ifdef __cplusplus
 }

@@ -9,6 +9,8 @@
 
 #define LEAST 10 /* grey levels, of which blur may leave half as a slope; and a quarter of what is noise in Sobel's */
 #define LEAST_LINE 16 /* the same of a lip's edge, of which samples so near leave a quarter; and half of that noise */
+#define LEAST_ALONG 8 /* of an edge that many rays together have shown; and three quarters of that noise */
+#define ALONG DROGUE_Q16(2, 1)     /* px: in place of what is beyond, for a look about a place */
 #define WITHIN DROGUE_Q16(3, 4)    /* px: what agrees */
 #define ENOUGH (7 * RAYS / 16)     /* rays that agree */
 #define ENOUGH_LINE (3 * RAYS / 4) /* the same, to a lip's edge */
@@ -84,17 +86,34 @@ static int settle(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], const drogue_im
            all_about(rays, v_px_q16, look == DROGUE_RAY_LINES ? ENOUGH_LINE : ENOUGH);
 }
 
+/* Of the edges on rays in all phases write those that an offset from the ellipse puts them to. */
+static uint32_t put_points(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about,
+                           const drogue_q16 v_px_q16[3], drogue_q16 beyond_px_q16, drogue_ray_look look, int32_t least)
+{
+    drogue_ray *const rays = workspace->rays;
+    uint32_t count = 0;
+    int32_t phase;
+    int32_t k;
+    for (phase = 0; phase < PHASES; phase++) {
+        cast(rays, view, about, beyond_px_q16, phase, look, least);
+        for (k = 0; k < RAYS && count < workspace->capacity.edges && count < DROGUE_INNER_BEYOND_POINTS; k++) {
+            const int32_t which = drogue_ray_chosen(&rays[k], drogue_ray_along(&rays[k], v_px_q16), WITHIN);
+            if (which >= 0) {
+                count += (uint32_t)put_point(&workspace->edges[count], &rays[k], &rays[k].edges[which], view);
+            }
+        }
+    }
+    return count;
+}
+
 uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about,
                              drogue_q16 beyond_px_q16)
 {
     drogue_ray *const rays = workspace->rays;
     drogue_ray_look look = DROGUE_RAY_LINES;
     drogue_q16 v_px_q16[3];
-    uint32_t count = 0;
     int32_t noise;
     int32_t least;
-    int32_t phase;
-    int32_t k;
     if (about->b_px_q16 < DROGUE_Q16_ONE || about->a_px_q16 > LARGEST) {
         return 0;
     }
@@ -107,14 +126,15 @@ uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_ima
         look = DROGUE_RAY_STEPS;
         least = larger(LEAST, noise / 4);
     }
-    for (phase = 0; phase < PHASES; phase++) {
-        cast(rays, view, about, beyond_px_q16, phase, look, least);
-        for (k = 0; k < RAYS && count < workspace->capacity.edges && count < DROGUE_INNER_BEYOND_POINTS; k++) {
-            const int32_t which = drogue_ray_chosen(&rays[k], drogue_ray_along(&rays[k], v_px_q16), WITHIN);
-            if (which >= 0) {
-                count += (uint32_t)put_point(&workspace->edges[count], &rays[k], &rays[k].edges[which], view);
-            }
-        }
+    return put_points(workspace, view, about, v_px_q16, beyond_px_q16, look, least);
+}
+
+uint32_t drogue_inner_along(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about)
+{
+    const drogue_q16 there[3] = {0, 0, 0};
+    if (about->b_px_q16 < DROGUE_Q16_ONE || about->a_px_q16 > LARGEST) {
+        return 0;
     }
-    return count;
+    return put_points(workspace, view, about, there, ALONG, DROGUE_RAY_LINES,
+                      larger(LEAST_ALONG, 3 * drogue_noise_threshold(workspace->histogram, view) / 4));
 }

@@ -35,7 +35,8 @@ static void spread(int32_t off_px_q24[DROGUE_SUPPORT_BINS], const int32_t moved_
     }
 }
 
-void drogue_fit_waves(int32_t c_px_q24[5], const int32_t off_px_q24[DROGUE_SUPPORT_BINS])
+/* Least squares of drogue_support_basis() over the bins. */
+static void fit_waves(int32_t c_px_q24[5], const int32_t off_px_q24[DROGUE_SUPPORT_BINS])
 {
     int64_t sum_q54[5] = {0, 0, 0, 0, 0};
     uint32_t k;
@@ -111,7 +112,7 @@ void drogue_find_harmonics(int32_t pull_q24[5], const int32_t moved_q20[GROUPS],
     uint64_t variance_q48;
     int32_t i;
     spread(off_px_q24, moved_q20, e);
-    drogue_fit_waves(c_px_q24, off_px_q24);
+    fit_waves(c_px_q24, off_px_q24);
     variance_q48 = noise_px_q24 == NULL ? 0 : variance_of(off_px_q24, c_px_q24, noise_px_q24);
     for (i = 0; i < 5; i++) {
         const uint64_t own_q48 = i > 0 ? variance_q48 : variance_q48 / 2; /* of a mean half that of a wave */

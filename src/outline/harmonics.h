@@ -15,9 +15,6 @@
 void drogue_find_harmonics(int32_t pull_q24[5], const int32_t moved_q20[DROGUE_EDGE_GROUPS],
                            const int32_t noise_px_q24[DROGUE_EDGE_GROUPS], const drogue_ellipse *e);
 
-/* Least squares of drogue_support_basis() over the bins, in their unit. */
-void drogue_fit_waves(int32_t wave[5], const int32_t off[DROGUE_SUPPORT_BINS]);
-
 /* Put back what drogue_outline_pull() found. */
 void drogue_outline_put_back(drogue_ellipse *e, const int32_t pull_q24[5]);
 

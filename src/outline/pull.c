@@ -152,13 +152,18 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
         moved_q20[i] -= cut_q20[i];
     }
     drogue_turn_wave(outline->support.smear_px2_q16, outline->fitted.angle_rad_q16);
-    drogue_find_harmonics(outline->support.pull_q24, moved_q20, smeared ? NULL : noise_px_q24, &outline->fitted);
+    if (!outline->outer) {
+        drogue_find_harmonics(outline->support.pull_q24, moved_q20, smeared ? NULL : noise_px_q24, &outline->fitted);
+        drogue_outline_put_back(&outline->ellipse, outline->support.pull_q24);
+    }
 }
 
 void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
                          const drogue_config *config)
 {
-    memset(outline->support.pull_q24, 0, sizeof outline->support.pull_q24);
+    if (!outline->outer) {
+        memset(outline->support.pull_q24, 0, sizeof outline->support.pull_q24);
+    }
     memset(outline->support.smear_px2_q16, 0, sizeof outline->support.smear_px2_q16);
     outline->outside = 0;
     outline->ellipse = outline->fitted;
@@ -167,7 +172,6 @@ void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], 
     }
     if (outline->support.points > 0) {
         pull(outline, rays, view, config);
-        drogue_outline_put_back(&outline->ellipse, outline->support.pull_q24);
     }
     drogue_undo_blur(&outline->ellipse, config);
 }

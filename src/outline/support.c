@@ -147,6 +147,19 @@ void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16)
     wave[1] = drogue_sat_s32(turned[1]);
 }
 
+void drogue_turn_pull(int32_t out_q24[5], const int32_t pull_q24[5], drogue_q16 turn_rad_q16)
+{
+    int32_t s_q30;
+    int32_t c_q30;
+    int64_t wave_q24[2];
+    drogue_sincos_of_q16(&s_q30, &c_q30, turn_rad_q16);
+    memcpy(out_q24, pull_q24, 5 * sizeof *out_q24);
+    drogue_rotate_q30(wave_q24, pull_q24[1], pull_q24[2], c_q30, -s_q30);
+    out_q24[1] = (int32_t)wave_q24[0];
+    out_q24[2] = (int32_t)wave_q24[1];
+    drogue_turn_wave(out_q24 + 3, -turn_rad_q16);
+}
+
 uint32_t drogue_support_bins_to(const drogue_support *support, drogue_q16 axis_rad_q16)
 {
     const int64_t a_radian_q16 = 333772; /* 32 over 2 pi */

@@ -7,21 +7,6 @@
 #include "collection.h"
 #include "harmonics.h"
 
-/* The pull as waves over the eccentric angle of an ellipse whose major axis is turned against that it was found on, as
- * by half a turn where the angle passes the vertical. */
-static void turned(int32_t out_q24[5], const int32_t pull_q24[5], drogue_q16 turn_rad_q16)
-{
-    int32_t s_q30;
-    int32_t c_q30;
-    int64_t wave_q24[2];
-    drogue_sincos_of_q16(&s_q30, &c_q30, turn_rad_q16);
-    memcpy(out_q24, pull_q24, 5 * sizeof *out_q24);
-    drogue_rotate_q30(wave_q24, pull_q24[1], pull_q24[2], c_q30, -s_q30);
-    out_q24[1] = (int32_t)wave_q24[0];
-    out_q24[2] = (int32_t)wave_q24[1];
-    drogue_turn_wave(out_q24 + 3, -turn_rad_q16);
-}
-
 drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outline *outline,
                                          const drogue_workspace *workspace, const drogue_edge_list *list,
                                          const drogue_setup *setup, int32_t x_px, int32_t y_px)
@@ -53,8 +38,10 @@ drogue_status drogue_outline_undistorted(drogue_ellipse *out, const drogue_outli
         status = DROGUE_E_DEGENERATE; /* most of the outline lies beyond what the lens model can undo */
     }
     if (status == DROGUE_OK) {
-        turned(pull_q24, outline->support.pull_q24, out->angle_rad_q16 - outline->fitted.angle_rad_q16);
-        drogue_outline_put_back(out, pull_q24);
+        if (!outline->outer) { /* as drogue_outline_pull() */
+            drogue_turn_pull(pull_q24, outline->support.pull_q24, out->angle_rad_q16 - outline->fitted.angle_rad_q16);
+            drogue_outline_put_back(out, pull_q24);
+        }
         drogue_undo_blur(out, setup->config);
     }
     return status;

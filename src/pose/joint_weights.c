@@ -160,7 +160,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
     square_ratio(&variance, &variance, &a);
     drogue_real_sum(&covariance[0], &covariance[0], &variance);
     square_ratio(&a, &grid_px2, &a);
-    for (i = 0; i < DROGUE_JOINT_FIT; i++) { /* of what lies beside it and was put back, half remains */
+    for (i = 0; i < DROGUE_JOINT_FIT; i++) { /* of what lies beside it half remains */
         drogue_real *own = &covariance[DROGUE_PACKED(i, i)];
         drogue_real_set(&variance, support->pull_q24[i], -25);
         drogue_real_product(&variance, &variance, &variance);

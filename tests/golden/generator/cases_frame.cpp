@@ -592,11 +592,17 @@ void add_bands(Set &set)
     for (const Banded &b :
          {Banded{57.5, 3.2, -0.2, 90, 210, 12, 0.3, 0.6}, Banded{53.5, 2.1, -1.2, 70, 210, 12, 0.4, 0.4},
           Banded{46.5, 2.6, -1, 90, 240, 12, 0.5, 0.8}, Banded{42.5, 1.6, -0.1, 50, 240, 16, 0.25, 0.3},
-          Banded{57, 3.5, 1.4, 70, 240, 12, 0.2, 0.5}, Banded{52.5, 1.4, -0.3, 60, 240, 8, 0.55, 0.7},
+          Banded{57, 3.5, 1.4, 70, 240, 12, 0.2, 0.5}, Banded{53, 1.6, -0.3, 60, 240, 8, 0.5, 0.7},
           Banded{51, 1.7, 2.8, 90, 150, 8, 0.2, 0.5}, Banded{63, 3.9, 2.7, 70, 120, 20, 0.6, 0.8},
           Banded{49.5, 2.5, 1.6, 70, 180, 16, 0.7, 0.5}, Banded{58, 3.2, 1.6, 70, 250, 0, 0.5},
           Banded{52, 2.6, 4, 60, 220, 0, 0.5}}) { /* the last two have it at once, or on one side */
         add_frame(set, "banded-rim-" + std::to_string(k++), Tier::stress, {}, banded_drogue(b));
+    }
+    for (const Banded &b : {Banded{49.5, 2.5, 1.6, 70, 180, 16, 0.7, 0.5}, Banded{51, 1.7, 2.8, 90, 150, 8, 0.2, 0.5},
+                            Banded{63, 3.9, 2.7, 70, 120, 20, 0.6, 0.8}}) {
+        Frame f = banded_drogue(b);
+        f.camera.k1 = -0.1;
+        add_frame(set, "banded-rim-lens-" + std::to_string(cvRound(b.rim_px)), Tier::stress, {"barrel"}, f);
     }
     add_frame(set, "lobed-rim", Tier::stress, {}, lobed_drogue(90, 1.6, 20));
     k = 0;

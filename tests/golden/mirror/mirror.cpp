@@ -463,6 +463,8 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
     return out.status == DROGUE_OK && out.has_inner && out.doubt > doubt ? doubt + 1 / 200.0L : doubt;
 }
 
+bool is_smeared(const Outline &o) { return std::hypot(o.support.smear[0], o.support.smear[1]) > 1.5L; }
+
 /* The edge points about an ellipse; false: they cover too little. */
 bool settle_there(Result &out, Frame &f, const drogue_ellipse &about, drogue_q16 band, const Task &task)
 {
@@ -472,6 +474,8 @@ bool settle_there(Result &out, Frame &f, const drogue_ellipse &about, drogue_q16
     }
     return settle(out.outline, about, band, *f.front, f.mask, task.config, f.follow);
 }
+
+const drogue_q16 OUTER_BAND = DROGUE_Q16(1, 1);
 
 /* A larger outline along rays about the best one: of the size that the disc asks for, or the rim's outer edge; of that the
  * edge points by 'config', as the best one's, where they show it. */
@@ -491,6 +495,9 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     const drogue_ellipse known = follow ? decided.ellipse : rounded_ellipse(was);
     drogue_ellipse about = known;
     drogue_q16 by = drogue_q16_mul(known.a_px_q16, best.larger_q16);
+    Real grown_size = 0;
+    std::array<Real, 5> grown = {};
+    std::array<int32_t, 5> grown_q24 = {};
     bool found = false;
     if (config == nullptr) {
         about.a_px_q16 += by;
@@ -499,19 +506,23 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
         Ellipse outer = was;
         std::vector<drogue_ray> rays(DROGUE_RAYS);
         out.status = DROGUE_E_NO_ELLIPSE;
-        if (!outer_edge(outer, view, known)) {
+        if (!outer_edge(outer, grown, view, known)) {
             return false;
         }
         about = rounded_ellipse(outer);
         if (follow) {
             about = known;
-            (void)drogue_outline_outer(&about, rays.data(), &view);
+            (void)drogue_outline_outer(&about, grown_q24.data(), rays.data(), &view);
+            std::transform(grown_q24.begin(), grown_q24.end(), grown.begin(), [](int32_t q) { return q * 0x1p-24L; });
         }
-        by = (about.a_px_q16 + about.b_px_q16 - known.a_px_q16 - known.b_px_q16) / 2;
+        by = 0;
+        grown_size = (was.a + was.b + outer.a + outer.b) / 2;
         f.front = run_front_end(f.view, f.mask, *config, task.capacity);
-        const Ellipse &e = out.outline.ellipse;
-        found = settle_there(out, f, about, config->refit_band_px_q16, task) && out.outline.cover >= 0.75L &&
-                e.a + e.b - was.a - was.b >= real(by);
+        found = settle_there(out, f, about, config->refit_band_px_q16, task) && out.outline.cover >= 0.75L;
+        if (found) {
+            pull(out.outline, view, follow ? f.decided.fitted : rounded_ellipse(out.outline.fitted), task.config);
+            found = out.outline.ellipse.a + out.outline.ellipse.b >= grown_size;
+        }
         out.tried = found ? DROGUE_TRIED_LARGER : DROGUE_TRIED_RAYS;
     }
     if (!found && task.capacity.edges < DROGUE_INNER_BEYOND_POINTS) {
@@ -520,8 +531,16 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     }
     if (!found) {
         look_beyond(*f.front, f.view, about, by);
-        found = f.front->list.edge_count > 0 && settle_there(out, f, about, 0, task);
-        found = found && (config == nullptr || (out.outline.ellipse.a >= was.a && out.outline.ellipse.b >= was.b));
+        found = f.front->list.edge_count > 0 && settle_there(out, f, about, config == nullptr ? 0 : OUTER_BAND, task) &&
+                (config == nullptr ||
+                 (out.outline.cover >= 0.75L && out.outline.ellipse.a + out.outline.ellipse.b >= grown_size));
+        if (found && config != nullptr) {
+            out.outline.outer = true;
+            out.outline.support.pull = turned(grown, out.outline.fitted.angle - was.angle);
+            f.decided.outer = 1;
+            drogue_turn_pull(f.decided.support.pull_q24, grown_q24.data(),
+                             f.decided.fitted.angle_rad_q16 - known.angle_rad_q16);
+        }
     }
     out.status = found ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
     out.outline.quality = best.outline.quality;
@@ -712,7 +731,8 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             least > SURE && best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.6L;
         Result out;
         Features from = {};
-        const bool asked_outer = best.outline.outside > 0 || best.seen.a > 160;
+        const bool asked_outer =
+            (best.outline.outside > 0 || best.seen.a > 160) && (least != 1 || best.outline.cover >= 0.7L);
         if (best.status != DROGUE_OK || best.tried == DROGUE_TRIED_RAYS || !(outer ? asked_outer : asked_beyond)) {
             continue;
         }
@@ -721,8 +741,9 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         if (room == DROGUE_SECOND_NONE && is_full(out.status)) {
             room = DROGUE_SECOND_FULL;
         }
-        const bool outer_stands = out.outline.cover >= 0.75L && (out.has_inner || !best.has_inner) &&
-                                  (doubt <= least + 1 / 256.0L || least > 0);
+        const bool outer_stands = (out.has_inner || !best.has_inner) &&
+                                  !(is_smeared(best.outline) && is_smeared(out.outline)) &&
+                                  (least > 0 || doubt <= 0.0055L);
         if (out.status == DROGUE_OK && (outer ? outer_stands : doubt < least - 1 / 256.0L)) {
             keep(out, from, doubt);
         }

@@ -502,7 +502,9 @@ std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &
 void look_beyond(FrontEnd &front, const cv::Mat &view, const drogue_ellipse &about, drogue_q16 beyond_px_q16)
 {
     const drogue_image image = {view.data, view.cols, view.rows, static_cast<int32_t>(view.step)};
-    front.list = {drogue_inner_beyond(&front.workspace, &image, &about, beyond_px_q16), 0};
+    front.list = {beyond_px_q16 > 0 ? drogue_inner_beyond(&front.workspace, &image, &about, beyond_px_q16)
+                                    : drogue_inner_along(&front.workspace, &image, &about),
+                  0};
     number(front);
 }
 
@@ -586,7 +588,9 @@ Ellipse ideal_of(const Outline &outline, const FrontEnd &front, const drogue_con
     if (!e.ok || 4 * straight.size() < 3 * members || e.b < e.a * real(config.min_axis_ratio_q16) || e.b < 1) {
         return none;
     }
-    put_back(e, turned(outline.support.pull, e.angle - outline.fitted.angle));
+    if (!outline.outer) {
+        put_back(e, turned(outline.support.pull, e.angle - outline.fitted.angle));
+    }
     undo_blur(e, config);
     return e;
 }

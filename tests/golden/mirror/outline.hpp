@@ -56,6 +56,7 @@ struct Outline {
     int64_t refit_points = 0;
     Real cover = 0, band = 0;
     reference::Support support;
+    bool outer = false; /* along rays: nothing is put back, and support.pull is by how much it is larger */
     int outside = 0;
 };
 
@@ -80,7 +81,7 @@ bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const
              const Follow &follow);
 
 /* The rim's outer edge about an outline as drogue_outline_outer(), along rays from the ellipse 'aim'; false: there is none. */
-bool outer_edge(reference::Ellipse &e, const drogue_image &view, const drogue_ellipse &aim);
+bool outer_edge(reference::Ellipse &e, std::array<Real, 5> &grown, const drogue_image &view, const drogue_ellipse &aim);
 
 /* What lies beside the outline as drogue_outline_pull(), along rays from the ellipse 'aim', and blur put back. */
 void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const drogue_config &config);

@@ -376,7 +376,7 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
     std::array<Real, GROUPS> off, variance, cut;
     Real noise = 64 / 65536.0L;
     o.ellipse = o.fitted;
-    o.support.pull = {};
+    o.support.pull = o.outer ? o.support.pull : std::array<Real, 5>{};
     o.support.smear = {};
     o.outside = 0;
     if (o.support.points > 0) {
@@ -404,146 +404,214 @@ void pull(Outline &o, const drogue_image &view, const drogue_ellipse &aim, const
         std::transform(off.begin(), off.end(), cut.begin(), off.begin(), std::minus<Real>());
         const Real c2 = std::cos(2 * o.fitted.angle), s2 = std::sin(2 * o.fitted.angle), c = o.support.smear[0];
         o.support.smear = {c * c2 - o.support.smear[1] * s2, o.support.smear[1] * c2 + c * s2}; /* from +x */
-        o.support.pull = harmonics(off, o.fitted, noise, smeared);
-        put_back(o.ellipse, o.support.pull);
+        if (!o.outer) {
+            o.support.pull = harmonics(off, o.fitted, noise, smeared);
+            put_back(o.ellipse, o.support.pull);
+        }
     }
     undo_blur(o.ellipse, config);
 }
 
 namespace {
 
-/* Edges in a bin: the outline's own, and the steepest outside. */
-struct OuterBin {
-    std::array<Real, 2> at = {};
-    std::array<int64_t, 2> slope = {};
+/* Edges in a bin, steepest first. */
+struct OuterEdge {
+    Real at = 0;
+    int64_t slope = 0;
+};
+using OuterBin = std::vector<OuterEdge>;
+
+/* What is seen about an outline: the edges of each bin, and the least slope of one. */
+struct OuterSight {
+    std::array<OuterBin, reference::SUPPORT_BINS> bins;
+    int64_t least = 0;
 };
 
-/* The peaks of the summed slopes of four rays, the middle ones its own; 'outside' gathers those out there
- * but for the edge. */
-OuterBin outer_bin(const drogue_ray *rays, size_t k, const drogue_image &view, drogue_q16 step, int64_t &outside,
-                   int64_t &count)
+/* Does a peak stand out by an eighth from what lies between it and a higher one, on either side? */
+bool stands_out(const int64_t *slope, size_t count, size_t at)
 {
-    enum { SAMPLES = 17, OUTER_SLOPES = SAMPLES - 2, OWN = 5, FAR = 7 };
+    const int64_t *const peak = slope + at, *const end = slope + count;
+    const int64_t *left = peak, *right = peak;
+    int64_t within = *peak, outside = *peak;
+    while (left > slope && left[-1] <= *peak) {
+        within = std::min(within, *--left);
+    }
+    while (right + 1 < end && right[1] <= *peak) {
+        outside = std::min(outside, *++right);
+    }
+    return (left == slope || 8 * within <= 7 * *peak) && (right + 1 == end || 8 * outside <= 7 * *peak);
+}
+
+/* The peaks of the mean slopes of four rays, the middle ones its own: the four steepest. 'own' gathers the steepest
+ * within, 'outside' those out there but for the steepest peak. */
+OuterBin outer_bin(const drogue_ray *rays, size_t k, const drogue_image &view, drogue_q16 step, int64_t &own,
+                   int64_t &outside, int64_t &count)
+{
+    enum { SAMPLES = 18, OUTER_SLOPES = SAMPLES - 2, WITHIN = 5, OWN = 6, FAR = 8, KEPT = 4 };
     std::array<int64_t, SAMPLES> grey = {};
     std::array<int64_t, OUTER_SLOPES> slope;
     OuterBin out;
-    int outer = 0;
-    size_t first = OWN;
+    int64_t within = 0;
+    size_t outer = 0;
     for (size_t r = 2 * k + DROGUE_RAYS - 1; r < 2 * k + DROGUE_RAYS + 3; r++) {
         std::array<int32_t, SAMPLES> one;
         drogue_ray ray = rays[r % DROGUE_RAYS];
         ray.step_px_q16 = step;
-        drogue_ray_read(one.data(), &ray, &view, -4 * step, SAMPLES);
+        drogue_ray_read(one.data(), &ray, &view, -WITHIN * step, SAMPLES);
         std::transform(one.begin(), one.end(), grey.begin(), grey.begin(), std::plus<int64_t>());
     }
     for (size_t i = 0; i < OUTER_SLOPES; i++) {
-        slope[i] = std::abs(grey[i + 2] - grey[i]);
+        slope[i] = std::abs(grey[i + 2] - grey[i]) / 4;
     }
     for (size_t i = 1; i + 1 < OUTER_SLOPES; i++) {
-        if (slope[i] <= slope[i - 1] || slope[i] < slope[i + 1]) {
+        if (slope[i] <= slope[i - 1] || slope[i] < slope[i + 1] || !stands_out(slope.data(), OUTER_SLOPES, i)) {
             continue;
         }
-        const bool own = i <= OWN && slope[i] > out.slope[0];
-        const size_t which = own ? 0 : 1;
-        if (own || (i >= first && slope[i] > out.slope[which])) {
-            const auto bend = static_cast<Real>(2 * slope[i] - slope[i - 1] - slope[i + 1]);
-            const Real part = static_cast<Real>(slope[i + 1] - slope[i - 1]) / (2 * bend);
-            out.at[which] = (static_cast<Real>(i) - 3 + part) * real(step);
-            out.slope[which] = slope[i];
-            outer = own ? outer : static_cast<int>(i);
-            first = own ? std::max<size_t>(OWN, i + 2) : first;
-        }
+        const auto bend = static_cast<Real>(2 * slope[i] - slope[i - 1] - slope[i + 1]);
+        const Real part = static_cast<Real>(slope[i + 1] - slope[i - 1]) / (2 * bend);
+        out.push_back({(static_cast<Real>(i) + 1 - WITHIN + part) * real(step), slope[i]});
+        within = i <= OWN ? std::max(within, slope[i]) : within;
+        outer = i > OWN && (outer == 0 || slope[i] > slope[outer]) ? i : outer;
     }
-    for (int i = FAR; i < OUTER_SLOPES; i++) {
-        if (std::abs(i - outer) > 2) {
-            outside += slope[static_cast<size_t>(i)];
+    own += within;
+    for (size_t i = FAR; i < OUTER_SLOPES; i++) {
+        if (std::max(i, outer) - std::min(i, outer) > 2) {
+            outside += slope[i];
             count++;
         }
     }
+    std::stable_sort(out.begin(), out.end(), [](const OuterEdge &x, const OuterEdge &y) { return x.slope > y.slope; });
+    out.resize(std::min<size_t>(out.size(), KEPT));
     return out;
 }
 
-} // namespace
-
-/* Has a ray of a bin by itself half the slope at its outer edge that the four have on average? */
-static bool has_outer(drogue_ray ray, const OuterBin &bin, const drogue_image &view, drogue_q16 step)
+/* Has a ray by itself half the slope at its bin's outer edge that the four have on average? */
+bool has_outer(drogue_ray ray, const OuterEdge &edge, const drogue_image &view, drogue_q16 step)
 {
     std::array<int32_t, 5> grey;
     int64_t most = 0;
     ray.step_px_q16 = step;
-    drogue_ray_read(grey.data(), &ray, &view, reference::q16(bin.at[1]) - 2 * step, 5);
+    drogue_ray_read(grey.data(), &ray, &view, reference::q16(edge.at) - 2 * step, 5);
     for (size_t i = 0; i < 3; i++) {
         most = std::max<int64_t>(most, std::abs(grey[i + 2] - grey[i]));
     }
-    return 8 * most >= bin.slope[1];
+    return 2 * most >= edge.slope;
 }
 
-static bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellipse &aim, drogue_q16 step)
+using Waves = std::array<Real, 5>;
+
+Real there(const Waves &v, size_t k)
+{
+    const auto at = basis(static_cast<int>(k));
+    return std::inner_product(v.begin(), v.end(), at.begin(), Real(0));
+}
+
+/* Of a bin the edge nearest to a place, the end where none is within so much. */
+OuterBin::const_iterator nearest(const OuterBin &bin, Real at, Real within, int64_t least)
+{
+    auto best = bin.end();
+    for (auto e = bin.begin(); e != bin.end() && e->slope >= least; ++e) {
+        if (std::fabs(e->at - at) < within) {
+            within = std::fabs(e->at - at);
+            best = e;
+        }
+    }
+    return best;
+}
+
+/* The ellipse of least squares over the edges nearest to one; within 0: over the steepest ones outside. */
+Waves outer_fit(const Waves &v, const OuterSight &s, Real within)
 {
     constexpr size_t BINS32 = reference::SUPPORT_BINS;
-    std::array<drogue_ray, DROGUE_RAYS> rays;
-    std::array<OuterBin, BINS32> bins;
-    std::array<Real, 5> v = {};
-    int64_t outside = 0, count = 0, own = 0;
-    int agree = 0, outer = 0, by_itself = 0;
-    drogue_rays_aim(rays.data(), &aim, 4, 0, DROGUE_RAYS / 2);
+    Waves sum = {};
     for (size_t k = 0; k < BINS32; k++) {
-        bins[k] = outer_bin(rays.data(), k, view, step, outside, count);
-        own += bins[k].slope[0];
+        const OuterBin &bin = s.bins[k];
+        const auto at = basis(static_cast<int>(k));
+        const auto edge = within > 0 ? nearest(bin, there(v, k), within, s.least)
+                                     : std::find_if(bin.begin(), bin.end(),
+                                                    [&](const OuterEdge &e) { return e.slope >= s.least && e.at > 1; });
+        const Real off = edge != bin.end() ? edge->at : there(v, k);
+        for (size_t i = 0; i < 5; i++) {
+            sum[i] += off * at[i] / (i > 0 ? BINS32 / 2 : BINS32);
+        }
     }
-    const int64_t least = std::max({int64_t{4 * 5 * 256}, own / (32 * 5), 3 * outside / (2 * count)});
-    for (int round = 0; round <= 17; round++) { /* the outermost edges, six of 2 px, ten of 1 px, what agrees */
-        const Real most = round < 7 ? 2 : round < 17 ? 1 : 0.6L;
-        std::array<Real, 5> sum = {};
-        agree = outer = by_itself = 0;
-        for (size_t k = 0; k < BINS32; k++) {
-            const Real t = (static_cast<Real>(k) + 0.5L) * 2 * std::acos(Real(-1)) / BINS32;
-            const std::array<Real, 5> basis = {1, std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)};
-            const Real there = std::inner_product(v.begin(), v.end(), basis.begin(), Real(0));
-            const OuterBin &bin = bins[k];
-            Real at = there, within = most;
-            size_t edge = 2;
-            for (size_t i = 0; i < 2; i++) {
-                const Real off = std::fabs(bin.at[i] - there);
-                if (bin.slope[i] >= least && off < within) {
-                    within = off;
-                    at = bin.at[i];
-                    edge = i;
-                }
-            }
-            if (round == 0) {
-                edge = bin.slope[1] >= least ? 1 : 0;
-                at = bin.at[edge];
-            }
-            agree += edge < 2;
-            outer += edge == 1;
-            for (size_t r = 2 * k; round == 17 && edge == 1 && r < 2 * k + 2; r++) {
-                by_itself += has_outer(rays[r], bin, view, step);
-            }
-            for (size_t i = 0; i < 5; i++) {
-                sum[i] += at * basis[i] / (i > 0 ? BINS32 / 2 : BINS32);
-            }
-        }
-        if ((round == 0 && outer < 8) ||
-            (round == 17 && (v[0] < 0.3L || agree < 22 || outer < 8 || 2 * by_itself < 3 * outer))) {
-            return false;
-        }
-        v = round < 17 ? sum : v;
+    return sum;
+}
+
+/* Bins whose edges an ellipse passes; 0 where there are too few off the outline. */
+int agreeing(const Waves &v, const OuterSight &s)
+{
+    int agree = 0, off = 0, both = 0;
+    for (size_t k = 0; k < s.bins.size(); k++) {
+        const Real at = there(v, k);
+        const bool on = nearest(s.bins[k], at, 0.6L, s.least) != s.bins[k].end(), is_off = std::fabs(at) > 0.7L;
+        agree += on;
+        off += is_off;
+        both += on && is_off;
     }
-    for (Real &c : v) {
-        if (std::fabs(c) > e.b / 8) {
-            return false;
+    return off >= 6 && 2 * both >= off ? agree : 0;
+}
+
+/* From seven starts the larger ellipse on which most bins agree; false: there is none. */
+bool outer_seek(Waves &best, const OuterSight &s, Real most)
+{
+    Real merit = 0;
+    for (int start = -1; start < 6; start++) {
+        Waves v = {};
+        v[0] = std::max(start, 0);
+        v = start < 0 ? outer_fit(v, s, 0) : v;
+        for (int i = 0; i < 16; i++) {
+            v = outer_fit(v, s, i < 6 ? 2 : i < 14 ? 1 : 0.6L);
         }
+        const bool is_near = std::all_of(v.begin(), v.end(), [&](Real c) { return std::fabs(c) <= most; });
+        const int agree = is_near && v[0] >= 0.3L ? agreeing(v, s) : 0;
+        if (agree >= 22 && agree / 4.0L + v[0] > merit) {
+            merit = agree / 4.0L + v[0];
+            best = v;
+        }
+    }
+    return merit > 0;
+}
+
+bool outer_edge(Ellipse &e, Waves &grown, const drogue_image &view, const drogue_ellipse &aim, drogue_q16 step)
+{
+    std::array<drogue_ray, DROGUE_RAYS> rays;
+    OuterSight s;
+    Waves v = {};
+    int64_t outside = 0, count = 0, own = 0;
+    int seen = 0, asked = 0;
+    drogue_rays_aim(rays.data(), &aim, 4, 0, DROGUE_RAYS / 2);
+    for (size_t k = 0; k < s.bins.size(); k++) {
+        s.bins[k] = outer_bin(rays.data(), k, view, step, own, outside, count);
+    }
+    s.least = std::max({int64_t{5 * 256}, own / (32 * 5), 3 * outside / (2 * count)});
+    if (!outer_seek(v, s, e.b / 8)) {
+        return false;
+    }
+    for (size_t k = 0; k < s.bins.size(); k++) {
+        const Real at = there(v, k);
+        const auto edge = nearest(s.bins[k], at, 0.6L, s.least);
+        for (size_t r = 2 * k; r < 2 * k + 2 && at > 0.7L && edge != s.bins[k].end(); r++) {
+            seen += has_outer(rays[r], *edge, view, step);
+            asked++;
+        }
+    }
+    if (4 * seen < 3 * asked) {
+        return false;
     }
     const Real along = (v[0] + v[3]) / e.a, across = (v[0] - v[3]) / e.b;
-    put_back(e, {-(along + across) / 2, -v[1] / e.a, -v[2] / e.b, -(along - across) / 2, -2 * v[4] / (e.a + e.b)});
+    grown = {-(along + across) / 2, -v[1] / e.a, -v[2] / e.b, -(along - across) / 2, -2 * v[4] / (e.a + e.b)};
+    put_back(e, grown);
     return true;
 }
 
-bool outer_edge(Ellipse &e, const drogue_image &view, const drogue_ellipse &aim)
+} // namespace
+
+bool outer_edge(Ellipse &e, std::array<Real, 5> &grown, const drogue_image &view, const drogue_ellipse &aim)
 {
-    const drogue_q16 narrow = 32768, wide = aim.a_px_q16 / 200;
-    return e.b >= 1 && (outer_edge(e, view, aim, narrow) || (wide > narrow && outer_edge(e, view, aim, wide)));
+    const drogue_q16 narrow = 32768, wide = std::min(aim.a_px_q16 / 200, 9 * 65536);
+    return e.b >= 16 &&
+           (outer_edge(e, grown, view, aim, narrow) || (wide > narrow && outer_edge(e, grown, view, aim, wide)));
 }
 
 } // namespace mirror

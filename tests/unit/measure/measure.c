@@ -208,6 +208,44 @@ START_TEST(a_ring_about_the_rim)
 }
 END_TEST
 
+/* Noise has no outer edge, however large an outline it is asked about. */
+START_TEST(noise_about_the_rim)
+{
+    const drogue_model alone = {22938, 0, 0};
+    drogue_region region = whole;
+    uint64_t rng = 5;
+    int i, k, ok = 0;
+    for (i = 0; i < 48; i++) {
+        test_workspace t = usual_workspace();
+        const double sigma = 8 + i % 8;
+        drogue_config config;
+        drogue_result r;
+        scene s = usual;
+        s.position[2] = 6 + 0.3 * i;
+        s.outside = 100;
+        s.canopy = 60;
+        s.inside = 60;
+        s.position[0] = s.position[1] = 0;
+        draw(&s);
+        for (k = 0; k < WIDTH * HEIGHT; k++) {
+            const double noise = rng_real(&rng, -1, 1) + rng_real(&rng, -1, 1) + rng_real(&rng, -1, 1);
+            pixels[k] = (uint8_t)fmin(fmax(pixels[k] + sigma * noise + 0.5, 0), 255);
+        }
+        drogue_config_default(&config);
+        region.width_px = region.height_px = (int32_t)(2.5 * 1465.5 * 0.35 / s.position[2]);
+        region.x_px = 160 - region.width_px / 2;
+        region.y_px = 140 - region.height_px / 2;
+        if (measure(&r, &t, &config, &alone, &region) == DROGUE_OK) {
+            ok++;
+            MUST(r.tried != DROGUE_TRIED_RAYS, "sigma %g, %g px: a = %g px for %g", sigma,
+                 1465.5 * 0.35 / s.position[2], real_of_q16(r.ideal.a_px_q16), 1465.5 * 0.35 / s.position[2]);
+        }
+        test_workspace_free(&t);
+    }
+    ck_assert_int_gt(ok, 20);
+}
+END_TEST
+
 START_TEST(without_inner_part)
 {
     test_workspace t = usual_workspace();
@@ -925,9 +963,9 @@ END_TEST
 
 SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline,
            a_canopy_so_narrow_that_its_inner_edge_is_found, without_inner_part, regions_of_one_image,
-           ring_of_a_clipped_region, arguments, regions_that_miss, a_ring_about_the_rim, images_beyond_the_coordinates,
-           full_tables, what_fills_a_table_is_thresholded, what_own_thresholds_fill_is_told, nothing_to_measure,
-           edges_are_the_regions, geometry_out_of_range, inner_part_that_cannot_decide, inner_part_that_contradicts,
-           covariance_of_the_result, off_centre_region, second_look_that_fails, second_look_is_told,
-           background_across_the_canopys_grey, outline_across_a_fold, version_is_the_macros,
-           capacity_by_macro_is_capacity_by_function)
+           ring_of_a_clipped_region, arguments, regions_that_miss, a_ring_about_the_rim, noise_about_the_rim,
+           images_beyond_the_coordinates, full_tables, what_fills_a_table_is_thresholded,
+           what_own_thresholds_fill_is_told, nothing_to_measure, edges_are_the_regions, geometry_out_of_range,
+           inner_part_that_cannot_decide, inner_part_that_contradicts, covariance_of_the_result, off_centre_region,
+           second_look_that_fails, second_look_is_told, background_across_the_canopys_grey, outline_across_a_fold,
+           version_is_the_macros, capacity_by_macro_is_capacity_by_function)

@@ -8,6 +8,7 @@ enum { LARGE = 700, MIDDLE = LARGE / 2 };
 
 static uint8_t pixels[LARGE * LARGE];
 static drogue_ray rays[DROGUE_RAYS];
+static int32_t grown_q24[5];
 
 /* An ellipse about the middle, and a band about it whose outer edge is so many px farther out, and a part of the
  * semi-axes, and shifted along the axes; on a part of the outline alone, or waving to and fro. */
@@ -16,16 +17,20 @@ typedef struct band {
     int grey[3];               /* inside, of the band, outside */
     double from, span;         /* span 0: all about */
     double wave, lobes, noise; /* lobes 0: 9 */
+    double blur;               /* px; 0: 0.7 */
     int taken;
 } band;
 
-static double step(double x) { return 0.5 * erfc(-x / 1.0); } /* 0.7 px of blur */
+static double width; /* of an edge */
+
+static double step(double x) { return 0.5 * erfc(-x / width); }
 
 static drogue_image draw(const band *s)
 {
     const drogue_image view = {pixels, LARGE, LARGE, LARGE};
     uint64_t rng = 1;
     int x, y, i;
+    width = s->blur > 0 ? sqrt(2) * s->blur : 1;
     for (y = 0; y < LARGE; y++) {
         for (x = 0; x < LARGE; x++) {
             const double c = cos(s->angle), z = sin(s->angle), dx = x - MIDDLE, dy = y - MIDDLE;
@@ -69,8 +74,10 @@ START_TEST(bands)
         {.a = 200, .b = 150, .angle = 0.3, .larger = 4.6, .grey = {60, 200, 120}, .taken = 1},
         /* of a small one */
         {.a = 20, .b = 18, .angle = 0.3, .larger = 1.9, .grey = {60, 200, 120}, .taken = 1},
-        /* of which an eighth is too far */
-        {.a = 12, .b = 11, .angle = 0.3, .larger = 2.2, .grey = {60, 200, 120}},
+        /* of which an eighth is too far, */
+        {.a = 20, .b = 18, .angle = 0.3, .larger = 2.6, .grey = {60, 200, 120}},
+        /* and one that is too small */
+        {.a = 16.4, .b = 15.8, .angle = 0.3, .larger = 1.9, .grey = {60, 200, 120}},
         /* on one side: what it has on the other one is both, */
         {.a = 60, .b = 56, .angle = 0.7, .larger = 1.3, .u = 1.3, .grey = {60, 200, 120}, .taken = 1},
         /* and across */
@@ -81,6 +88,10 @@ START_TEST(bands)
         {.a = 60, .b = 54, .angle = 0.3, .larger = 0, .grey = {60, 200, 200}},
         /* nor in noise, */
         {.a = 60, .b = 54, .angle = 0.3, .larger = 0, .grey = {60, 200, 200}, .noise = 8},
+        /* nor in that of a wide edge, */
+        {.a = 60, .b = 54, .angle = 0.3, .grey = {60, 110, 110}, .noise = 1, .blur = 2.6},
+        {.a = 42, .b = 40, .angle = 0.3, .grey = {60, 110, 110}, .noise = 1, .blur = 3},
+        {.a = 50, .b = 40, .angle = 0.3, .grey = {60, 110, 110}, .noise = 1, .blur = 2.2},
         /* a faint one, */
         {.a = 60, .b = 54, .angle = 0.3, .larger = 2.5, .grey = {60, 200, 178}},
         /* that of a part, which is no ellipse, */
@@ -102,7 +113,8 @@ START_TEST(bands)
         const double within =
             s->u != 0 || s->v != 0 ? 0.4 : 0.35; /* where both edges are one they pull at each other */
         drogue_ellipse e = was;
-        MUST(drogue_outline_outer(&e, rays, &view) == s->taken, "case %d: a = %g px", (int)i, real_of_q16(e.a_px_q16));
+        MUST(drogue_outline_outer(&e, grown_q24, rays, &view) == s->taken, "case %d: a = %g px", (int)i,
+             real_of_q16(e.a_px_q16));
         if (!s->taken) {
             ck_assert_int_eq(memcmp(&e, &was, sizeof e), 0);
         } else {
@@ -111,6 +123,12 @@ START_TEST(bands)
                      fabs(real_of_q16(e.angle_rad_q16) - s->angle) < 0.1,
                  "case %d: a = %g px, b = %g, at (%g, %g) for (%g, %g)", (int)i, real_of_q16(e.a_px_q16),
                  real_of_q16(e.b_px_q16), real_of_q16(e.xc_px_q16), real_of_q16(e.yc_px_q16), x, y);
+            MUST(fabs(ldexp((double)grown_q24[0], -24) * (s->a + s->b) +
+                      ldexp((double)grown_q24[3], -24) * (s->a - s->b) + real_of_q16(e.a_px_q16 + e.b_px_q16) - s->a -
+                      s->b) < 0.001 &&
+                     fabs(hypot(ldexp((double)grown_q24[1], -24) * s->a, ldexp((double)grown_q24[2], -24) * s->b) -
+                          hypot(real_of_q16(e.xc_px_q16) - MIDDLE, real_of_q16(e.yc_px_q16) - MIDDLE)) < 0.001,
+                 "case %d: grown by %g of its size", (int)i, -ldexp((double)grown_q24[0], -24));
         }
     }
 }
@@ -124,7 +142,7 @@ START_TEST(another_shape)
     double longer;
     for (longer = -1; longer <= 1; longer += 0.5) {
         drogue_ellipse e = {q16_of(MIDDLE), q16_of(MIDDLE), q16_of(58 + longer), q16_of(56 - longer), 0};
-        MUST(drogue_outline_outer(&e, rays, &view) == 1, "longer by %g px", longer);
+        MUST(drogue_outline_outer(&e, grown_q24, rays, &view) == 1, "longer by %g px", longer);
         MUST(fabs(real_of_q16(e.a_px_q16) - 60) < 0.5 && fabs(real_of_q16(e.b_px_q16) - 58) < 0.5,
              "longer by %g px: %g by %g", longer, real_of_q16(e.a_px_q16), real_of_q16(e.b_px_q16));
     }
@@ -138,7 +156,7 @@ START_TEST(any_image)
     uint64_t rng = 7;
     int i, k;
     for (i = 0; i < 2000; i++) {
-        const double a = rng_real(&rng, 1, i % 4 ? 40 : 16000), b = rng_real(&rng, 1, a);
+        const double a = rng_real(&rng, i % 4 ? 16 : 1, i % 4 ? 40 : 16000), b = rng_real(&rng, i % 4 ? 16 : 1, a);
         const drogue_ellipse was = {q16_of(rng_real(&rng, -20, 80)), q16_of(rng_real(&rng, -20, 80)), q16_of(a),
                                     q16_of(b), q16_of(rng_real(&rng, -1.5, 1.5))};
         drogue_ellipse e = was;
@@ -147,7 +165,7 @@ START_TEST(any_image)
             const double ring = 90 * sin(hypot(x - 30, y - 30) * (0.4 + i % 7 * 0.2));
             pixels[y * LARGE + x] = (uint8_t)(i % 3 ? 128 + ring : rng_real(&rng, 0, 255));
         }
-        if (!drogue_outline_outer(&e, rays, &view)) {
+        if (!drogue_outline_outer(&e, grown_q24, rays, &view)) {
             ck_assert_int_eq(memcmp(&e, &was, sizeof e), 0);
         } else {
             MUST(e.a_px_q16 + e.b_px_q16 > was.a_px_q16 + was.b_px_q16 && e.b_px_q16 > was.b_px_q16 / 2 &&

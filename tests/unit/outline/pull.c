@@ -273,6 +273,33 @@ START_TEST(only_where_the_outline_has_points)
 }
 END_TEST
 
+/* Of the rim's outer edge along rays nothing is put back but blur, and what is in doubt stays. */
+START_TEST(nothing_of_an_outer_edge)
+{
+    const ring r = {30, 2.5, 0, 0, 47.3, 46.9, 47, 0};
+    const drogue_image view = draw(&r, 1);
+    drogue_config config;
+    drogue_outline o = fitted_at(&r, 30);
+    drogue_outline without = o;
+    int32_t k;
+    drogue_config_default(&config);
+    without.support.points = 0;
+    drogue_outline_pull(&without, rays, &view, &config);
+    o.outer = 1;
+    for (k = 0; k < 5; k++) {
+        o.support.pull_q24[k] = -3000 * (k + 1);
+    }
+    drogue_outline_pull(&o, rays, &view, &config);
+    ck_assert_int_eq(memcmp(&o.ellipse, &without.ellipse, sizeof o.ellipse), 0);
+    for (k = 0; k < 5; k++) {
+        ck_assert_int_eq(o.support.pull_q24[k], -3000 * (k + 1));
+    }
+    o.outer = 0;
+    drogue_outline_pull(&o, rays, &view, &config);
+    ck_assert_int_ne(memcmp(&o.ellipse, &without.ellipse, sizeof o.ellipse), 0);
+}
+END_TEST
+
 /* An eighth of the semi-axis at most, and no ellipse turned inside out; where there is none nothing is done. */
 START_TEST(the_smallest)
 {
@@ -473,4 +500,4 @@ END_TEST
 
 SUITE_MAIN("pull", encoded_levels_are_light, light_along_a_ray, a_band_is_as_wide_as_it_is, shading_goes_back,
            half_a_band_moves_the_centre, no_more_than_noise, even_grey_moves_nothing, only_where_the_outline_has_points,
-           the_smallest, across_the_border, waves_of_a_pixel, another_edge_outside)
+           nothing_of_an_outer_edge, the_smallest, across_the_border, waves_of_a_pixel, another_edge_outside)
