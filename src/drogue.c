@@ -51,6 +51,7 @@ typedef struct best_try {
     drogue_result *result; /* the workspace's, which leaves the stack free */
 } best_try;
 
+/* Is an edge of the frame's outline seen twice, by motion or by what looks like it? */
 static int seems_smeared(const drogue_frame *f)
 {
     const int32_t *smear = f->outline.support.smear_px2_q16;

@@ -27,7 +27,8 @@ struct FrontEnd {
 std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &mask, const drogue_config &config,
                                         const drogue_capacity &capacity);
 
-/* The edge points along rays by drogue_inner_beyond() in place of what the front end left: integers, as those are. */
+/* The edge points along rays by drogue_inner_beyond(), beyond 0 by drogue_inner_along(), in place of what the front end
+ * left: integers, as those are. */
 void look_beyond(FrontEnd &front, const cv::Mat &view, const drogue_ellipse &about, drogue_q16 beyond_px_q16);
 
 /* Where a number lies nearer to a limit than the library resolves, its own decision is taken; by how much it may be
