@@ -36,10 +36,8 @@ static void forget(drogue_result *out)
 #define SHOWS_Q16 DROGUE_Q16(1, 4)     /* unless so much shows of one that the disc asks for */
 #define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
 #define ALONE_Q16 DROGUE_Q16(7, 10)    /* least cover of an outline whose disc is not seen */
-#define LARGE DROGUE_Q16(160, 1)       /* px: another edge may lie farther outside than an outline shows */
-#define SMEARED_Q16 DROGUE_Q16(3, 2)   /* px^2 of smear: an edge that is seen twice */
-#define STILL_Q16 DROGUE_Q16(11, 2000) /* no more doubt than outline and disc contradict each other by */
-#define CLEARLY_Q16 DROGUE_Q16(1, 256) /* a later try is better by more than this */
+#define STILL_Q16 (11 * DROGUE_CONTRADICTION_Q16 / 10) /* hardly more than a contradiction: of its size */
+#define CLEARLY_Q16 DROGUE_Q16(1, 256)                 /* a later try is better by more than this */
 
 /* What the best try so far gave. */
 typedef struct best_try {
@@ -54,8 +52,7 @@ typedef struct best_try {
 /* Is an edge of the frame's outline seen twice, by motion or by what looks like it? */
 static int seems_smeared(const drogue_frame *f)
 {
-    const int32_t *smear = f->outline.support.smear_px2_q16;
-    return drogue_square_sum(smear[0], smear[1]) > drogue_square_sum(SMEARED_Q16, 0);
+    return drogue_support_smear(&f->outline.support) > DROGUE_SMEARED_Q16;
 }
 
 static void keep(best_try *best, const drogue_frame *f, drogue_status status)
@@ -232,8 +229,7 @@ static void try_beyond(best_try *best, drogue_frame *f)
 static int asks_outer(const best_try *best)
 {
     const drogue_result *was = best->result;
-    return was->status == DROGUE_OK && was->tried != DROGUE_TRIED_RAYS &&
-           (best->outside > 0 || was->ellipse.a_px_q16 > LARGE) &&
+    return was->status == DROGUE_OK && was->tried != DROGUE_TRIED_RAYS && best->outside > 0 &&
            (best->least_q16 != DROGUE_Q16_ONE || was->cover_q16 >= ALONE_Q16);
 }
 

@@ -8,10 +8,6 @@
 #include "drogue/inner.h"
 #include "drogue/undistort.h"
 
-/* Counts for less than a disc off its size, which another edge of the drogue has: of the rim of a drogue that fills the
- * region, too, outline and disc contradict each other by what is not flat, thin or evenly lit. */
-#define CONTRADICTION_Q16 DROGUE_Q16(1, 200)
-
 static void describe(drogue_result *out, const drogue_outline *outline)
 {
     memcpy(out->arcs, outline->arcs, sizeof out->arcs);
@@ -96,7 +92,7 @@ drogue_status drogue_frame_judge(drogue_frame *f)
     }
     status = decide(out, &evidence, f->setup);
     if (status == DROGUE_OK && out->has_inner && out->doubt_q16 > f->doubt_q16) {
-        f->doubt_q16 += CONTRADICTION_Q16; /* or the outline is too far: another one may be right */
+        f->doubt_q16 += DROGUE_CONTRADICTION_Q16; /* or the outline is too far: another one may be right */
     }
     return status;
 }

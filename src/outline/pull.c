@@ -21,7 +21,7 @@
 #define SLOPES DROGUE_SLOPES
 #define HALF DROGUE_Q16(1, 2)      /* px between slopes */
 #define TWO_SETS DROGUE_Q16(24, 1) /* px: of a larger outline twice as many rays are read */
-#define SMEARED_Q32 (1u << 30)     /* px^4: square of a smear of half a px^2; of less an edge has a steepest place */
+#define STEEP DROGUE_Q16(1, 2)     /* px^2 of smear: up to that an edge has a steepest place */
 #define Q20_OF_Q16 16
 #define WHITE_Q8 (254 * 256) /* a level that is saturated, but for noise of processing */
 #define BESIDE 3             /* samples from the outline to where only an edge that is cut off is white, 1.5 px */
@@ -83,9 +83,7 @@ static void read_slopes(int32_t slope[2][SLOPES], int32_t white[2], const drogue
 /* Does motion blur the outline, and is it so large that rays hardly reach its middle? */
 static int is_smeared(const drogue_outline *outline)
 {
-    const int32_t *smear = outline->support.smear_px2_q16;
-    return drogue_square_sum(smear[0], smear[1]) > SMEARED_Q32 &&
-           outline->fitted.b_px_q16 >= DROGUE_SMEARED_MIDDLE * HALF;
+    return drogue_support_smear(&outline->support) > STEEP && outline->fitted.b_px_q16 >= DROGUE_SMEARED_MIDDLE * HALF;
 }
 
 /* An edge that motion blurs has no steepest place: it is where its lobe says. */

@@ -131,6 +131,12 @@ void drogue_support_basis(int32_t basis_q30[5], uint32_t k)
     basis_q30[4] = (int32_t)drogue_shr_round_s64(drogue_product(c, s), 29);
 }
 
+drogue_q16 drogue_support_smear(const drogue_support *support)
+{
+    const int32_t *smear = support->smear_px2_q16;
+    return drogue_sat_s32((int64_t)drogue_isqrt_u64(drogue_square_sum(smear[0], smear[1])));
+}
+
 void drogue_turn_wave(int32_t wave[2], drogue_q16 by_rad_q16)
 {
     int32_t s_q30;

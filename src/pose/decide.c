@@ -212,15 +212,12 @@ static drogue_q16 doubt_of(const drogue_evidence *evidence, int agree)
     return has_inner(evidence) && !agree && doubt_q16 < DROGUE_CONTRADICTED_Q16 ? DROGUE_CONTRADICTED_Q16 : doubt_q16;
 }
 
-#define SMEARED_Q16 DROGUE_Q16(5, 4) /* px^2: an inner disc's edge says nothing of the outline */
-
 /* The share by which the poses are too far: of what place and size say as much as the place is off by more than noise,
  * which it is by a chi2 of 3. */
 static drogue_q16 too_far(const drogue_evidence *evidence, drogue_real chi2)
 {
-    const int32_t *smear_px2_q16 = evidence->support->smear_px2_q16;
-    const int64_t smear = (int64_t)drogue_isqrt_u64(drogue_square_sum(smear_px2_q16[0], smear_px2_q16[1]));
-    const int32_t still_q16 = drogue_clamp_s32(drogue_sat_s32(SMEARED_Q16 - smear), 0, DROGUE_Q16_ONE);
+    const drogue_q16 smear = drogue_support_smear(evidence->support);
+    const int32_t still_q16 = drogue_clamp_s32(DROGUE_SMEARED_Q16 - smear, 0, DROGUE_Q16_ONE);
     const int32_t off_q16 = drogue_clamp_s32((drogue_real_to_q16(chi2) - DROGUE_Q16_ONE) / 2, 0, DROGUE_Q16_ONE);
     return drogue_q16_mul(drogue_q16_mul(evidence->too_far_q16, still_q16), off_q16);
 }
