@@ -35,8 +35,8 @@ typedef struct drogue_frame {
                                too large for the outline; more: no outline */
 } drogue_frame;
 
-/* Doubt where disc and outline contradict each other. It is less than that of a disc off its size, which another edge of
- * the drogue has: they do at a rim that fills the region, too, by what is not flat, thin or evenly lit. */
+/* Doubt where disc and outline contradict each other. It is less than that of a disc off its size, which another edge
+ * of the drogue has: they do at a rim that fills the region, too, by what is not flat, thin or evenly lit. */
 #define DROGUE_CONTRADICTION_Q16 DROGUE_Q16(1, 200)
 
 /* Move an ellipse. */
