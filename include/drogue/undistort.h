@@ -42,9 +42,9 @@ static inline int drogue_camera_distorts(const drogue_camera *c)
  *  x, y    in/out, px Q16
  *  return  DROGUE_OK; DROGUE_E_DOMAIN when the point lies more than 4 focal lengths off the axis in x or y, a
  *          coefficient exceeds DROGUE_MAX_DISTORTION_Q16, or the result leaves Q16
- *  error   1 LSB for lenses as calibration finds them (k1 within 0.25, focal lengths to 3000 px); 4 LSB, 0.0001 px,
- *          where they move points by up to three focal lengths; in proportion to longer focal lengths, 24 LSB at
- *          30000 px; where large terms cancel each other, of the largest one 2^-25
+ *  error   1 LSB for lenses as calibration finds them (k1 within 0.25, focal lengths to 3000 px, 0.6 focal lengths off
+ *          the axis in x and y); in any case 1 LSB, 2^-29 of the focal length and 2^-23 of the largest of the lens's
+ *          terms, k1 r^3, k2 r^5, k3 r^7, p1 r^2 and p2 r^2 focal lengths, of which large ones may cancel each other
  */
 drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);
 
@@ -53,7 +53,7 @@ drogue_status drogue_distort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, c
  *  x, y    in/out, px Q16; unchanged on failure
  *  return  DROGUE_OK; DROGUE_E_DOMAIN as above, when the model cannot be inverted there (beyond a
  *          fold, which is looked for at 16 places on the way from the axis), or when it stretches more than 64-fold
- *  error   2, 8 and 48 LSB in the same cases, where the lens compresses no more than five times
+ *  error   3 LSB for the same lenses; in any case as above at the point returned, times what the lens compresses there
  */
 drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_camera *camera);
 
