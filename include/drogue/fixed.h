@@ -165,7 +165,7 @@ int32_t drogue_atan2_q29(int64_t y, int64_t x);
  */
 void drogue_sincos_q30(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29);
 
-/* The same of an angle within 4 rad. */
+/* The same of an angle in (-4, 4) rad. */
 static inline void drogue_sincos_of_q16(int32_t *sin_q30, int32_t *cos_q30, drogue_q16 angle_rad_q16)
 {
     drogue_sincos_q30(sin_q30, cos_q30, (int32_t)drogue_shl_s64(angle_rad_q16, 13));

@@ -25,7 +25,7 @@ static inline int drogue_pose_angles_valid(const drogue_pose *p)
            p->pitch_rad_q16 <= DROGUE_Q16_HALF_PI && p->pitch_rad_q16 >= -DROGUE_Q16_HALF_PI;
 }
 
-/* Unit vector of a yaw and a pitch, each within 4 rad. */
+/* Unit vector of a yaw and a pitch, each in (-4, 4) rad. */
 void drogue_pose_axis(drogue_q16 axis_q16[3], drogue_q16 yaw_rad_q16, drogue_q16 pitch_rad_q16);
 
 /* Both poses that an ellipse allows.
