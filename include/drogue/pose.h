@@ -48,7 +48,8 @@ drogue_status drogue_pose_from_ellipse(drogue_pose out[2], const drogue_ellipse 
 /* Image of the point at the given depth behind the end plane on the axis, without distortion, px Q16.
  *
  *  return  DROGUE_OK; DROGUE_E_BEHIND_CAMERA
- *  error   <= 2 LSB for focal lengths to 2^13 px, 4 beyond, and a principal point within 2^13 px; beyond Q16 saturated
+ *  error   <= 2 LSB where the image lies within 2^13 px, 4 beyond, for a principal point within 2^13 px; beyond Q16
+ *          saturated
  */
 drogue_status drogue_project_axis_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16, const drogue_pose *pose,
                                         drogue_q16 depth_m_q16, const drogue_camera *camera);

@@ -249,6 +249,40 @@ START_TEST(projection_within_2_lsb)
 }
 END_TEST
 
+/* Any focal length, images anywhere in Q16. */
+START_TEST(projection_to_the_ends_of_q16)
+{
+    uint64_t rng = 4;
+    double worst[2] = {0, 0}; /* within 2^13 px, beyond */
+    int i, seen = 0;
+    for (i = 0; i < 1000000; i++) {
+        const double f = exp(rng_real(&rng, log(100), log(32767)));
+        const drogue_camera c = pinhole(f, f, rng_real(&rng, -8192, 8192), 0);
+        const double most = i & 1 ? 8192 : 32767;
+        drogue_pose p;
+        drogue_q16 x, y;
+        double u;
+        memset(&p, 0, sizeof p);
+        p.position_m_q16[2] = rng_range(&rng, 1, INT32_MAX) >> rng_range(&rng, 0, 20);
+        u = (rng_real(&rng, -most, most) - real_of_q16(c.cx_px_q16)) / f * p.position_m_q16[2];
+        if (p.position_m_q16[2] < 1 || fabs(u) > INT32_MAX) {
+            continue;
+        }
+        p.position_m_q16[0] = (int32_t)u;
+        u = (double)p.position_m_q16[0] / p.position_m_q16[2] * c.fx_px_q16 + c.cx_px_q16;
+        ck_assert_int_eq(drogue_project_axis_point(&x, &y, &p, 0, &c), DROGUE_OK);
+        if (fabs(u) < INT32_MAX) {
+            double *own = &worst[fabs(u) > 8192.0 * 65536];
+            *own = fmax(*own, fabs(x - u));
+            seen++;
+        }
+    }
+    ck_assert_int_gt(seen, 500000);
+    MUST(worst[0] <= 2.0, "within 2^13 px off by %.3f LSB", worst[0]);
+    MUST(worst[1] <= 4.0, "beyond off by %.3f LSB", worst[1]);
+}
+END_TEST
+
 static drogue_pose pose_at(double z, double yaw, double pitch)
 {
     drogue_pose p;
@@ -322,4 +356,4 @@ START_TEST(ranges_of_the_angles)
 END_TEST
 
 SUITE_MAIN("pose", circles_over_distance_and_tilt, random_circles, head_on_has_one_pose, outside_the_domain, any_bits,
-           projection_within_2_lsb, choice_by_the_inner_centre, ranges_of_the_angles)
+           projection_within_2_lsb, projection_to_the_ends_of_q16, choice_by_the_inner_centre, ranges_of_the_angles)
