@@ -267,6 +267,9 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
     out->alternative = evidence->poses[1 - index];
     bring_nearer(&joint.pose, nearer_q16);
     bring_nearer(&out->alternative, nearer_q16);
+    if (joint.pose.position_m_q16[2] <= 0) { /* nearer than numbers go */
+        return DROGUE_E_DOMAIN;
+    }
     out->pose = joint.pose;
     out->doubt_q16 = doubt_of(evidence, agree);
     out->doubt_q16 = out->doubt_q16 > nearer_q16 ? out->doubt_q16 : nearer_q16;

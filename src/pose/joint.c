@@ -122,7 +122,7 @@ static drogue_status finish(drogue_pose *out, const drogue_joint_state *s, drogu
     }
     out->yaw_rad_q16 = (drogue_q16)drogue_shr_round_s64(s->angle_rad_q29[0], 13);
     out->pitch_rad_q16 = (drogue_q16)drogue_shr_round_s64(s->angle_rad_q29[1], 13);
-    return s->position_q30[2] > 0 ? DROGUE_OK : DROGUE_E_BEHIND_CAMERA;
+    return out->position_m_q16[2] > 0 ? DROGUE_OK : DROGUE_E_BEHIND_CAMERA; /* or nearer than numbers go */
 }
 
 drogue_status drogue_joint_settle(drogue_joint *out, const drogue_pose *start, const drogue_joint_outline *outline,

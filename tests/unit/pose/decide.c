@@ -410,6 +410,35 @@ END_TEST
 
 /* Farther away than numbers go: from the nearer start at once, from the other one after its first step. The outline's
  * own pose stands, and nothing is decided. */
+/* A rim of some units of the last place, so near that its distance may round to 0: then there is no pose. */
+START_TEST(nearer_than_numbers_go)
+{
+    uint64_t rng = 13;
+    field f = usual_field();
+    int i, given = 0;
+    for (i = 0; i < 20000; i++) {
+        const double rim = rng_range(&rng, 1, 3);
+        const pose_real p = {{rng_real(&rng, -0.3, 0.3) * rim / 65536, 0, rng_real(&rng, 0.5, 1.5) * rim / 65536,
+                              rng_real(&rng, -0.5, 0.5), rng_real(&rng, -0.5, 0.5)}};
+        seen s;
+        f.model.rim_radius_m_q16 = (drogue_q16)rim;
+        f.model.inner_radius_m_q16 = 1;
+        f.model.inner_depth_m_q16 = rng_range(&rng, 0, 1);
+        if (!look_at(&s, &f, &p, &rng)) {
+            continue;
+        }
+        s.evidence.inner.x_px_q16 += rng_range(&rng, -300 * 65536, 300 * 65536);
+        s.evidence.inner.std_px_q16 = rng_range(&rng, 1, 8 * 65536);
+        s.evidence.too_far_q16 = rng_range(&rng, 0, 65535);
+        if (decide(&s, &f, 0, &s.evidence.inner) == DROGUE_OK) {
+            MUST(s.result.pose.position_m_q16[2] > 0, "case %d", i);
+            given++;
+        }
+    }
+    ck_assert_int_gt(given, 1000);
+}
+END_TEST
+
 START_TEST(solutions_that_leave_the_numbers)
 {
     const pose_real far = {{0, 0, 33500, 0.2, 0.1}};
@@ -444,4 +473,5 @@ END_TEST
 
 SUITE_MAIN("decide", the_right_pose_from_both_sides, outline_alone, contradiction, a_clear_choice_for_all_disagreement,
            disagreement_widens, size_in_doubt, too_far, not_too_far_by_noise, not_too_far_where_smeared, head_on,
-           large_variances_keep_the_correlations, no_covariance, solutions_that_leave_the_numbers)
+           large_variances_keep_the_correlations, no_covariance, solutions_that_leave_the_numbers,
+           nearer_than_numbers_go)
