@@ -25,7 +25,7 @@ static void configured_noise(drogue_measurement *m, const drogue_track_config *c
 static const int order[DROGUE_PARAMETERS] = {0, 1, 2, 4, 3};
 
 /* How often a covariance is halved: any result's, whatever it holds, is one that can be read. */
-static int halved(const drogue_result *result) { return result->covariance_halved & 63; }
+static int halved(const drogue_result *result) { return drogue_clamp_s32(result->covariance_halved, 0, 63); }
 
 /* What an unresolved result's covariance holds of the two poses' distance (decide.h): half the product of two of its
  * components, Q48, halved as often as the covariance. */

@@ -104,6 +104,29 @@ START_TEST(halved_covariances)
 }
 END_TEST
 
+/* However often a result says, a covariance is halved 0 to 63 times: more of it is not less. */
+START_TEST(halved_beyond_what_can_be_read)
+{
+    static const int32_t said[2] = {64, -1}, read[2] = {63, 0};
+    int i;
+    for (i = 0; i < 2; i++) {
+        drogue_result a = seen(0, 0, 8, 0.3, 0), b;
+        drogue_track s = new_track();
+        drogue_track t = s;
+        int k;
+        for (k = 0; k < 5; k++) {
+            a.covariance_q48[k][k] = INT64_C(1) << 20;
+        }
+        b = a;
+        a.covariance_halved = said[i];
+        b.covariance_halved = read[i];
+        (void)step(&s, &a);
+        (void)step(&t, &b);
+        ck_assert_mem_eq(&s, &t, sizeof s);
+    }
+}
+END_TEST
+
 /* An unresolved result's covariance holds the distance of the twins: the filter follows one of them without it, and its
  * estimate's standard deviation keeps it while the orientation is open. */
 START_TEST(distance_of_twins)
@@ -242,5 +265,5 @@ START_TEST(correlations_are_not_the_twins)
 END_TEST
 
 SUITE_MAIN("orientation", twins_go_by_continuity, orientation_is_forgotten, distance_of_twins, halved_covariances,
-           the_first_resolved_frame_turns_open_twins, what_turns_open_twins_is_where_the_track_is,
-           correlations_are_not_the_twins)
+           halved_beyond_what_can_be_read, the_first_resolved_frame_turns_open_twins,
+           what_turns_open_twins_is_where_the_track_is, correlations_are_not_the_twins)
