@@ -79,9 +79,9 @@ bool random_task(Task *t, int seed, const drogue_camera *camera)
 
 int main()
 {
-    Report position("joint_position", 4), axis("joint_axis", 4), angles("joint_angles", 4),
+    Report position("joint_position", 1), axis("joint_axis", 1), angles("joint_angles", 1),
         covariance("joint_covariance", 64), outline("outline_covariance", 1), chi2("joint_chi2", 16),
-        disc("inner_disc", 4);
+        disc("inner_disc", 2);
     const drogue_camera camera = pinhole(1465.5, 1465.5, 1023.5, 1023.5);
     const reference::Camera model_camera = {1465.5L, 1465.5L, 1023.5L, 1023.5L};
     for (int seed = 1; seed <= 1500; seed++) {

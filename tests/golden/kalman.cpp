@@ -22,7 +22,7 @@ Parameters real_of(const drogue_q16 *q)
 
 int main()
 {
-    Report report("kalman", 12);
+    Report report("kalman", 2);
     for (int run = 1; run <= 12; run++) {
         std::uint64_t rng = 0x4A1u + (std::uint64_t)run;
         drogue_kalman filter;

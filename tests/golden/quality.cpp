@@ -124,8 +124,8 @@ int model_winner(int *members, const std::vector<Scored> &all)
 
 int main()
 {
-    Report deviations("deviation", 4), fit("fit_ratio", 4), length("length_ratio", 4), axes("axis_ratio", 4);
-    Report scores("score", 4), reliability("reliability", 4), near_counts("near_count", 0), winners("winner", 0);
+    Report deviations("deviation", 4), fit("fit_ratio", 2), length("length_ratio", 2), axes("axis_ratio", 2);
+    Report scores("score", 2), reliability("reliability", 2), near_counts("near_count", 0), winners("winner", 0);
     for (int seed = 1; seed <= 400; seed++) {
         const std::vector<Points> arcs = random_arcs(seed);
         std::vector<Scored> all;
