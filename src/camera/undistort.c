@@ -300,12 +300,15 @@ drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16,
         dy = step_of(d.xx_q24, miss_y, d.xy_q24, miss_x, &det);
         if (abs_s64(dx) + abs_s64(dy) <= still_q29) {
             if (!before_fold(&l, (int32_t)x, (int32_t)y)) {
-                break;
+                return DROGUE_E_DOMAIN;
             }
             return leave(x_px_q16, y_px_q16, x + dx - u, y + dy - v, camera);
         }
         dx = clamp(x + dx) - x;
         dy = clamp(y + dy) - y;
     }
-    return DROGUE_E_DOMAIN;
+    /* to and fro by what rounding makes of a miss: it lies between */
+    return nearest <= noise_q29 && before_fold(&l, (int32_t)x, (int32_t)y)
+               ? leave(x_px_q16, y_px_q16, x + dx / 2 - u, y + dy / 2 - v, camera)
+               : DROGUE_E_DOMAIN;
 }

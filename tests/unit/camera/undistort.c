@@ -312,5 +312,26 @@ START_TEST(a_steep_fold_is_not_crossed)
 }
 END_TEST
 
+/* Where rounding sends the steps to and fro about a regular point, the answer lies between. */
+START_TEST(to_and_fro_is_there)
+{
+    drogue_camera c = pinhole(0, 0, 0, 0);
+    drogue_q16 u = 132086166;
+    drogue_q16 v = 209699345;
+    c.fx_px_q16 = 172076256;
+    c.fy_px_q16 = 176724429;
+    c.k1_q16 = -11154;
+    c.k2_q16 = 4630;
+    c.p1_q16 = 652;
+    c.p2_q16 = -547;
+    c.k3_q16 = -792;
+    ck_assert_int_eq(drogue_undistort_point(&u, &v, &c), DROGUE_OK);
+    ck_assert_int_eq(drogue_distort_point(&u, &v, &c), DROGUE_OK);
+    ck_assert_int_le(abs(u - 132086166), 12);
+    ck_assert_int_le(abs(v - 209699345), 12);
+}
+END_TEST
+
 SUITE_MAIN("undistort", calibrated_cameras, usual_cameras, long_focal_lengths, no_distortion_is_the_identity,
-           any_coefficient_distorts, steep_along_one_axis, outside_the_domain, a_steep_fold_is_not_crossed)
+           any_coefficient_distorts, steep_along_one_axis, outside_the_domain, a_steep_fold_is_not_crossed,
+           to_and_fro_is_there)
