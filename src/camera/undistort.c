@@ -299,16 +299,17 @@ drogue_status drogue_undistort_point(drogue_q16 *x_px_q16, drogue_q16 *y_px_q16,
         dx = step_of(d.yy_q24, miss_x, d.xy_q24, miss_y, &det);
         dy = step_of(d.xx_q24, miss_y, d.xy_q24, miss_x, &det);
         if (abs_s64(dx) + abs_s64(dy) <= still_q29) {
-            if (!before_fold(&l, (int32_t)x, (int32_t)y)) {
-                return DROGUE_E_DOMAIN;
-            }
-            return leave(x_px_q16, y_px_q16, x + dx - u, y + dy - v, camera);
+            nearest = 0;
+            break;
         }
         dx = clamp(x + dx) - x;
         dy = clamp(y + dy) - y;
     }
-    /* to and fro by what rounding makes of a miss: it lies between */
+    if (step == MAX_STEPS) { /* to and fro by what rounding makes of a miss: it lies between */
+        dx /= 2;
+        dy /= 2;
+    }
     return nearest <= noise_q29 && before_fold(&l, (int32_t)x, (int32_t)y)
-               ? leave(x_px_q16, y_px_q16, x + dx / 2 - u, y + dy / 2 - v, camera)
+               ? leave(x_px_q16, y_px_q16, x + dx - u, y + dy - v, camera)
                : DROGUE_E_DOMAIN;
 }
