@@ -6,7 +6,7 @@
 root=$PWD
 made=$root/build/hls/system
 
-# need WHO TOOL...: exit 77 where the core or a tool is absent; sets core
+# need WHO TOOL...: exit 77 where the core or a tool is absent; sets core, without the instruction cache that is icache.v's
 need() {
     local tool who=$1
     for tool in "${@:2}"; do
@@ -15,6 +15,9 @@ need() {
     core=${DROGUE_VEXRISCV:-$(python3 -c 'import pythondata_cpu_vexriscv as v
 print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
     [ -e "$core" ] || { echo "$who: SKIPPED: no pythondata-cpu-vexriscv" && exit 77; }
+    mkdir -p "$made"
+    sed '/^module InstructionCache (/,/^endmodule/d' "$core" >"$made/VexRiscv.v"
+    core=$made/VexRiscv.v
 }
 
 # firmware FOLDER SOURCE [FLAG...]: a program of the soft core, linked with the library and the driver
@@ -49,7 +52,7 @@ model() {
     mkdir -p "$made/objects"
     verilator --cc --build -O3 --x-assign fast --x-initial fast -Wall -Mdir "$made/verilated" \
         --top-module drogue_system "-GFIRMWARE=\"firmware.hex\"" -Ibuild/hls/rtl/256 hls/system/lint.vlt \
-        hls/system/{system,bank,unit}.v \
+        hls/system/{system,bank,unit,icache}.v \
         build/hls/system/unit/units.v build/hls/rtl/256/drogue_frontend.v "$core" -CFLAGS -O2 >"$made/verilator.log" 2>&1 ||
         { tail -n 20 "$made/verilator.log" && exit 1; }
     (cd "$made/objects" && core_files "$root" '*.c' | xargs gcc -std=c99 -O2 "-I$root/include" -c)

@@ -20,7 +20,7 @@ system)
     need route riscv64-unknown-elf-gcc
     hls/system/unit.sh
     firmware "$work" hls/system/firmware.c -DSIDE=128
-    files=("$core" hls/system/{system,bank,unit}.v build/hls/system/unit/units.v)
+    files=("$core" hls/system/{system,bank,unit,icache}.v build/hls/system/unit/units.v)
     top=drogue_system
     ;;
 frontend)
