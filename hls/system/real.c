@@ -4,75 +4,98 @@
 
 int __clzsi2(unsigned v);
 
-#define RESULT_OF(out, what, v)                                               \
-    do {                                                                      \
-        UNIT((out)->mantissa, UNIT_REAL, what, (v)->mantissa, (v)->exponent); \
-        UNIT((out)->exponent, UNIT_EXPONENT, 0, 0, 0);                        \
+/* Both words of the result before either is stored: a unit is not asked while a store before it is under way. */
+#define RESULT_OF(out, what, v)                                      \
+    do {                                                             \
+        int32_t mantissa;                                            \
+        int32_t exponent;                                            \
+        UNIT(mantissa, UNIT_REAL, what, (v).mantissa, (v).exponent); \
+        UNIT(exponent, UNIT_EXPONENT, 0, 0, 0);                      \
+        (out)->mantissa = mantissa;                                  \
+        (out)->exponent = exponent;                                  \
+    } while (0)
+
+/* Loaded here and not where it is told: its word comes two clocks later. */
+static inline drogue_real loaded(const drogue_real *v)
+{
+    drogue_real words = *v;
+    __asm__ volatile("" : "+r"(words.mantissa), "+r"(words.exponent));
+    return words;
+}
+
+#define OF_TWO(out, what, a, b)              \
+    do {                                     \
+        const drogue_real first = loaded(a); \
+        const drogue_real last = loaded(b);  \
+        unit_push(first);                    \
+        RESULT_OF(out, what, last);          \
+    } while (0)
+
+#define OF_FOUR(out, what, a, b, c, d)        \
+    do {                                      \
+        const drogue_real first = loaded(a);  \
+        const drogue_real second = loaded(b); \
+        const drogue_real third = loaded(c);  \
+        const drogue_real last = loaded(d);   \
+        unit_push(first);                     \
+        unit_push(second);                    \
+        unit_push(third);                     \
+        RESULT_OF(out, what, last);           \
     } while (0)
 
 void drogue_real_put(drogue_real *out, int32_t exponent, int64_t v)
 {
     const drogue_real words = {(int32_t)((uint64_t)v >> 32), (int32_t)(uint32_t)v};
     const drogue_real by = {0, exponent};
-    unit_push(&words);
-    RESULT_OF(out, REAL_SET, &by);
+    unit_push(words);
+    RESULT_OF(out, REAL_SET, by);
 }
 
 void drogue_real_set_q16(drogue_real *out, drogue_q16 v)
 {
     const drogue_real words = {v, 0};
     const drogue_real by = {0, -48};
-    unit_push(&words);
-    RESULT_OF(out, REAL_SET, &by);
+    unit_push(words);
+    RESULT_OF(out, REAL_SET, by);
 }
 
-void drogue_real_sum(drogue_real *out, const drogue_real *a, const drogue_real *b)
-{
-    unit_push(a);
-    RESULT_OF(out, REAL_SUM, b);
-}
+void drogue_real_sum(drogue_real *out, const drogue_real *a, const drogue_real *b) { OF_TWO(out, REAL_SUM, a, b); }
 
 void drogue_real_difference(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
-    unit_push(a);
-    RESULT_OF(out, REAL_DIFFERENCE, b);
+    OF_TWO(out, REAL_DIFFERENCE, a, b);
 }
 
 void drogue_real_product(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
-    unit_push(a);
-    RESULT_OF(out, REAL_PRODUCT, b);
+    OF_TWO(out, REAL_PRODUCT, a, b);
 }
 
 void drogue_real_quotient(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
-    unit_push(a);
-    RESULT_OF(out, REAL_QUOTIENT, b);
+    OF_TWO(out, REAL_QUOTIENT, a, b);
 }
 
 void drogue_real_subtract_product(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
-    unit_push(out);
-    unit_push(a);
-    RESULT_OF(out, REAL_SUBTRACT_PRODUCT, b);
+    const drogue_real first = loaded(out);
+    const drogue_real second = loaded(a);
+    const drogue_real last = loaded(b);
+    unit_push(first);
+    unit_push(second);
+    RESULT_OF(out, REAL_SUBTRACT_PRODUCT, last);
 }
 
 void drogue_real_products(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
                           const drogue_real *d)
 {
-    unit_push(a);
-    unit_push(b);
-    unit_push(c);
-    RESULT_OF(out, REAL_PRODUCTS, d);
+    OF_FOUR(out, REAL_PRODUCTS, a, b, c, d);
 }
 
 void drogue_real_determinant(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
                              const drogue_real *d)
 {
-    unit_push(a);
-    unit_push(b);
-    unit_push(c);
-    RESULT_OF(out, REAL_DETERMINANT, d);
+    OF_FOUR(out, REAL_DETERMINANT, a, b, c, d);
 }
 
 /* What gcc calls for leading zeros, where the core has no instruction for them. */

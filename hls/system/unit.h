@@ -24,14 +24,16 @@ enum {
     UNIT_ROOT      /* of the lower and the upper word */
 };
 
-/* In the order of the text: units keep what they were told. */
-#define UNIT(result, unit, what, first, second) \
-    __asm__ volatile(".insn r 0x0B, %1, %2, %0, %3, %4" : "=r"(result) : "i"(what), "i"(unit), "r"(first), "r"(second))
+/* In the order of the text: units keep what they were told. An operand of 0 is the register that always is. */
+#define UNIT(result, unit, what, first, second)             \
+    __asm__ volatile(".insn r 0x0B, %1, %2, %0, %z3, %z4" \
+                     : "=r"(result)                         \
+                     : "i"(what), "i"(unit), "rJ"(first), "rJ"(second))
 
-static inline void unit_push(const drogue_real *v)
+static inline void unit_push(drogue_real v)
 {
     uint32_t none;
-    UNIT(none, UNIT_PUSH, 0, v->mantissa, v->exponent);
+    UNIT(none, UNIT_PUSH, 0, v.mantissa, v.exponent);
     (void)none;
 }
 
