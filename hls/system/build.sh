@@ -31,9 +31,10 @@ firmware() {
     mkdir -p "$1/objects"
     (cd "$1/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -msave-restore -c &&
         riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 "${hot[@]/#/$root/}" -c)
-    local own # what hls/system has by the units goes before the library's
+    local own # what hls/system has by the units goes before the library's; what that calls stays strong, or no archive would give it
     for own in fixed real near rays; do
-        riscv64-unknown-elf-objcopy --weaken "$1/objects/$own.o"
+        riscv64-unknown-elf-nm -g --defined-only --just-symbols "$1/objects/$own.o" >"$1/objects/$own.symbols"
+        riscv64-unknown-elf-objcopy --weaken-symbols="$1/objects/$own.symbols" "$1/objects/$own.o"
     done
     rm -f "$1/libdrogue.a"
     riscv64-unknown-elf-ar rcs "$1/libdrogue.a" "$1"/objects/*.o
