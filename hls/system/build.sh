@@ -31,16 +31,17 @@ firmware() {
     mkdir -p "$1/objects"
     (cd "$1/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -msave-restore -c &&
         riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 "${hot[@]/#/$root/}" -c)
-    local own # what hls/system has by the units goes before the library's; what that calls stays strong, or no archive would give it
-    for own in fixed real near rays; do
+    # what hls/system has by the units goes before the library's; what that calls stays strong, or no archive would give it
+    local own
+    for own in fixed real near rays fit; do
         riscv64-unknown-elf-nm -g --defined-only --just-symbols "$1/objects/$own.o" >"$1/objects/$own.symbols"
         riscv64-unknown-elf-objcopy --weaken-symbols="$1/objects/$own.symbols" "$1/objects/$own.o"
     done
     rm -f "$1/libdrogue.a"
     riscv64-unknown-elf-ar rcs "$1/libdrogue.a" "$1"/objects/*.o
     riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -nostartfiles -Wl,--gc-sections,--no-warn-rwx-segments \
-        -T hls/system/system.ld -O2 -fno-tree-loop-distribute-patterns hls/system/start.S "$2" hls/system/{fixed,real,near,rays,memory}.c \
-        hls/driver/{block,bank,block_frontend}.c "$1/libdrogue.a" -o "$1/firmware.elf"
+        -T hls/system/system.ld -O2 -fno-tree-loop-distribute-patterns hls/system/start.S "$2" \
+        hls/system/{fixed,real,near,rays,fit,memory}.c hls/driver/{block,bank,block_frontend}.c "$1/libdrogue.a" -o "$1/firmware.elf"
     riscv64-unknown-elf-objcopy -O verilog --verilog-data-width=4 "$1/firmware.elf" "$1/firmware.hex"
     riscv64-unknown-elf-size "$1/firmware.elf" |
         awk 'NR == 2 { print "system: firmware " $1 " bytes of code and constants, " $2 + $3 " of data" }'

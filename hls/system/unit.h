@@ -20,14 +20,20 @@ enum {
     UNIT_RAY_SIZE,
     UNIT_RAY_STEP,
     UNIT_RAY_BEGIN,
-    UNIT_RAY_GREY, /* sample after sample */
-    UNIT_ROOT      /* of the lower and the upper word */
+    UNIT_RAY_GREY,  /* sample after sample */
+    UNIT_ROOT,      /* of the lower and the upper word */
+    UNIT_FIT_PLACE, /* the offset, two words */
+    UNIT_FIT_BEGIN, /* its third, and the tolerance; the sums are cleared */
+    UNIT_FIT_EDGE,
+    UNIT_FIT_RAY, /* on which the edges are that were told since the last one */
+    UNIT_FIT_WHICH,
+    UNIT_FIT_SUMS /* word after word */
 };
 
 /* In the order of the text: units keep what they were told. An operand of 0 is the register that always is. */
-#define UNIT(result, unit, what, first, second)             \
+#define UNIT(result, unit, what, first, second)           \
     __asm__ volatile(".insn r 0x0B, %1, %2, %0, %z3, %z4" \
-                     : "=r"(result)                         \
+                     : "=r"(result)                       \
                      : "i"(what), "i"(unit), "rJ"(first), "rJ"(second))
 
 static inline void unit_push(drogue_real v)

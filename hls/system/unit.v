@@ -66,6 +66,20 @@ module drogue_unit (
         .clock(clock), .step(mix_step), .done(mix_done), .asked({mixed_at, mixed_pixels}), .out(grey_said));
     wire [31:0] shifted = frame_word >> {byte_of, 3'd0};
 
+    // Least squares over rays: edges, then the ray that they are on. While it is worked out the next one's edges are told.
+    reg [127:0] offset; // and the tolerance
+    reg [255:0] edges, fit_edges;
+    reg [2:0] edges_told, fit_count;
+    reg [63:0] normal;
+    reg [639:0] sums; // and which of the edges is about the offset
+    reg fitting;
+    reg [7:0] fit_step;
+    wire fit_done;
+    wire [639:0] sums_next;
+    drogue_fit_unit_ray fit (
+        .clock(clock), .step(fit_step), .done(fit_done),
+        .asked({29'd0, fit_count, fit_edges, normal, offset, sums}), .out(sums_next));
+
     // A square root, two bits of it a clock.
     reg [63:0] radicand;
     reg [31:0] root, left;
@@ -77,14 +91,16 @@ module drogue_unit (
     wire second_bit = second_left >= second_by;
     wire [34:0] after = second_bit ? second_left - second_by : second_left;
 
-    wire [6:0] unit = {3'd0, function_id[6:3]}; // there are sixteen: the next are those again
+    wire [6:0] unit = {2'd0, function_id[7:3]}; // there are thirty-two: the next are those again
     assign ready = !busy && (!answered || taken) && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
-        !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(unit == 7'd14 && !there);
+        !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(unit == 7'd14 && !there) &&
+        !(fitting && (unit == 7'd16 || unit == 7'd17 || unit == 7'd19 || unit == 7'd20 || unit == 7'd21));
     wire begins = asked && ready;
     always @(posedge clock) begin
         step <= begins ? 8'd0 : step + 8'd1;
         place_step <= place_step + 8'd1;
         add_step <= add_step + 8'd1;
+        fit_step <= fit_step + 8'd1;
         if (taken) answered <= 1'b0;
         if (begins && unit != 7'd0 && unit != 7'd15) answered <= 1'b1;
         if (begins) case (unit)
@@ -123,12 +139,36 @@ module drogue_unit (
             7'd12: pace <= {second, first};
             7'd13: ; // below
             7'd14: answer <= grey;
-            default: begin
+            7'd15: begin
                 radicand <= {second, first};
                 {root, left} <= 64'd0;
                 root_step <= 5'd17;
                 busy <= 1'b1;
             end
+            7'd16: offset[63:0] <= {second, first};
+            7'd17: begin
+                offset[127:64] <= {second, first};
+                sums <= 640'd0;
+                edges_told <= 3'd0;
+            end
+            7'd18: begin
+                edges <= {second, first, edges[255:64]};
+                edges_told <= edges_told + 3'd1;
+            end
+            7'd19: begin
+                normal <= {second, first};
+                fit_edges <= edges;
+                fit_count <= edges_told;
+                edges_told <= 3'd0;
+                fit_step <= 8'd0;
+                fitting <= 1'b1;
+            end
+            7'd20: answer <= sums[639:608];
+            7'd21: begin
+                answer <= sums[31:0];
+                sums <= {sums[31:0], sums[639:32]};
+            end
+            default: ;
         endcase
         if (busy && root_step == 5'd0 && done) begin
             busy <= 1'b0;
@@ -142,6 +182,10 @@ module drogue_unit (
         if (adding && add_done) begin
             adding <= 1'b0;
             moments <= moments_next;
+        end
+        if (fitting && fit_done) begin
+            fitting <= 1'b0;
+            sums <= sums_next;
         end
         sample_step <= sample_step + 8'd1;
         mix_step <= mix_step + 8'd1;
@@ -200,7 +244,10 @@ module drogue_unit (
                 answered <= 1'b1;
             end
         end
-        if (reset) {busy, answered, placing, adding, placing_sample, placed_sample, mixing, mixed, there, fetch, root_step} <= 17'd0;
+        if (reset) begin
+            {busy, answered, placing, adding, fitting, root_step} <= 10'd0;
+            {placing_sample, placed_sample, mixing, mixed, there, fetch} <= 8'd0;
+        end
     end
 endmodule
 

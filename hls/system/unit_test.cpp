@@ -12,6 +12,7 @@
 #define restrict __restrict
 extern "C" {
 #include "drogue/rays.h"
+#include "system/fit_unit.h"
 #include "system/points_unit.h"
 #include "system/unit.h"
 }
@@ -196,6 +197,51 @@ void rays()
     }
 }
 
+// Rays with edges about an offset, one with none about it among them.
+void fits()
+{
+    const drogue_q16 v_px_q16[3] = {(drogue_q16)(draw() % 0x80000) - 0x40000, (drogue_q16)(draw() % 0x80000) - 0x40000,
+                                    (drogue_q16)(draw() % 0x80000) - 0x40000};
+    const drogue_q16 within = draw() % 8 ? (drogue_q16)(draw() % 0x80000) : 0;
+    drogue_ray rays[RAYS] = {};
+    drogue_ray_sums sums = {}, found = {};
+    for (drogue_ray &r : rays) {
+        r.count = draw() % (DROGUE_RAY_EDGES + 1);
+        r.nx_q14 = (int32_t)(draw() % 32769) - 16384;
+        r.ny_q14 = (int32_t)(draw() % 32769) - 16384;
+        for (uint32_t i = 0; i < r.count; i++) {
+            r.edges[i] = {(drogue_q16)(draw() % 0x100000) - 0x80000, (int32_t)(draw() % (draw() % 8 ? 0xC0000 : 2)),
+                          (int32_t)(draw() % 65281)};
+        }
+    }
+    drogue_ray_sums_add_edges(&sums, nullptr, rays, v_px_q16, within);
+    instruction(UNIT_FIT_PLACE, 0, (uint32_t)v_px_q16[0], (uint32_t)v_px_q16[1]);
+    instruction(UNIT_FIT_BEGIN, 0, (uint32_t)v_px_q16[2], (uint32_t)within);
+    for (const drogue_ray &r : rays) {
+        for (uint32_t i = 0; i < r.count; i++) {
+            instruction(UNIT_FIT_EDGE, 0, (uint32_t)r.edges[i].at_px_q16, (uint32_t)r.edges[i].slope_q8);
+        }
+        if (r.count > 0) {
+            instruction(UNIT_FIT_RAY, 0, (uint32_t)r.nx_q14, (uint32_t)r.ny_q14);
+            compare("which", instruction(UNIT_FIT_WHICH, 0, 0, 0),
+                    (uint32_t)drogue_ray_chosen(&r, drogue_ray_along(&r, v_px_q16), within));
+        }
+    }
+    fit_sums said = {};
+    for (unsigned k = 0; k < FIT_WORDS; k++) {
+        const uint32_t word = instruction(UNIT_FIT_SUMS, 0, 0, 0);
+        memcpy((char *)&said + 4 * k, &word, 4);
+    }
+    memcpy(found.normal, said.normal, sizeof said.normal);
+    memcpy(found.right, said.right, sizeof said.right);
+    found.normal[5] = said.rays;
+    found.squares_q16 = said.squares_q16;
+    found.slopes_q8 = sums.slopes_q8; // by the soft core
+    found.levels_q8 = sums.levels_q8;
+    found.rays = said.rays;
+    compare("sums", (uint32_t)memcmp(&found, &sums, sizeof sums), 0);
+}
+
 } // namespace
 
 int main(int argc, char **argv)
@@ -215,6 +261,9 @@ int main(int argc, char **argv)
     }
     for (uint32_t n = 0; n < drawn / 10; n++) {
         rays();
+    }
+    for (uint32_t n = 0; n < drawn / 200; n++) {
+        fits();
     }
     printf("unit: words=%lu failed=%lu\n", compared, failed);
     return failed != 0;

@@ -12,15 +12,21 @@ drogue_q16 drogue_ray_along(const drogue_ray *r, const drogue_q16 v_px_q16[3])
     return drogue_clamp_2_30(v_px_q16[2] + drogue_shr_round_s64(shift, 14));
 }
 
+/* How much an edge is the one that is expected; nothing, not above 0. */
+static inline int64_t merit_of(const drogue_ray_edge *e, drogue_q16 expected_px_q16, drogue_q16 within_px_q16)
+{
+    const int32_t off = e->at_px_q16 - expected_px_q16; /* < 2^26 + 2^30 */
+    const int32_t room = within_px_q16 - drogue_abs_s32(off);
+    return room > 0 ? drogue_product(room, e->slope_q8) : 0;
+}
+
 int32_t drogue_ray_chosen(const drogue_ray *r, drogue_q16 expected_px_q16, drogue_q16 within_px_q16)
 {
     int32_t best = -1;
     int64_t most = 0;
     uint32_t i;
-    for (i = 0; i < r->count; i++) {                                 /* bound: DROGUE_RAY_EDGES */
-        const int32_t off = r->edges[i].at_px_q16 - expected_px_q16; /* < 2^26 + 2^30 */
-        const int32_t room = within_px_q16 - drogue_abs_s32(off);
-        const int64_t merit = room > 0 ? drogue_product(room, r->edges[i].slope_q8) : 0;
+    for (i = 0; i < r->count; i++) { /* bound: DROGUE_RAY_EDGES */
+        const int64_t merit = merit_of(&r->edges[i], expected_px_q16, within_px_q16);
         if (merit > most) {
             most = merit;
             best = (int32_t)i;

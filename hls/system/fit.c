@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* Least squares over rays by the unit beside the soft core, in the place of the library's function; that one does those
+ * that are weighted. */
+#define drogue_ray_sums_add_edges add_edges_by_core
+#define drogue_ray_sums_settle settle_by_core /* left out by the linker */
+#include "../../src/inner/fit.c"
+#undef drogue_ray_sums_add_edges
+
+#include "fit_unit.h"
+#include "unit.h"
+
+/* The edge that the unit chose on the ray that it was told last. */
+static inline void take(drogue_ray_sums *s, const drogue_ray *r)
+{
+    int32_t which;
+    UNIT(which, UNIT_FIT_WHICH, 0, 0, 0);
+    if (which >= 0) {
+        s->slopes_q8 += r->edges[which].slope_q8;
+        s->levels_q8 += r->edges[which].level_q8;
+    }
+}
+
+static inline int64_t sum_of_unit(void)
+{
+    uint32_t low;
+    uint32_t high;
+    UNIT(low, UNIT_FIT_SUMS, 0, 0, 0);
+    UNIT(high, UNIT_FIT_SUMS, 0, 0, 0);
+    return (int64_t)((uint64_t)high << 32 | low);
+}
+
+void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const drogue_ray rays[RAYS],
+                               const drogue_q16 v_px_q16[3], drogue_q16 within_px_q16)
+{
+    const drogue_ray *told = NULL; /* whose choice is to come */
+    uint32_t none;
+    uint32_t count;
+    int32_t k;
+    if (bins != NULL) {
+        add_edges_by_core(s, bins, rays, v_px_q16, within_px_q16);
+        return;
+    }
+    UNIT(none, UNIT_FIT_PLACE, 0, v_px_q16[0], v_px_q16[1]);
+    UNIT(none, UNIT_FIT_BEGIN, 0, v_px_q16[2], within_px_q16);
+    for (k = 0; k < RAYS; k++) {
+        const drogue_ray *r = &rays[k];
+        uint32_t i;
+        if (r->count > 0) {
+            for (i = 0; i < r->count; i++) { /* bound: DROGUE_RAY_EDGES */
+                UNIT(none, UNIT_FIT_EDGE, 0, r->edges[i].at_px_q16, r->edges[i].slope_q8);
+            }
+            if (told != NULL) {
+                take(s, told);
+            }
+            UNIT(none, UNIT_FIT_RAY, 0, r->nx_q14, r->ny_q14);
+            told = r;
+        }
+    }
+    (void)none;
+    if (told != NULL) {
+        take(s, told);
+    }
+    for (k = 0; k < 5; k++) {
+        s->normal[k] += sum_of_unit();
+    }
+    for (k = 0; k < 3; k++) {
+        s->right[k] += sum_of_unit();
+    }
+    s->squares_q16 += sum_of_unit();
+    UNIT(count, UNIT_FIT_SUMS, 0, 0, 0);
+    s->normal[5] += count;
+    s->rays += count;
+}
