@@ -24,8 +24,8 @@ print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
 firmware() {
     # what the soft core's clocks go into; all else is small, so that it fits the RAM at 256 px, and shares the code that saves
     # registers
-    local hot=(src/frontend/noise.c src/inner/{fit,shade}.c src/outline/{constraints,moments,rays,support}.c src/pose/joint*.c
-        src/search/cells.c)
+    local hot=(src/arithmetic/cholesky.c src/frontend/noise.c src/inner/shade.c
+        src/outline/{constraints,moments,rays,support}.c src/pose/joint*.c src/search/cells.c)
     local flags=(-march=rv32im -mabi=ilp32 -std=c99 -Os -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
     rm -rf "$1/objects"
     mkdir -p "$1/objects"
