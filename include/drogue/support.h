@@ -72,9 +72,8 @@ void drogue_support_turn(drogue_support *support, drogue_q16 axis_rad_q16);
 /* How much more an edge is blurred along a motion than across it: length of the smear, px^2; saturates. */
 drogue_q16 drogue_support_smear(const drogue_support *support);
 
-#define DROGUE_SMEARED_Q16 \
-    DROGUE_Q16(5, 4) /* px^2 of smear: from there on an edge of the rim shows as two, and an
-                                               inner disc's says nothing of the outline */
+/* px^2 of smear: from there on an edge of the rim shows as two, and an inner disc's says nothing of the outline. */
+#define DROGUE_SMEARED_Q16 DROGUE_Q16(5, 4)
 
 /* A wave of twice the angle, by its cosine's and its sine's part, with all angles larger by so much, (-4, 4) rad;
  * saturates. */

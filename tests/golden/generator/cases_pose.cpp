@@ -97,8 +97,8 @@ void add_lens_limits(Set &set)
              {1, 1, -16384 * ONE, -16384 * ONE, 0, 0, 0, 0, 0}, {16384 * ONE, 16384 * ONE});
     add_lens(set, "fold-on-the-way", Tier::must_reject, {"folded-lens"},
              {1000 * ONE, 1000 * ONE, 500 * ONE, 500 * ONE, 6209, 9628, 1970, 29078, 5825}, {-39712743, 158842256});
-    add_lens(set, "to-and-fro", Tier::stress, {"tie"},
-             {172076256, 176724429, 0, 0, -11154, 4630, 652, -547, -792}, {132086166, 209699345});
+    add_lens(set, "to-and-fro", Tier::stress, {"tie"}, {172076256, 176724429, 0, 0, -11154, 4630, 652, -547, -792},
+             {132086166, 209699345});
     add_lens(set, "camera-largest", Tier::stress, {"saturation"},
              {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MIN, 6554, 0, 0, 0, 0},
              {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN, 0, 0, INT32_MAX - 77777, INT32_MIN + 99999});

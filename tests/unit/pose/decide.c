@@ -408,8 +408,6 @@ START_TEST(no_covariance)
 }
 END_TEST
 
-/* Farther away than numbers go: from the nearer start at once, from the other one after its first step. The outline's
- * own pose stands, and nothing is decided. */
 /* A rim of some units of the last place, so near that its distance may round to 0: then there is no pose. */
 START_TEST(nearer_than_numbers_go)
 {
@@ -439,6 +437,8 @@ START_TEST(nearer_than_numbers_go)
 }
 END_TEST
 
+/* Farther away than numbers go: from the nearer start at once, from the other one after its first step. The outline's
+ * own pose stands, and nothing is decided. */
 START_TEST(solutions_that_leave_the_numbers)
 {
     const pose_real far = {{0, 0, 33500, 0.2, 0.1}};
