@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The unit for grey levels along a ray: the library's interpolation, of which unit.sh makes Verilog. */
+/* The unit for grey levels along a ray and the peaks of their slope: the library's own functions, of which unit.sh makes
+ * Verilog. */
 #include "ray_unit.h"
 
 #include "../../src/outline/rays.c"
@@ -25,4 +26,15 @@ void ray_unit_grey(const ray_grey_asked *restrict asked, ray_grey_said *restrict
 {
     const ray_grey_asked a = *asked;
     out->grey_q8 = between_q8(a.pixels, 1, 2, a.x_px_q16, a.y_px_q16);
+}
+
+void ray_unit_slope(const ray_slope_asked *restrict asked, ray_slope_said *restrict out)
+{
+    const ray_slope_asked a = *asked;
+    const int32_t sum = sum_of(a.grey_q8);
+    const int32_t slope_q8 = sum - a.sum_before;
+    out->sum = sum;
+    out->slope_q8 = slope_q8;
+    out->peak = (uint32_t)is_peak(a.before_q8, a.at_q8, slope_q8, a.least_q8) << RAY_RISES |
+                (uint32_t)is_peak(-a.before_q8, -a.at_q8, -slope_q8, a.least_q8) << RAY_FALLS;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The unit for grey levels along a ray beside the soft core. */
+/* The unit for grey levels along a ray and the peaks of their slope beside the soft core. */
 #ifndef DROGUE_SYSTEM_RAY_UNIT_H
 #define DROGUE_SYSTEM_RAY_UNIT_H
 
@@ -31,7 +31,40 @@ typedef struct ray_grey_said {
     int32_t grey_q8;
 } ray_grey_said;
 
+/* A grey level more: the last five, the sum four samples before, the last two slopes. */
+typedef struct ray_slope_asked {
+    int32_t grey_q8[5];
+    int32_t sum_before;
+    int32_t before_q8;
+    int32_t at_q8;
+    int32_t least_q8; /* of a peak */
+} ray_slope_asked;
+
+/* Bits of 'peak': is the last slope before this one a peak? */
+enum { RAY_RISES, RAY_FALLS };
+
+typedef struct ray_slope_said {
+    int32_t sum;
+    int32_t slope_q8;
+    uint32_t peak;
+} ray_slope_said;
+
+/* What the soft core asks of a peak, from its place on to what lets the unit go on. */
+enum {
+    RAY_PEAK_AT, /* the number of its slope; RAY_PEAK_FALLS more where it falls; below 0: no more of them */
+    RAY_PEAK_BEFORE,
+    RAY_PEAK_SLOPE,
+    RAY_PEAK_AFTER,
+    RAY_PEAK_LEVEL
+};
+
+enum { RAY_PEAK_FALLS = 256 };
+
+/* What RAY_BEGIN is for. */
+enum { RAY_GREY, RAY_SEEK = 1, RAY_EITHER = 2 /* what falls as well */ };
+
 void ray_unit_place(const ray_place_asked *restrict asked, ray_place_said *restrict out);
 void ray_unit_grey(const ray_grey_asked *restrict asked, ray_grey_said *restrict out);
+void ray_unit_slope(const ray_slope_asked *restrict asked, ray_slope_said *restrict out);
 
 #endif

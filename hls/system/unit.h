@@ -19,7 +19,7 @@ enum {
     UNIT_RAY_IMAGE,
     UNIT_RAY_SIZE,
     UNIT_RAY_STEP,
-    UNIT_RAY_BEGIN,
+    UNIT_RAY_BEGIN, /* ray_unit.h: what for */
     UNIT_RAY_GREY,  /* sample after sample */
     UNIT_ROOT,      /* of the lower and the upper word */
     UNIT_FIT_PLACE, /* the offset, two words */
@@ -27,7 +27,9 @@ enum {
     UNIT_FIT_EDGE,
     UNIT_FIT_RAY, /* on which the edges are that were told since the last one */
     UNIT_FIT_WHICH,
-    UNIT_FIT_SUMS /* word after word */
+    UNIT_FIT_SUMS,  /* word after word */
+    UNIT_RAY_LEAST, /* slope of a peak, and the samples to seek among */
+    UNIT_RAY_PEAK
 };
 
 /* In the order of the text: units keep what they were told. An operand of 0 is the register that always is. */

@@ -34,6 +34,7 @@ part() {
     part points_unit.c points_unit_moments
     part ray_unit.c ray_unit_place
     part ray_unit.c ray_unit_grey
+    part ray_unit.c ray_unit_slope
     part fit_unit.c fit_unit_ray
 } >"$work/units.v"
 echo "unit: $work/units.v"

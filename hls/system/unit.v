@@ -66,6 +66,19 @@ module drogue_unit (
         .clock(clock), .step(mix_step), .done(mix_done), .asked({mixed_at, mixed_pixels}), .out(grey_said));
     wire [31:0] shifted = frame_word >> {byte_of, 3'd0};
 
+    // Peaks of the slope along a ray, instead of its grey: the unit waits at one until the soft core has taken it.
+    reg seeking, either, sloping, peak, peak_falls, sought;
+    reg [7:0] slope_step, samples, samples_wanted; // of grey
+    reg [191:0] greys; // six
+    reg [127:0] slope_sums; // four
+    reg [31:0] slope_before, slope, slope_after, slope_least;
+    wire slope_done;
+    wire [95:0] slope_said;
+    wire [31:0] peak_at = {23'd0, peak_falls, samples - 8'd10}; // nine samples make a slope, the next one may tell that it was a peak
+    drogue_ray_unit_slope ray_slope (
+        .clock(clock), .step(slope_step), .done(slope_done),
+        .asked({slope_least, slope_after, slope, slope_sums[31:0], greys[191:32]}), .out(slope_said));
+
     // Least squares over rays: edges, then the ray that they are on. While it is worked out the next one's edges are told.
     reg [127:0] offset; // and the tolerance
     reg [255:0] edges, fit_edges;
@@ -94,6 +107,7 @@ module drogue_unit (
     wire [6:0] unit = {2'd0, function_id[7:3]}; // there are thirty-two: the next are those again
     assign ready = !busy && (!answered || taken) && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
         !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(unit == 7'd14 && !there) &&
+        !(unit == 7'd23 && function_id[2:0] == 3'd0 && !peak && !sought) &&
         !(fitting && (unit == 7'd16 || unit == 7'd17 || unit == 7'd19 || unit == 7'd20 || unit == 7'd21));
     wire begins = asked && ready;
     always @(posedge clock) begin
@@ -168,6 +182,14 @@ module drogue_unit (
                 answer <= sums[31:0];
                 sums <= {sums[31:0], sums[639:32]};
             end
+            7'd22: {samples_wanted, slope_least} <= {second[7:0], first};
+            7'd23: case (function_id[2:0])
+                3'd0: answer <= peak ? peak_at : 32'hFFFFFFFF;
+                3'd1: answer <= slope_before;
+                3'd2: answer <= slope;
+                3'd3: answer <= slope_after;
+                default: answer <= greys[31:0];
+            endcase
             default: ;
         endcase
         if (busy && root_step == 5'd0 && done) begin
@@ -222,7 +244,24 @@ module drogue_unit (
             mixed_grey <= grey_said;
         end
         if (begins && unit == 7'd14) there <= 1'b0;
-        if (mixed && !there) begin
+        slope_step <= slope_step + 8'd1;
+        if (mixed && seeking && !sloping && !peak && !sought) begin
+            mixed <= 1'b0;
+            greys <= {mixed_grey, greys[191:32]};
+            samples <= samples + 8'd1;
+            sloping <= 1'b1;
+            slope_step <= 8'd0;
+        end
+        if (sloping && slope_done) begin
+            sloping <= 1'b0;
+            slope_sums <= {slope_said[31:0], slope_sums[127:32]};
+            {slope_after, slope, slope_before} <= {slope_said[63:32], slope_after, slope};
+            peak <= samples > 8'd10 && (slope_said[64] || (slope_said[65] && either));
+            peak_falls <= slope_said[65];
+            sought <= samples == samples_wanted;
+        end
+        if (begins && unit == 7'd23 && function_id[2:0] == 3'd4) peak <= 1'b0;
+        if (mixed && !seeking && !there) begin
             mixed <= 1'b0;
             there <= 1'b1;
             grey <= mixed_grey;
@@ -230,6 +269,9 @@ module drogue_unit (
         if (begins && unit == 7'd13) begin
             where <= {second, first};
             {placed_sample, mixing, mixed, there, fetch} <= 7'd0;
+            {either, seeking} <= function_id[1:0];
+            {sloping, peak, sought} <= 3'd0;
+            samples <= 8'd0;
             placing_sample <= 1'b1;
             sample_step <= 8'd0;
         end
@@ -247,6 +289,7 @@ module drogue_unit (
         if (reset) begin
             {busy, answered, placing, adding, fitting, root_step} <= 10'd0;
             {placing_sample, placed_sample, mixing, mixed, there, fetch} <= 8'd0;
+            {seeking, sloping, peak, sought} <= 4'd0;
         end
     end
 endmodule

@@ -14,6 +14,7 @@ extern "C" {
 #include "drogue/rays.h"
 #include "system/fit_unit.h"
 #include "system/points_unit.h"
+#include "system/ray_unit.h"
 #include "system/unit.h"
 }
 
@@ -50,7 +51,7 @@ uint32_t instruction(unsigned unit, unsigned what, uint32_t first, uint32_t seco
     v.first = first;
     v.second = second;
     v.eval();
-    for (int k = 0; k < 100 && !v.ready; k++) {
+    for (int k = 0; k < 2000 && !v.ready; k++) {
         tick();
     }
     tick();
@@ -167,6 +168,42 @@ void points()
     }
 }
 
+void wait()
+{
+    for (uint32_t clocks = draw() % 30; clocks > 20; clocks--) {
+        tick();
+    }
+}
+
+// Peaks of the slope of so many grey levels along a ray that the unit has begun; not always all of them.
+void seek(const int32_t *grey, int32_t count, int32_t least, unsigned what)
+{
+    static const int32_t taps[] = {-2, -3, -4, -3, 0, 3, 4, 3, 2};
+    int32_t slope[73] = {};
+    for (int32_t i = 0; i + 9 <= count; i++) {
+        for (int32_t k = 0; k < 9; k++) {
+            slope[i] += taps[k] * grey[i + k];
+        }
+    }
+    for (int32_t i = 1; i + 10 <= count; i++) {
+        const bool rises = slope[i] >= least && slope[i] > slope[i - 1] && slope[i] >= slope[i + 1];
+        const bool falls = -slope[i] >= least && slope[i] < slope[i - 1] && slope[i] <= slope[i + 1];
+        if (!rises && !(falls && what & RAY_EITHER)) {
+            continue;
+        }
+        wait();
+        compare("peak", instruction(UNIT_RAY_PEAK, RAY_PEAK_AT, 0, 0), (uint32_t)(i + (falls ? RAY_PEAK_FALLS : 0)));
+        compare("before", instruction(UNIT_RAY_PEAK, RAY_PEAK_BEFORE, 0, 0), (uint32_t)slope[i - 1]);
+        compare("slope", instruction(UNIT_RAY_PEAK, RAY_PEAK_SLOPE, 0, 0), (uint32_t)slope[i]);
+        compare("after", instruction(UNIT_RAY_PEAK, RAY_PEAK_AFTER, 0, 0), (uint32_t)slope[i + 1]);
+        compare("level", instruction(UNIT_RAY_PEAK, RAY_PEAK_LEVEL, 0, 0), (uint32_t)grey[i + 4]);
+        if (draw() % 64 == 0) {
+            return;
+        }
+    }
+    compare("peaks", instruction(UNIT_RAY_PEAK, RAY_PEAK_AT, 0, 0), UINT32_MAX);
+}
+
 // A ray across an image in the frame memory, or out of it; not all of its samples are taken.
 void rays()
 {
@@ -183,17 +220,22 @@ void rays()
     const drogue_q16 from = (drogue_q16)(draw() % 0x400000) - 0x200000;
     const int32_t count = 1 + (int32_t)(draw() % 73);
     drogue_ray_read(grey, &r, &image, from, count);
+    const unsigned what = draw() % 2 ? RAY_GREY : draw() % 2 ? RAY_SEEK : RAY_SEEK | RAY_EITHER;
+    const int32_t least = (int32_t)(draw() % 200000);
+    instruction(UNIT_RAY_LEAST, 0, (uint32_t)least, (uint32_t)count);
     instruction(UNIT_RAY_IMAGE, 0, first, (uint32_t)image.stride);
     instruction(UNIT_RAY_SIZE, 0, (uint32_t)width, (uint32_t)height);
     instruction(UNIT_RAY_STEP, 0, (uint32_t)drogue_ray_part(r.nx_q14, r.step_px_q16),
                 (uint32_t)drogue_ray_part(r.ny_q14, r.step_px_q16));
-    instruction(UNIT_RAY_BEGIN, 0, (uint32_t)(r.x_px_q16 + drogue_ray_part(r.nx_q14, from)),
+    instruction(UNIT_RAY_BEGIN, what, (uint32_t)(r.x_px_q16 + drogue_ray_part(r.nx_q14, from)),
                 (uint32_t)(r.y_px_q16 + drogue_ray_part(r.ny_q14, from)));
-    for (int32_t k = 0; k < count; k++) {
-        for (uint32_t wait = draw() % 30; wait > 20; wait--) {
-            tick();
+    if (what == RAY_GREY) {
+        for (int32_t k = 0; k < count; k++) {
+            wait();
+            compare("grey", instruction(UNIT_RAY_GREY, 0, 0, 0), (uint32_t)grey[k]);
         }
-        compare("grey", instruction(UNIT_RAY_GREY, 0, 0, 0), (uint32_t)grey[k]);
+    } else {
+        seek(grey, count, least, what);
     }
 }
 

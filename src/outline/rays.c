@@ -133,8 +133,30 @@ void drogue_ray_read_light(int32_t *light_q8, const drogue_ray *r, const drogue_
     }
 }
 
-/* Slopes along a ray by a derivative of Gaussian of two samples, 'out' samples to either side, and their peaks. Its
- * taps -2, -3, -4, -3, 0, 3, 4, 3, 2 are the difference of two sums of five samples. */
+/* A sum of five samples. A derivative of Gaussian of two samples is the difference of two of them, REACH apart: its taps
+ * are -2, -3, -4, -3, 0, 3, 4, 3, 2. */
+static inline int32_t sum_of(const int32_t grey[5])
+{
+    return 2 * (grey[0] + grey[4]) + 3 * (grey[1] + grey[3]) + 4 * grey[2];
+}
+
+static inline int is_peak(int32_t before, int32_t at, int32_t after, int32_t least_q8)
+{
+    return at >= least_q8 && at > before && at >= after;
+}
+
+/* Keep the peak of three slopes, 'steps' from the ellipse. */
+static void keep_peak(drogue_ray *r, int32_t steps, int32_t before, int32_t at, int32_t after, int32_t level_q8)
+{
+    const int64_t part_q16 = drogue_vertex(before, at, after, HALF);
+    drogue_ray_edge e;
+    e.at_px_q16 = steps * r->step_px_q16 + (int32_t)drogue_shr_round_s64(part_q16 * r->step_px_q16, 16);
+    e.slope_q8 = at;
+    e.level_q8 = level_q8;
+    keep(r, &e);
+}
+
+/* Slopes along a ray, 'out' samples to either side, and their peaks. */
 static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, int32_t least_q8, int either)
 {
     int32_t grey[SAMPLES + 2 * REACH];
@@ -147,7 +169,7 @@ static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, in
     int32_t i;
     drogue_ray_read(grey, r, image, -(out + REACH) * r->step_px_q16, sums + REACH);
     for (i = 0; i < sums; i++) {
-        sum[i] = 2 * (grey[i] + grey[i + 4]) + 3 * (grey[i + 1] + grey[i + 3]) + 4 * grey[i + 2];
+        sum[i] = sum_of(&grey[i]);
     }
     r->count = 0;
     for (pass = 0; pass <= either; pass++) { /* bound: 2 */
@@ -162,13 +184,8 @@ static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, in
             before = at;
             at = after;
             after = sum[i + 1 + REACH] - sum[i + 1];
-            if (at >= least_q8 && at > before && at >= after) {
-                const int64_t part_q16 = drogue_vertex(before, at, after, HALF);
-                drogue_ray_edge e;
-                e.at_px_q16 = (i - out) * r->step_px_q16 + (int32_t)drogue_shr_round_s64(part_q16 * r->step_px_q16, 16);
-                e.slope_q8 = at;
-                e.level_q8 = grey[i + REACH];
-                keep(r, &e);
+            if (is_peak(before, at, after, least_q8)) {
+                keep_peak(r, i - out, before, at, after, grey[i + REACH]);
             }
         }
     }
@@ -232,23 +249,39 @@ void drogue_rays_aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int3
     aim(rays, e, phase, from, to, 1);
 }
 
-void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *e,
-                      drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least, drogue_ray_look look)
+/* What is looked for along each of the rays that are cast. */
+typedef struct ray_search {
+    drogue_q16 step_px_q16;
+    int32_t least_q8;
+    int32_t out; /* steps to either side */
+    int either;  /* what falls as well */
+} ray_search;
+
+static inline ray_search search_of(drogue_q16 reach_px_q16, int32_t least, drogue_ray_look look)
 {
     const drogue_q16 reach = drogue_clamp_s32(reach_px_q16, NEAREST, FARTHEST);
     const drogue_q16 least_step = reach / (SAMPLES / 2);
     const drogue_q16 finest = look >= DROGUE_RAY_FINE_RISES ? QUARTER : HALF;
     const drogue_q16 step = finest < least_step ? least_step : finest;
-    const int32_t least_q8 = least * DROGUE_RAY_WEIGHT * ((step < HALF ? step : HALF) >> 8); /* blur may leave half */
-    const int32_t out = drogue_clamp_s32(reach / step + 1, 1, SAMPLES / 2);
-    const int either = look == DROGUE_RAY_STEPS || look == DROGUE_RAY_LINES;
+    ray_search s;
+    s.step_px_q16 = step;
+    s.least_q8 = least * DROGUE_RAY_WEIGHT * ((step < HALF ? step : HALF) >> 8); /* blur may leave half */
+    s.out = drogue_clamp_s32(reach / step + 1, 1, SAMPLES / 2);
+    s.either = look == DROGUE_RAY_STEPS || look == DROGUE_RAY_LINES;
+    return s;
+}
+
+void drogue_rays_cast(drogue_ray rays[DROGUE_RAYS], const drogue_image *image, const drogue_ellipse *e,
+                      drogue_q16 reach_px_q16, int32_t phase, int32_t every, int32_t least, drogue_ray_look look)
+{
+    const ray_search s = search_of(reach_px_q16, least, look);
     int32_t k;
     aim(rays, e, phase, 0, DROGUE_RAYS / 2, every);
     for (k = 0; k < DROGUE_RAYS; k++) {
         rays[k].count = 0;
         if (k % every == 0) {
-            rays[k].step_px_q16 = step;
-            find_edges(&rays[k], image, out, least_q8, either);
+            rays[k].step_px_q16 = s.step_px_q16;
+            find_edges(&rays[k], image, s.out, s.least_q8, s.either);
         }
     }
 }
