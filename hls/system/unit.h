@@ -29,7 +29,9 @@ enum {
     UNIT_FIT_WHICH,
     UNIT_FIT_SUMS,  /* word after word */
     UNIT_RAY_LEAST, /* slope of a peak, and the samples to seek among */
-    UNIT_RAY_PEAK
+    UNIT_RAY_PEAK,
+    UNIT_DIVISOR, /* lower and upper word */
+    UNIT_DIVIDE   /* the same of what it divides; the quotient's upper word by UNIT_EXPONENT */
 };
 
 /* In the order of the text: units keep what they were told. An operand of 0 is the register that always is. */

@@ -104,6 +104,16 @@ module drogue_unit (
     wire second_bit = second_left >= second_by;
     wire [34:0] after = second_bit ? second_left - second_by : second_left;
 
+    // A quotient of whole numbers, rounded down, two bits a clock, sixteen that are 0 at once: the one that was told, then what is
+    // divided, whose place the quotient takes.
+    reg [63:0] divisor, dividend, remains;
+    reg [65:0] thrice;
+    reg [5:0] divide_step; // 0: not
+    wire [66:0] part = {1'b0, remains, dividend[63:62]};
+    wire [66:0] less_1 = part - {3'd0, divisor}, less_2 = part - {2'd0, divisor, 1'b0}, less_3 = part - {1'b0, thrice};
+    wire [1:0] divided = !less_2[66] ? {1'b1, !less_3[66]} : {1'b0, !less_1[66]};
+    wire [66:0] remains_next = divided[1] ? divided[0] ? less_3 : less_2 : divided[0] ? less_1 : part;
+
     wire [6:0] unit = {2'd0, function_id[7:3]}; // there are thirty-two: the next are those again
     assign ready = !busy && (!answered || taken) && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
         !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(unit == 7'd14 && !there) &&
@@ -116,7 +126,7 @@ module drogue_unit (
         add_step <= add_step + 8'd1;
         fit_step <= fit_step + 8'd1;
         if (taken) answered <= 1'b0;
-        if (begins && unit != 7'd0 && unit != 7'd15) answered <= 1'b1;
+        if (begins && unit != 7'd0 && unit != 7'd15 && unit != 7'd25) answered <= 1'b1;
         if (begins) case (unit)
             7'd0: begin
                 d <= {second, first};
@@ -190,9 +200,16 @@ module drogue_unit (
                 3'd3: answer <= slope_after;
                 default: answer <= greys[31:0];
             endcase
+            7'd24: divisor <= {second, first};
+            7'd25: begin
+                dividend <= {second, first};
+                remains <= 64'd0;
+                divide_step <= 6'd32;
+                busy <= 1'b1;
+            end
             default: ;
         endcase
-        if (busy && root_step == 5'd0 && done) begin
+        if (busy && root_step == 5'd0 && divide_step == 6'd0 && done) begin
             busy <= 1'b0;
             {exponent, answer} <= divides ? quotient_real : linear_real;
             answered <= 1'b1;
@@ -286,8 +303,22 @@ module drogue_unit (
                 answered <= 1'b1;
             end
         end
+        thrice <= {2'd0, divisor} + {1'b0, divisor, 1'b0};
+        if (divide_step > 6'd8 && remains == 64'd0 && dividend[63:48] == 16'd0) begin
+            dividend <= {dividend[47:0], 16'd0};
+            divide_step <= divide_step - 6'd8;
+        end else if (divide_step != 6'd0) begin
+            dividend <= {dividend[61:0], divided};
+            remains <= remains_next[63:0];
+            divide_step <= divide_step - 6'd1;
+            if (divide_step == 6'd1) begin
+                busy <= 1'b0;
+                {exponent, answer} <= {dividend[61:0], divided};
+                answered <= 1'b1;
+            end
+        end
         if (reset) begin
-            {busy, answered, placing, adding, fitting, root_step} <= 10'd0;
+            {busy, answered, placing, adding, fitting, root_step, divide_step} <= 16'd0;
             {placing_sample, placed_sample, mixing, mixed, there, fetch} <= 8'd0;
             {seeking, sloping, peak, sought} <= 4'd0;
         end

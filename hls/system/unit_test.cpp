@@ -120,6 +120,13 @@ void reals(uint32_t n)
     const uint64_t square = (uint64_t)z * z - (draw() & 1),
                    v64 = edges ? square : ((uint64_t)draw() << 32 | draw()) >> shift;
     compare("root", instruction(UNIT_ROOT, 0, (uint32_t)v64, (uint32_t)(v64 >> 32)), drogue_isqrt_u64(v64));
+    const uint64_t a64 = ((uint64_t)draw() << 32 | draw()) >> draw() % 64,
+                   b64 = (((uint64_t)draw() << 32 | draw()) >> draw() % 64) | 1, factor = draw() % 3;
+    const uint64_t by64 = edges ? ~0ull >> n % 64 : b64, of64 = edges ? by64 * factor - (n & 1) : a64;
+    instruction(UNIT_DIVISOR, 0, (uint32_t)by64, (uint32_t)(by64 >> 32));
+    compare("quotient of 64 bits", instruction(UNIT_DIVIDE, 0, (uint32_t)of64, (uint32_t)(of64 >> 32)),
+            (uint32_t)(of64 / by64));
+    compare("quotient of 64 bits", instruction(UNIT_EXPONENT, 0, 0, 0), (uint32_t)(of64 / by64 >> 32));
     compare("leading zeros", instruction(UNIT_ZEROS, 0, z, 0), z == 0 ? 32 : (uint32_t)__builtin_clz(z));
 }
 
