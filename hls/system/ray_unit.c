@@ -22,10 +22,18 @@ void ray_unit_place(const ray_place_asked *restrict asked, ray_place_said *restr
     out->y_px_q16 = y;
 }
 
+void ray_unit_rows(const ray_rows_asked *restrict asked, ray_rows_said *restrict out)
+{
+    const ray_rows_asked a = *asked;
+    const int32_t part_q8 = part_q8_of(a.x_px_q16);
+    out->upper_q8 = row_q8(a.pixels, 1, part_q8);
+    out->lower_q8 = row_q8(a.pixels + 2, 1, part_q8);
+}
+
 void ray_unit_grey(const ray_grey_asked *restrict asked, ray_grey_said *restrict out)
 {
     const ray_grey_asked a = *asked;
-    out->grey_q8 = between_q8(a.pixels, 1, 2, a.x_px_q16, a.y_px_q16);
+    out->grey_q8 = mixed_q8(a.rows.upper_q8, a.rows.lower_q8, part_q8_of(a.y_px_q16));
 }
 
 void ray_unit_slope(const ray_slope_asked *restrict asked, ray_slope_said *restrict out)

@@ -21,9 +21,19 @@ typedef struct ray_place_said {
     int32_t y_px_q16;
 } ray_place_said;
 
-typedef struct ray_grey_asked {
+/* Grey in two steps, so that the first is free for the next sample in the second. */
+typedef struct ray_rows_asked {
     uint8_t pixels[4]; /* upper row, lower row */
     int32_t x_px_q16;
+} ray_rows_asked;
+
+typedef struct ray_rows_said {
+    int32_t upper_q8;
+    int32_t lower_q8;
+} ray_rows_said;
+
+typedef struct ray_grey_asked {
+    ray_rows_said rows;
     int32_t y_px_q16;
 } ray_grey_asked;
 
@@ -64,6 +74,7 @@ enum { RAY_PEAK_FALLS = 256 };
 enum { RAY_GREY, RAY_SEEK = 1, RAY_EITHER = 2 /* what falls as well */ };
 
 void ray_unit_place(const ray_place_asked *restrict asked, ray_place_said *restrict out);
+void ray_unit_rows(const ray_rows_asked *restrict asked, ray_rows_said *restrict out);
 void ray_unit_grey(const ray_grey_asked *restrict asked, ray_grey_said *restrict out);
 void ray_unit_slope(const ray_slope_asked *restrict asked, ray_slope_said *restrict out);
 

@@ -33,6 +33,7 @@ part() {
     part points_unit.c points_unit_place
     part points_unit.c points_unit_moments
     part ray_unit.c ray_unit_place
+    part ray_unit.c ray_unit_rows
     part ray_unit.c ray_unit_grey
     part ray_unit.c ray_unit_slope
     part fit_unit.c fit_unit_ray

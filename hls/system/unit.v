@@ -45,26 +45,31 @@ module drogue_unit (
     drogue_points_unit_moments add (
         .clock(clock), .step(add_step), .done(add_done), .asked({31'd0, out_of, added, moments}), .out(moments_next));
 
-    // Grey along a ray, sample after sample before the soft core asks: the next one's place is worked out while the pixels of one
-    // come, a pixel a clock, and the one before is interpolated.
+    // Grey along a ray, sample after sample before the soft core asks, each five clocks after the one before: while a pixel a clock of
+    // one come, the next one's place is worked out, and the one before is interpolated. What is worked out stays until it is taken.
     reg [63:0] image, size, pace, where; // first byte, stride; width, height; and so on
-    reg placing_sample, placed_sample, mixing, mixed, there;
-    reg [7:0] sample_step, mix_step;
+    reg placing_sample, rowing, mixing, there;
+    reg [7:0] sample_step, rows_step, mix_step;
     reg [2:0] fetch; // 0: not; 1: the first pixel is asked for; to 5: the last one comes; 6: all are there
-    reg [191:0] placed, sample;
-    reg [63:0] mixed_at;
-    reg [31:0] pixels, mixed_pixels, mixed_grey, grey;
+    reg [191:0] sample;
+    reg [63:0] rows_at;
+    reg [31:0] pixels, rows_pixels, mixed_at, grey;
+    reg [63:0] mixed_rows;
     reg [1:0] byte_of;
-    wire sample_done, mix_done;
+    wire sample_done, rows_done, mix_done;
     wire [191:0] sample_said;
+    wire [63:0] rows_said;
     wire [31:0] grey_said;
     wire [2:0] pixel = fetch - 3'd1;
     assign frame_at = pixel[1] ? pixel[0] ? sample[127:96] : sample[95:64] : pixel[0] ? sample[63:32] : sample[31:0];
     drogue_ray_unit_place ray_place (
         .clock(clock), .step(sample_step), .done(sample_done), .asked({where, image, size}), .out(sample_said));
+    drogue_ray_unit_rows ray_rows (
+        .clock(clock), .step(rows_step), .done(rows_done), .asked({rows_at[31:0], rows_pixels}), .out(rows_said));
     drogue_ray_unit_grey ray_grey (
-        .clock(clock), .step(mix_step), .done(mix_done), .asked({mixed_at, mixed_pixels}), .out(grey_said));
+        .clock(clock), .step(mix_step), .done(mix_done), .asked({mixed_at, mixed_rows}), .out(grey_said));
     wire [31:0] shifted = frame_word >> {byte_of, 3'd0};
+    wire [31:0] pixels_next = {shifted[7:0], pixels[31:8]};
 
     // Peaks of the slope along a ray, instead of its grey: the unit waits at one until the soft core has taken it.
     reg seeking, either, sloping, peak, peak_falls, sought;
@@ -78,6 +83,10 @@ module drogue_unit (
     drogue_ray_unit_slope ray_slope (
         .clock(clock), .step(slope_step), .done(slope_done),
         .asked({slope_least, slope_after, slope, slope_sums[31:0], greys[191:32]}), .out(slope_said));
+    wire mix_taken = mixing && mix_done && (seeking ? !sloping && !peak && !sought : !there);
+    wire rows_taken = rowing && rows_done && (!mixing || mix_taken);
+    wire pixels_taken = (fetch == 3'd5 || fetch == 3'd6) && (!rowing || rows_taken);
+    wire sample_taken = placing_sample && sample_done && (fetch == 3'd0 || pixels_taken);
 
     // Least squares over rays: edges, then the ray that they are on. While it is worked out the next one's edges are told.
     reg [127:0] offset; // and the tolerance
@@ -226,48 +235,43 @@ module drogue_unit (
             fitting <= 1'b0;
             sums <= sums_next;
         end
-        sample_step <= sample_step + 8'd1;
-        mix_step <= mix_step + 8'd1;
+        if (!sample_done) sample_step <= sample_step + 8'd1;
+        if (!rows_done) rows_step <= rows_step + 8'd1;
+        if (!mix_done) mix_step <= mix_step + 8'd1;
+        slope_step <= slope_step + 8'd1;
         byte_of <= frame_at[1:0];
-        if (placing_sample && sample_done) begin
-            placing_sample <= 1'b0;
-            placed_sample <= 1'b1;
-            placed <= sample_said;
-            where <= {where[63:32] + pace[63:32], where[31:0] + pace[31:0]};
+        if (fetch != 3'd0 && fetch != 3'd6) begin
+            fetch <= frame_free || fetch == 3'd5 ? fetch + 3'd1 : 3'd1; // from the first once more
+            pixels <= pixels_next;
         end
-        case (fetch)
-            3'd0: if (placed_sample) begin
-                sample <= placed;
-                fetch <= 3'd1;
-                placed_sample <= 1'b0;
-                placing_sample <= 1'b1;
-                sample_step <= 8'd0;
-            end
-            3'd6: if (!mixing && !mixed) begin
-                mixed_pixels <= pixels;
-                mixed_at <= sample[191:128];
-                mixing <= 1'b1;
-                mix_step <= 8'd0;
-                fetch <= 3'd0;
-            end
-            default: begin
-                fetch <= frame_free || fetch == 3'd5 ? fetch + 3'd1 : 3'd1; // from the first once more
-                pixels <= {shifted[7:0], pixels[31:8]};
-            end
-        endcase
-        if (mixing && mix_done) begin
+        if (mix_taken) begin
             mixing <= 1'b0;
-            mixed <= 1'b1;
-            mixed_grey <= grey_said;
+            if (seeking) begin
+                greys <= {grey_said, greys[191:32]};
+                samples <= samples + 8'd1;
+                sloping <= 1'b1;
+                slope_step <= 8'd0;
+            end else grey <= grey_said;
         end
         if (begins && unit == 7'd14) there <= 1'b0;
-        slope_step <= slope_step + 8'd1;
-        if (mixed && seeking && !sloping && !peak && !sought) begin
-            mixed <= 1'b0;
-            greys <= {mixed_grey, greys[191:32]};
-            samples <= samples + 8'd1;
-            sloping <= 1'b1;
-            slope_step <= 8'd0;
+        else if (mix_taken && !seeking) there <= 1'b1;
+        if (rows_taken) begin
+            rowing <= 1'b0;
+            {mixed_at, mixed_rows} <= {rows_at[63:32], rows_said};
+            mixing <= 1'b1;
+            mix_step <= 8'd0;
+        end
+        if (pixels_taken) begin
+            fetch <= 3'd0;
+            {rows_at, rows_pixels} <= {sample[191:128], fetch == 3'd5 ? pixels_next : pixels};
+            rowing <= 1'b1;
+            rows_step <= 8'd0;
+        end
+        if (sample_taken) begin
+            fetch <= 3'd1;
+            sample <= sample_said;
+            where <= {where[63:32] + pace[63:32], where[31:0] + pace[31:0]};
+            sample_step <= 8'd0;
         end
         if (sloping && slope_done) begin
             sloping <= 1'b0;
@@ -278,14 +282,9 @@ module drogue_unit (
             sought <= samples == samples_wanted;
         end
         if (begins && unit == 7'd23 && function_id[2:0] == 3'd4) peak <= 1'b0;
-        if (mixed && !seeking && !there) begin
-            mixed <= 1'b0;
-            there <= 1'b1;
-            grey <= mixed_grey;
-        end
         if (begins && unit == 7'd13) begin
             where <= {second, first};
-            {placed_sample, mixing, mixed, there, fetch} <= 7'd0;
+            {rowing, mixing, there, fetch} <= 6'd0;
             {either, seeking} <= function_id[1:0];
             {sloping, peak, sought} <= 3'd0;
             samples <= 8'd0;
@@ -319,7 +318,7 @@ module drogue_unit (
         end
         if (reset) begin
             {busy, answered, placing, adding, fitting, root_step, divide_step} <= 16'd0;
-            {placing_sample, placed_sample, mixing, mixed, there, fetch} <= 8'd0;
+            {placing_sample, rowing, mixing, there, fetch} <= 7'd0;
             {seeking, sloping, peak, sought} <= 4'd0;
         end
     end

@@ -17,15 +17,19 @@ static inline int32_t mixed_q8(int32_t upper_q8, int32_t lower_q8, int32_t part_
     return upper_q8 + (((lower_q8 - upper_q8) * part_q8 + 128) >> 8);
 }
 
+static inline int32_t part_q8_of(int32_t px_q16) { return (px_q16 >> 8) & 255; }
+
+/* Grey between a pixel and the one to the right, Q8. */
+static inline int32_t row_q8(const uint8_t *at, int32_t right, int32_t part_q8)
+{
+    return at[0] * (256 - part_q8) + at[right] * part_q8;
+}
+
 /* Grey between a pixel, the one to the right and those below, Q8. */
 static inline int32_t between_q8(const uint8_t *at, int32_t right, int32_t stride, int32_t x_px_q16, int32_t y_px_q16)
 {
-    const int32_t fx = (x_px_q16 >> 8) & 255;
-    const int32_t fy = (y_px_q16 >> 8) & 255;
-    const uint8_t *below = at + stride;
-    const int32_t upper = at[0] * (256 - fx) + at[right] * fx;
-    const int32_t lower = below[0] * (256 - fx) + below[right] * fx;
-    return mixed_q8(upper, lower, fy);
+    const int32_t fx = part_q8_of(x_px_q16);
+    return mixed_q8(row_q8(at, right, fx), row_q8(at + stride, right, fx), part_q8_of(y_px_q16));
 }
 
 /* The same of light, which the levels are encoded from. */
