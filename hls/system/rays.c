@@ -9,6 +9,8 @@
 static void keep_peak(drogue_ray *, int32_t, int32_t, int32_t, int32_t, int32_t) __attribute__((noinline));
 
 /* Seldom: for size. */
+void drogue_ray_read_light(int32_t *, const drogue_ray *, const drogue_image *, drogue_q16, int32_t)
+    __attribute__((cold));
 static void find_edges(drogue_ray *, const drogue_image *, int32_t, int32_t, int) __attribute__((cold));
 void drogue_ray_read(int32_t *, const drogue_ray *, const drogue_image *, drogue_q16, int32_t) __attribute__((cold));
 void drogue_rays_cast(drogue_ray *, const drogue_image *, const drogue_ellipse *, drogue_q16, int32_t, int32_t, int32_t,

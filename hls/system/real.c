@@ -1,8 +1,22 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The library's arithmetic of reals by the unit beside the soft core, in the place of its own functions; the same bits. */
+/* The library's arithmetic of reals by the unit beside the soft core, in the place of its own functions; the same bits. With
+ * REAL_WHERE_CALLED it goes before a source that calls them often, for them to stand where they are called. */
 #include "unit.h"
 
-int __clzsi2(unsigned v);
+#ifdef REAL_WHERE_CALLED
+#define FUNCTION extern inline __attribute__((gnu_inline))
+#define PART extern inline __attribute__((gnu_inline, always_inline))
+#else
+#define FUNCTION
+#define PART static inline
+#endif
+
+PART void push(drogue_real v)
+{
+    uint32_t none;
+    UNIT(none, UNIT_PUSH, 0, v.mantissa, v.exponent);
+    (void)none;
+}
 
 /* Both words of the result before either is stored: a unit is not asked while a store before it is under way. */
 #define RESULT_OF(out, what, v)                                      \
@@ -16,7 +30,7 @@ int __clzsi2(unsigned v);
     } while (0)
 
 /* Loaded here and not where it is told: its word comes two clocks later. */
-static inline drogue_real loaded(const drogue_real *v)
+PART drogue_real loaded(const drogue_real *v)
 {
     drogue_real words = *v;
     __asm__ volatile("" : "+r"(words.mantissa), "+r"(words.exponent));
@@ -27,7 +41,7 @@ static inline drogue_real loaded(const drogue_real *v)
     do {                                     \
         const drogue_real first = loaded(a); \
         const drogue_real last = loaded(b);  \
-        unit_push(first);                    \
+        push(first);                         \
         RESULT_OF(out, what, last);          \
     } while (0)
 
@@ -37,66 +51,72 @@ static inline drogue_real loaded(const drogue_real *v)
         const drogue_real second = loaded(b); \
         const drogue_real third = loaded(c);  \
         const drogue_real last = loaded(d);   \
-        unit_push(first);                     \
-        unit_push(second);                    \
-        unit_push(third);                     \
+        push(first);                          \
+        push(second);                         \
+        push(third);                          \
         RESULT_OF(out, what, last);           \
     } while (0)
 
-void drogue_real_put(drogue_real *out, int32_t exponent, int64_t v)
+FUNCTION void drogue_real_put(drogue_real *out, int32_t exponent, int64_t v)
 {
     const drogue_real words = {(int32_t)((uint64_t)v >> 32), (int32_t)(uint32_t)v};
     const drogue_real by = {0, exponent};
-    unit_push(words);
+    push(words);
     RESULT_OF(out, REAL_SET, by);
 }
 
-void drogue_real_set_q16(drogue_real *out, drogue_q16 v)
+FUNCTION void drogue_real_set_q16(drogue_real *out, drogue_q16 v)
 {
     const drogue_real words = {v, 0};
     const drogue_real by = {0, -48};
-    unit_push(words);
+    push(words);
     RESULT_OF(out, REAL_SET, by);
 }
 
-void drogue_real_sum(drogue_real *out, const drogue_real *a, const drogue_real *b) { OF_TWO(out, REAL_SUM, a, b); }
+FUNCTION void drogue_real_sum(drogue_real *out, const drogue_real *a, const drogue_real *b)
+{
+    OF_TWO(out, REAL_SUM, a, b);
+}
 
-void drogue_real_difference(drogue_real *out, const drogue_real *a, const drogue_real *b)
+FUNCTION void drogue_real_difference(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
     OF_TWO(out, REAL_DIFFERENCE, a, b);
 }
 
-void drogue_real_product(drogue_real *out, const drogue_real *a, const drogue_real *b)
+FUNCTION void drogue_real_product(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
     OF_TWO(out, REAL_PRODUCT, a, b);
 }
 
-void drogue_real_quotient(drogue_real *out, const drogue_real *a, const drogue_real *b)
+FUNCTION void drogue_real_quotient(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
     OF_TWO(out, REAL_QUOTIENT, a, b);
 }
 
-void drogue_real_subtract_product(drogue_real *out, const drogue_real *a, const drogue_real *b)
+FUNCTION void drogue_real_subtract_product(drogue_real *out, const drogue_real *a, const drogue_real *b)
 {
     const drogue_real first = loaded(out);
     const drogue_real second = loaded(a);
     const drogue_real last = loaded(b);
-    unit_push(first);
-    unit_push(second);
+    push(first);
+    push(second);
     RESULT_OF(out, REAL_SUBTRACT_PRODUCT, last);
 }
 
-void drogue_real_products(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
-                          const drogue_real *d)
+FUNCTION void drogue_real_products(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
+                                   const drogue_real *d)
 {
     OF_FOUR(out, REAL_PRODUCTS, a, b, c, d);
 }
 
-void drogue_real_determinant(drogue_real *out, const drogue_real *a, const drogue_real *b, const drogue_real *c,
-                             const drogue_real *d)
+FUNCTION void drogue_real_determinant(drogue_real *out, const drogue_real *a, const drogue_real *b,
+                                      const drogue_real *c, const drogue_real *d)
 {
     OF_FOUR(out, REAL_DETERMINANT, a, b, c, d);
 }
+
+#ifndef REAL_WHERE_CALLED
+int __clzsi2(unsigned v);
 
 /* What gcc calls for leading zeros, where the core has no instruction for them. */
 int __clzsi2(unsigned v)
@@ -105,3 +125,4 @@ int __clzsi2(unsigned v)
     UNIT(zeros, UNIT_ZEROS, 0, v, 0);
     return zeros;
 }
+#endif

@@ -40,11 +40,4 @@ enum {
                      : "=r"(result)                       \
                      : "i"(what), "i"(unit), "rJ"(first), "rJ"(second))
 
-static inline void unit_push(drogue_real v)
-{
-    uint32_t none;
-    UNIT(none, UNIT_PUSH, 0, v.mantissa, v.exponent);
-    (void)none;
-}
-
 #endif

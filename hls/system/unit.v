@@ -45,8 +45,9 @@ module drogue_unit (
     drogue_points_unit_moments add (
         .clock(clock), .step(add_step), .done(add_done), .asked({31'd0, out_of, added, moments}), .out(moments_next));
 
-    // Grey along a ray, sample after sample before the soft core asks, each five clocks after the one before: while a pixel a clock of
-    // one come, the next one's place is worked out, and the one before is interpolated. What is worked out stays until it is taken.
+    // Grey along a ray, sample after sample before the soft core asks, each five clocks after the one before: while the pixels of
+    // one come, a pixel a clock, the next one's place is worked out, and the one before is interpolated. What is worked out stays
+    // until it is taken.
     reg [63:0] image, size, pace, where; // first byte, stride; width, height; and so on
     reg placing_sample, rowing, mixing, there;
     reg [7:0] sample_step, rows_step, mix_step;
@@ -79,7 +80,7 @@ module drogue_unit (
     reg [31:0] slope_before, slope, slope_after, slope_least;
     wire slope_done;
     wire [95:0] slope_said;
-    wire [31:0] peak_at = {23'd0, peak_falls, samples - 8'd10}; // nine samples make a slope, the next one may tell that it was a peak
+    wire [31:0] peak_at = {23'd0, peak_falls, samples - 8'd10}; // nine samples make a slope, the next may tell that it was a peak
     drogue_ray_unit_slope ray_slope (
         .clock(clock), .step(slope_step), .done(slope_done),
         .asked({slope_least, slope_after, slope, slope_sums[31:0], greys[191:32]}), .out(slope_said));
