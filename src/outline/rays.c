@@ -137,8 +137,8 @@ void drogue_ray_read_light(int32_t *light_q8, const drogue_ray *r, const drogue_
     }
 }
 
-/* A sum of five samples. A derivative of Gaussian of two samples is the difference of two of them, REACH apart: its taps
- * are -2, -3, -4, -3, 0, 3, 4, 3, 2. */
+/* A sum of five samples. A derivative of Gaussian of two samples is the difference of two of them, REACH apart: its
+ * taps are -2, -3, -4, -3, 0, 3, 4, 3, 2. */
 static inline int32_t sum_of(const int32_t grey[5])
 {
     return 2 * (grey[0] + grey[4]) + 3 * (grey[1] + grey[3]) + 4 * grey[2];
