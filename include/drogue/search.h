@@ -99,6 +99,10 @@ int32_t drogue_search_end(drogue_search *search);
  *                            <= 0.3 px          0.6 px + r / 10         3/4
  *   resolved                             5 px   0.6 px + r / 10         31/32, and a reliability of 0.99
  *
+ * Two more suffice. One that lies beside its place: a spread of at most 0.5 px, r >= 9 px, a radius off by at most
+ * 0.3 px + r / 25, a doubt of at most 1/64 and a cover of 7/8. And one that shade makes larger than the doubt and the
+ * rows allow: resolved, a spread of at most 0.3 px, r >= 3.5 px, a doubt of at most 0.3 and a cover of 3/4.
+ *
  *  r  of status DROGUE_OK
  */
 int drogue_result_sure(const drogue_result *r, const drogue_model *model);
