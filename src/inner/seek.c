@@ -25,6 +25,17 @@
 static const int8_t places[PLACES][2] = {{0, 0}, {1, 0},  {-1, 0}, {0, 1},  {0, -1}, {2, 0},  {-2, 0},
                                          {0, 2}, {0, -2}, {1, 1},  {-1, 1}, {1, -1}, {-1, -1}};
 
+/* Rays that see an edge. */
+static int32_t seeing(const drogue_ray rays[RAYS])
+{
+    int32_t seen = 0;
+    int32_t k;
+    for (k = 0; k < RAYS; k++) {
+        seen += rays[k].count > 0;
+    }
+    return seen;
+}
+
 /* Settle the rays' edges on a circle, which is larger by so much at first; the sum of the slopes of the rays that
  * agree, 0 when too few do. */
 static int32_t settle(drogue_ellipse *e, const drogue_ray rays[RAYS], drogue_q16 larger_px_q16, drogue_q16 gate_px_q16)
@@ -32,7 +43,8 @@ static int32_t settle(drogue_ellipse *e, const drogue_ray rays[RAYS], drogue_q16
     drogue_q16 v_px_q16[3] = {0, 0, 0};
     drogue_ray_sums s;
     v_px_q16[2] = larger_px_q16;
-    if (!drogue_ray_sums_settle(&s, v_px_q16, rays, gate_px_q16, larger(LAST_PX, e->a_px_q16 / 16), 1) ||
+    if (seeing(rays) < ENOUGH ||
+        !drogue_ray_sums_settle(&s, v_px_q16, rays, gate_px_q16, larger(LAST_PX, e->a_px_q16 / 16), 1) ||
         s.rays < ENOUGH || drogue_q16_add(e->a_px_q16, v_px_q16[2]) < LEAST_PX) {
         return 0;
     }
@@ -48,15 +60,10 @@ static int sees_edge(drogue_ray rays[RAYS], const drogue_image *view, const drog
                      drogue_q16 far_px_q16, int32_t least)
 {
     drogue_ellipse half = *middle;
-    uint32_t seen = 0;
-    int32_t k;
     half.a_px_q16 = far_px_q16 / 2;
     half.b_px_q16 = half.a_px_q16;
     drogue_rays_cast(rays, view, &half, half.a_px_q16, PHASE, EVERY, STEEPER * least, DROGUE_RAY_RISES);
-    for (k = 0; k < RAYS; k++) {
-        seen += rays[k].count > 0;
-    }
-    return seen >= SOME;
+    return seeing(rays) >= SOME;
 }
 
 uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[RAYS], const drogue_image *view,

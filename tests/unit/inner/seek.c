@@ -111,6 +111,29 @@ START_TEST(what_is_no_disc)
 }
 END_TEST
 
+/* Three quarters of the rays are enough, where no other sees an edge, and no fewer. */
+START_TEST(as_many_rays_as_must_agree)
+{
+    double share;
+    int enough = 0;
+    for (share = 0.2; share < 0.3; share += 0.004) {
+        const drogue_image view = draw(74.5, 74.5, 20, 1, 0, share);
+        const drogue_ellipse disc = {q16_of(74.5), q16_of(74.5), q16_of(20), q16_of(20), 0};
+        drogue_ellipse out[2];
+        const uint32_t found = seek(out, &view, 0.12);
+        int seen = 0;
+        int k;
+        drogue_rays_cast(rays, &view, &disc, q16_of(5), 4, 2, config.min_inner_contrast, DROGUE_RAY_RISES);
+        for (k = 0; k < DROGUE_RAYS; k++) {
+            seen += rays[k].count > 0;
+        }
+        MUST(found == (seen >= 24), "%g hidden: %u, %d rays", share, found, seen);
+        enough += seen == 24;
+    }
+    ck_assert_int_gt(enough, 0);
+}
+END_TEST
+
 /* Nothing is sought where rays from the middle see little: that must not be a disc well off it, or a faint one. */
 START_TEST(what_is_blank)
 {
@@ -216,5 +239,5 @@ START_TEST(sight_through_a_lens)
 }
 END_TEST
 
-SUITE_MAIN("seek", discs_where_and_as_large_as_drawn, disc_in_a_collar, what_is_no_disc, what_is_blank,
-           outlines_that_a_disc_allows, sight_through_a_lens)
+SUITE_MAIN("seek", discs_where_and_as_large_as_drawn, disc_in_a_collar, what_is_no_disc, as_many_rays_as_must_agree,
+           what_is_blank, outlines_that_a_disc_allows, sight_through_a_lens)
