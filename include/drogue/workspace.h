@@ -100,7 +100,7 @@ size_t drogue_workspace_bytes(const drogue_capacity *capacity);
 
 /* Lay a workspace out in the caller's memory, which must live as long as the workspace.
  *
- *  workspace  out
+ *  workspace  out; zero where it is refused, which drogue_measure() answers with DROGUE_E_WORKSPACE
  *  memory     at least drogue_workspace_bytes(capacity) bytes, aligned for uint32_t
  *  return     DROGUE_OK, DROGUE_E_WORKSPACE (too few bytes), DROGUE_E_ARGUMENT (capacity out of range, misaligned)
  */

@@ -2,6 +2,8 @@
 /* Layout of line buffers, tables and lists in the caller's memory. */
 #include "drogue/frontend.h"
 
+#include <string.h>
+
 static int capacity_valid(const drogue_capacity *c)
 {
     const uint32_t most = (uint32_t)1 << 24;
@@ -14,6 +16,13 @@ size_t drogue_workspace_bytes(const drogue_capacity *capacity)
     return DROGUE_WORKSPACE_BYTES(capacity->width_px, capacity->edges, capacity->labels, capacity->arcs);
 }
 
+/* No region fits in afterwards: who does not look at the status is told by the next call. */
+static drogue_status refuse(drogue_workspace *workspace, drogue_status why)
+{
+    memset(workspace, 0, sizeof *workspace);
+    return why;
+}
+
 drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, size_t bytes,
                                     const drogue_capacity *capacity)
 {
@@ -22,10 +31,10 @@ drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, s
     size_t half;
     size_t labels;
     if (!capacity_valid(capacity) || memory == NULL || ((uintptr_t)memory & (sizeof(uint32_t) - 1)) != 0) {
-        return DROGUE_E_ARGUMENT;
+        return refuse(workspace, DROGUE_E_ARGUMENT);
     }
     if (bytes < drogue_workspace_bytes(capacity)) {
-        return DROGUE_E_WORKSPACE;
+        return refuse(workspace, DROGUE_E_WORKSPACE);
     }
     width = capacity->width_px;
     half = DROGUE_HALF(width);

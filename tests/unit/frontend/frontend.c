@@ -275,6 +275,25 @@ START_TEST(workspace_arguments)
 }
 END_TEST
 
+/* What was refused has room for nothing, whatever the struct held; its own capacity may be what it is made with. */
+START_TEST(refused_workspace_is_empty)
+{
+    static const drogue_capacity good = {33, 7, 5, 3}, none = {0, 7, 5, 3};
+    static const drogue_frontend_config config = {40, 100, 1, 0, {0, 0, 1}, 10};
+    static uint32_t memory[DROGUE_WORKSPACE_BYTES(33, 7, 5, 3) / 4 + 1];
+    drogue_workspace w;
+    drogue_frontend f;
+    ck_assert_int_eq(drogue_workspace_init(&w, memory, sizeof memory, &good), DROGUE_OK);
+    ck_assert_int_eq(drogue_workspace_init(&w, memory, sizeof memory, &w.capacity), DROGUE_OK);
+    ck_assert_int_eq(drogue_frontend_begin(&f, &w, &config, 1, 1), DROGUE_OK);
+    ck_assert_int_eq(drogue_workspace_init(&w, memory, sizeof memory, &none), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_frontend_begin(&f, &w, &config, 1, 1), DROGUE_E_WORKSPACE);
+    memset(&w, 0xA5, sizeof w);
+    ck_assert_int_eq(drogue_workspace_init(&w, memory, sizeof memory / 2, &good), DROGUE_E_WORKSPACE);
+    ck_assert_int_eq(drogue_frontend_begin(&f, &w, &config, 1, 1), DROGUE_E_WORKSPACE);
+}
+END_TEST
+
 START_TEST(begin_arguments)
 {
     test_workspace t = test_workspace_of(16, 16, 16, 16);
@@ -476,6 +495,6 @@ END_TEST
 
 SUITE_MAIN("frontend", every_small_size, random_images, rings_anywhere, strength_counts_within_the_ring,
            one_workspace_for_many_sizes, edge_table_overfilled_by_one, arc_table_overfilled_by_one,
-           label_table_overfilled_by_one, workspace_arguments, begin_arguments, missing_rows_and_too_many,
-           a_frame_ends_once, a_refused_frame, arcs_for_any_side, endless_weak_chain, merges_fill_no_more_than_a_row,
-           the_form_asked_for)
+           label_table_overfilled_by_one, workspace_arguments, refused_workspace_is_empty, begin_arguments,
+           missing_rows_and_too_many, a_frame_ends_once, a_refused_frame, arcs_for_any_side, endless_weak_chain,
+           merges_fill_no_more_than_a_row, the_form_asked_for)
