@@ -58,12 +58,10 @@ tool() { [ -x "$work/tools/bin/$1" ]; }
 debian_python=/usr/bin/python3
 has_module() { "$debian_python" -c "import $1" 2>/dev/null; }
 
-# use_two_files FOLDER: a consumer of drogue/drogue.h and drogue.c in FOLDER, by the include line of the README
+# use_two_files FOLDER: a consumer of drogue/drogue.h and drogue.c in FOLDER, by the include lines of the README
 use_two_files() {
-    mkdir -p "$work/shim/drogue"
-    echo '#include <drogue/drogue.h>' >"$work/shim/drogue/track.h" # it is all in one header
     gcc -std=c99 -O2 -I "$1" -c "$1/drogue.c" -o "$work/two_files.o"
-    gcc -std=c99 -I "$work/shim" -I "$1" tests/checks/consumer/main.c "$work/two_files.o" -o "$work/consumer"
+    gcc -std=c99 -I "$1" tests/checks/consumer/main.c "$work/two_files.o" -o "$work/consumer"
     "$work/consumer" "$version"
 }
 
@@ -88,6 +86,8 @@ two_files_digest() {
     local images=tests/embedded built=$work/embedded sources
     sources=("$images"/{measure,digest,counter}.c "$built/frames.c" "$work/two/drogue.c")
     . tests/matrix/machine.sh
+    mkdir -p "$work/shim/drogue"
+    echo '#include <drogue/drogue.h>' >"$work/shim/drogue/track.h" # it is all in one header
     DROGUE_EMBEDDED_DIR=build/packaging/embedded DROGUE_EMBEDDED_OPTIMISATION=-O1 $images/embedded.sh cortex-m7
     gcc -std=c99 -O2 -I "$work/shim" -I "$work/two" -I $images "${sources[@]}" -o "$work/measure"
     "$work/measure" | grep -o 'frame [^:]*\|digest=.*' >"$work/digests"

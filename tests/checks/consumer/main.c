@@ -5,7 +5,9 @@
 #include <string.h>
 
 #include <drogue/drogue.h>
+#ifndef DROGUE_TRACK_H /* of two files the one header holds it */
 #include <drogue/track.h>
+#endif
 
 #define SIDE_PX 64
 
@@ -22,12 +24,17 @@ int main(int argc, char **argv)
     drogue_workspace workspace;
     drogue_config config;
     drogue_result result;
+    drogue_track_config tracking;
     drogue_status status;
     char header[32];
 
     snprintf(header, sizeof header, "%d.%d.%d", DROGUE_VERSION_MAJOR, DROGUE_VERSION_MINOR, DROGUE_VERSION_PATCH);
     if (argc != 2 || strcmp(argv[1], drogue_version()) != 0 || strcmp(argv[1], header) != 0) {
         printf("consumer: package %s, header %s, library %s\n", argc == 2 ? argv[1] : "?", header, drogue_version());
+        return 1;
+    }
+    drogue_track_config_default(&tracking);
+    if (!drogue_track_config_valid(&tracking)) {
         return 1;
     }
     status = drogue_workspace_init(&workspace, memory, sizeof memory, &capacity);
