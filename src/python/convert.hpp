@@ -17,6 +17,12 @@ namespace py = pybind11;
 // Nearest Q16, ties upward. ValueError outside [-32768, 32768).
 drogue_q16 to_q16(double value, const char *what);
 
+// A float, or what Python makes one of; TypeError or ValueError that names it otherwise.
+double to_number(const py::handle &value, const char *what);
+
+// As Python's own indices: no float, whatever its value. TypeError, ValueError with these words.
+int64_t to_whole(const py::handle &value, int64_t least, int64_t most, const char *no_whole, const char *outside);
+
 // ValueError that says so, where something is wrong.
 void refuse(const char *wrong);
 
@@ -25,7 +31,8 @@ struct Grey {
     py::array_t<uint8_t> pixels;
     drogue_image image;
 };
-Grey to_image(const py::array &array);
+// TypeError where it is none.
+Grey to_image(const py::object &image);
 
 drogue_camera to_camera(const py::sequence &nine);
 drogue_model to_model(const py::sequence &three);

@@ -29,8 +29,7 @@ void refuse(const char *wrong)
     }
 }
 
-// A float, or what Python makes one of; TypeError or ValueError that names it otherwise.
-static double to_number(const py::handle &value, const char *what)
+double to_number(const py::handle &value, const char *what)
 {
     const double number = PyFloat_AsDouble(value.ptr());
     if (PyErr_Occurred() == nullptr) {
@@ -47,31 +46,30 @@ static double to_number(const py::handle &value, const char *what)
     throw py::error_already_set();
 }
 
-// A coordinate or side of a region, as Python's own indices: no float, whatever its value.
-static int32_t to_pixels(const py::handle &value)
+int64_t to_whole(const py::handle &value, int64_t least, int64_t most, const char *no_whole, const char *outside)
 {
-    const long long most = 1 << 20;
     const py::object whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
     int beyond = 0;
     if (!whole) {
         PyErr_Clear();
-        throw py::type_error("x, y, width and height of a region must be whole numbers");
+        throw py::type_error(no_whole);
     }
-    const long long pixels = PyLong_AsLongLongAndOverflow(whole.ptr(), &beyond);
-    if (beyond != 0 || pixels < -most || pixels > most) {
-        throw py::value_error("a region lies within +-1048576 px");
+    const long long number = PyLong_AsLongLongAndOverflow(whole.ptr(), &beyond);
+    if (beyond != 0 || number < least || number > most) {
+        throw py::value_error(outside);
     }
-    return static_cast<int32_t>(pixels);
+    return number;
 }
 
 static double q16(int64_t v) { return static_cast<double>(v) / 65536.0; }
 
-Grey to_image(const py::array &array)
+Grey to_image(const py::object &image)
 {
     Grey grey;
-    if (!py::isinstance<py::array_t<uint8_t>>(array) || array.ndim() != 2) {
+    if (!py::isinstance<py::array_t<uint8_t>>(image) || py::reinterpret_borrow<py::array>(image).ndim() != 2) {
         throw py::type_error("the image must be a two-dimensional numpy array of uint8 (rows, columns)");
     }
+    const py::array array = py::reinterpret_borrow<py::array>(image);
     if (array.shape(0) < 1 || array.shape(1) < 1 || array.shape(0) > INT16_MAX || array.shape(1) > INT16_MAX) {
         throw py::value_error("the image must have from 1 to 32767 rows and columns");
     }
@@ -111,13 +109,16 @@ drogue_model to_model(const py::sequence &v)
 
 drogue_region to_region(const py::sequence &v)
 {
+    const int64_t most = 1 << 20;
     drogue_region r;
     int32_t *const members[] = {&r.x_px, &r.y_px, &r.width_px, &r.height_px};
     if (v.size() != 4) {
         throw py::value_error("a region is x, y, width, height");
     }
     for (size_t i = 0; i < 4; i++) {
-        *members[i] = to_pixels(v[i]);
+        *members[i] =
+            static_cast<int32_t>(to_whole(v[i], -most, most, "x, y, width and height of a region must be whole numbers",
+                                          "a region lies within +-1048576 px"));
     }
     return r;
 }
@@ -263,7 +264,7 @@ void Memory::fit_search(int32_t width)
 
 static int32_t side(int32_t pixels) { return std::min<int32_t>(pixels, DROGUE_MAX_SIDE); }
 
-static py::dict measure(const py::array &array, const py::sequence &camera_, const py::sequence &model_,
+static py::dict measure(const py::object &array, const py::sequence &camera_, const py::sequence &model_,
                         const py::object &region_, const py::dict &config_)
 {
     const Grey grey = to_image(array);
@@ -289,7 +290,7 @@ static py::dict measure(const py::array &array, const py::sequence &camera_, con
     return from_result(result);
 }
 
-static py::list search(const py::array &array)
+static py::list search(const py::object &array)
 {
     const Grey grey = to_image(array);
     py::list found;
@@ -311,8 +312,12 @@ static py::list search(const py::array &array)
     return found;
 }
 
-static py::array_t<uint8_t> canny(const py::array &array, int32_t low, int32_t high, bool smooth)
+static py::array_t<uint8_t> canny(const py::object &array, const py::object &low, const py::object &high, bool smooth)
 {
+    const auto threshold = [](const py::object &value) {
+        return static_cast<int32_t>(to_whole(value, 0, INT32_MAX, "low and high must be whole numbers",
+                                             "low and high are outside [0, 2147483647]"));
+    };
     const Grey grey = to_image(array);
     const drogue_image &image = grey.image;
     py::array_t<uint8_t> map({image.height_px, image.width_px});
@@ -320,8 +325,8 @@ static py::array_t<uint8_t> canny(const py::array &array, int32_t low, int32_t h
     drogue_frontend_config config;
     drogue_status status;
     std::memset(&config, 0, sizeof config);
-    config.canny_low = low;
-    config.canny_high = high;
+    config.canny_low = threshold(low);
+    config.canny_high = threshold(high);
     config.smooth = smooth;
     config.min_arc_px = UINT32_MAX; // no arc is that long: the points are listed all the same
     {

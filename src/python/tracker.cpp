@@ -23,7 +23,7 @@ static py::array_t<double> from_vector_q32(const int64_t v[3])
 class Tracker {
 public:
     Tracker(const py::sequence &camera, const py::sequence &model, const py::object &region, const py::dict &config_,
-            uint32_t max_missed, double min_reliability)
+            const py::object &max_missed, const py::object &min_reliability)
         : config(to_config(config_))
     {
         drogue_track_config track_config;
@@ -33,17 +33,18 @@ public:
         const drogue_model m = to_model(model);
         refuse(whole ? nullptr : ranges_region(&first));
         drogue_track_config_default(&track_config);
-        track_config.max_missed = max_missed;
-        track_config.min_reliability_q16 = to_q16(min_reliability, "min_reliability");
+        track_config.max_missed = static_cast<uint32_t>(to_whole(
+            max_missed, 0, UINT32_MAX, "max_missed must be a whole number", "max_missed is outside [0, 4294967295]"));
+        track_config.min_reliability_q16 = to_q16(to_number(min_reliability, "min_reliability"), "min_reliability");
         if (drogue_track_init(&track, &track_config, &c, &m, whole ? nullptr : &first) != DROGUE_OK) {
             throw py::value_error("min_reliability is from 0 to 1");
         }
     }
 
-    py::tuple frame(const py::array &array, double dt_s)
+    py::tuple frame(const py::object &array, const py::object &dt_s)
     {
         const Grey grey = to_image(array);
-        const double dt_us = std::floor(dt_s * 1e6 + 0.5);
+        const double dt_us = std::floor(to_number(dt_s, "the time between frames") * 1e6 + 0.5);
         drogue_result result;
         drogue_region region;
         drogue_track_estimate e;
@@ -104,8 +105,8 @@ private:
 void add_tracker(py::module_ &module)
 {
     py::class_<Tracker>(module, "Tracker")
-        .def(py::init<const py::sequence &, const py::sequence &, const py::object &, const py::dict &, uint32_t,
-                      double>())
+        .def(py::init<const py::sequence &, const py::sequence &, const py::object &, const py::dict &,
+                      const py::object &, const py::object &>())
         .def("frame", &Tracker::frame);
 }
 

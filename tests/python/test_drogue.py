@@ -315,6 +315,29 @@ def test_a_refusal_says_what_is_wrong():
     with pytest.raises(TypeError, match='of a region must be whole numbers$'):
         drogue.measure(image, DEMO, region=(1, 2, 3.0, 4))
     drogue.measure(image, DEMO, region=np.array([1, 2, 3, 4]))  # whole numbers of numpy's are
+    for no_image in (None, 'demo.png', [[1, 2], [3, 4]], image.astype(float)):
+        for call in (lambda i: drogue.measure(i, DEMO), drogue.search, drogue.Tracker(DEMO).frame,
+                     lambda i: drogue.canny(i, 1, 2)):
+            with pytest.raises(TypeError, match='^the image must be a two-dimensional numpy array of uint8'):
+                call(no_image)
+    with pytest.raises(TypeError, match='^low and high must be whole numbers$'):
+        drogue.canny(image, 1.5, 2)
+    with pytest.raises(ValueError, match='^low and high are outside'):
+        drogue.canny(image, 1, 2**40)
+    with pytest.raises(TypeError, match='^max_missed must be a whole number$'):
+        drogue.Tracker(DEMO, max_missed=1.5)
+    with pytest.raises(ValueError, match='^max_missed is outside'):
+        drogue.Tracker(DEMO, max_missed=-1)
+    with pytest.raises(TypeError, match='^min_reliability must be a number$'):
+        drogue.Tracker(DEMO, min_reliability='1')
+    with pytest.raises(TypeError, match='^the time between frames must be a number$'):
+        drogue.Tracker(DEMO).frame(image, 'x')
+
+
+def test_a_stage_without_cases_is_refused():
+    assert len(list(drogue.vectors.load(VECTORS, stage='mask'))) > 0
+    with pytest.raises(ValueError, match="no case of a stage 'masks'"):
+        next(drogue.vectors.load(VECTORS, stage='masks'))
 
 
 def test_thresholds():

@@ -45,8 +45,11 @@ def read_array(folder: Union[str, pathlib.Path], described: Mapping[str, Any]) -
 
 
 def load(folder: Union[str, pathlib.Path], stage: Optional[str] = None) -> Iterator[Case]:
-    """The cases of a folder with a manifest.json, or those of one stage."""
+    """The cases of a folder with a manifest.json, or those of one stage. ValueError where that has none: a test of no case
+    would pass."""
     manifest = json.loads((pathlib.Path(folder) / 'manifest.json').read_text())
+    if stage is not None and all(case['stage'] != stage for case in manifest['cases']):
+        raise ValueError(f'{folder}: no case of a stage {stage!r}; see stages()')
     for case in manifest['cases']:
         if stage is None or case['stage'] == stage:
             yield Case(case['id'], case['stage'], case['tier'],
