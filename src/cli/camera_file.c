@@ -158,14 +158,28 @@ static int read_size(int32_t *width_px, int32_t *height_px, const keys *k, const
                           *width_px > 0 ? f->height : f->width);
 }
 
+/* Of two values of a key readers of YAML take the first, the last or neither: none is what was meant for sure. */
+static int check_once(const keys *k, const form *f, const char *path)
+{
+    const char *const read[] = {f->matrix, f->distortion, f->width, f->height};
+    size_t i;
+    for (i = 0; i < sizeof read / sizeof read[0]; i++) {
+        const char *twice = keys_contradiction(k, read[i]);
+        if (twice != NULL) {
+            return complain(path, "has %s more than once, with different values", twice);
+        }
+    }
+    return EXIT_MEASURED;
+}
+
 static int interpret(drogue_camera *out, int32_t *width_px, int32_t *height_px, const keys *k, const char *path)
 {
     size_t i;
     for (i = 0; i < sizeof FORMS / sizeof FORMS[0]; i++) {
         const form *f = &FORMS[i];
         if (place_value(k, f->matrix, 0) != NULL) {
-            return check_model(k, path) || read_matrix(out, k, f, path) || read_distortion(out, k, f, path) ||
-                   read_size(width_px, height_px, k, f, path);
+            return check_once(k, f, path) || check_model(k, path) || read_matrix(out, k, f, path) ||
+                   read_distortion(out, k, f, path) || read_size(width_px, height_px, k, f, path);
         }
     }
     return complain(path, "has no camera_matrix (OpenCV, ROS), K (camera_info) or cam0 with intrinsics (Kalibr)");

@@ -49,6 +49,20 @@ const char *keys_value(const keys *k, const char *name)
     return NULL;
 }
 
+const char *keys_contradiction(const keys *k, const char *name)
+{
+    const size_t length = strlen(name);
+    size_t i;
+    for (i = 0; i < k->count; i++) {
+        const char *own = k->names[i];
+        if (strncmp(own, name, length) == 0 && (own[length] == '\0' || own[length] == '.') &&
+            strcmp(keys_value(k, own), own + strlen(own) + 1) != 0) {
+            return own;
+        }
+    }
+    return NULL;
+}
+
 int keys_has(const keys *k, const char *beginning)
 {
     size_t i;

@@ -19,8 +19,11 @@ typedef struct keys {
 int keys_read(keys *out, const char *path);
 void keys_free(keys *k);
 
-/* The value of a key; NULL when it is not there. */
+/* The value of a key, the first one; NULL when it is not there. */
 const char *keys_value(const keys *k, const char *name);
+
+/* Which key, of one and those nested in it, is there again with another value; NULL when none is. */
+const char *keys_contradiction(const keys *k, const char *name);
 
 /* Is there a key that begins so? */
 int keys_has(const keys *k, const char *beginning);

@@ -137,6 +137,19 @@ refused message.yaml 's/805.0/8050.0/' 'too unlike'
 refused message.yaml 's/0.003\]/0.003, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1]/' 'more than 14'
 refused opencv.xml 's,</data>,,' 'no sound XML'
 refused ros.yaml 's/data: \[800.0/data: [800.0, [/' 'no YAML'
+# Which of two was meant nobody knows, but the same twice is one: what ROS prints of a topic.
+refused opencv.yaml '$a image_width: 640' 'has image_width more than once'
+refused opencv.yaml '$a distortion_coefficients: {data: [0, 0, 0, 0]}' 'has distortion_coefficients.data.0 more than once'
+refused opencv.xml 's,</opencv_storage>,<camera_matrix><data>800. 0. 160 0. 805. 119 0. 0. 1.</data></camera_matrix>&,' \
+    'has camera_matrix.data.2 more than once'
+{ cat message.yaml && sed 's/805.0/804.0/' message.yaml; } >bad
+run 2 measure scene.png --camera bad
+says 'has k.4 more than once'
+run 0 measure scene.png --camera message.yaml $roi --json
+cp out first
+cat message.yaml message.yaml >bad
+run 0 measure scene.png --camera bad $roi --json
+cmp -s out first || fail 'a message twice: another answer'
 # Bounds of depth and of the number of keys, in both forms; as many as that are read.
 refused ros.yaml '$a deep: [[[[[[[[1]]]]]]]]' 'nested too deep'
 refused opencv.xml '$i <a><a><a><a><a><a><a><a>1</a></a></a></a></a></a></a></a>' 'nested too deep'
