@@ -9,6 +9,7 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 . hls/system/build.sh
 what=${1:?usage: route.sh system | frontend}
+[[ $what =~ ^(system|frontend)$ ]] || { echo "route: no $what" && exit 2; } # before tools: no skip of what is not there
 nextpnr=${DROGUE_NEXTPNR:-nextpnr-ecp5}
 for tool in yosys "$nextpnr"; do
     command -v "$tool" >/dev/null || { echo "route: SKIPPED: no $tool" && exit 77; }
@@ -27,7 +28,6 @@ frontend)
     files=(hls/system/alone.v)
     top=drogue_frontend_alone
     ;;
-*) echo "route: no $what" && exit 2 ;;
 esac
 hls/rtl/rtl.sh 256
 sizes=$PWD/build/hls/rtl/256
