@@ -42,7 +42,10 @@ void drogue_bank_weigh(drogue_bank *bank, const drogue_q16 value_q16[DROGUE_PARA
 
 /* Raise a variance, m^2 or rad^2, to the squared error to be expected of a parameter's prediction 'frames' ahead: the
  * chosen model's mean over one frame, more while it is of few measurements, times the square of the frames, since what
- * is unknown is mostly a rate. It allows for what no model has: a camera that shakes. */
+ * is unknown is mostly a rate. It allows for what no model has: a camera that shakes.
+ *
+ *  p  parameter, [0, DROGUE_PARAMETERS)
+ */
 void drogue_bank_allow(drogue_real *variance, const drogue_bank *bank, int p, uint32_t frames);
 
 /* Each parameter from its chosen model, or from one 'wider' by so many steps, at most the most agile one. */

@@ -110,7 +110,7 @@ int drogue_input_valid(const drogue_image *image, const drogue_setup *setup);
  *             with the lens and model of a real camera no larger
  *  setup      camera, model, thresholds, each within its range; the model's inner_radius 0: inner part unknown, both
  *             poses are given and the orientation stays unresolved
- *  image      the caller's; not written
+ *  image      the caller's, of any size; not written
  *  region     where to look, drogue about its middle, longest side 2 to 3 major semi-axes; may reach past the
  *             image, then the part inside is used and the masks stay where they were. In a region of another size the
  *             rim is cut or not in the ring, and what stands may be another edge, its covariance that edge's

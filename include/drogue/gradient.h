@@ -73,6 +73,7 @@ static inline uint16_t drogue_magnitude_l1(int16_t gx, int16_t gy)
 
 /* Gradient of a whole image; gx, gy, magnitude hold width_px * height_px each, rows adjacent.
  *
+ *  image   sides in [1, DROGUE_MAX_SIDE]
  *  return  DROGUE_OK, DROGUE_E_ARGUMENT
  */
 drogue_status drogue_gradient_image(int16_t *gx, int16_t *gy, uint16_t *magnitude, const drogue_image *image);

@@ -40,7 +40,7 @@ typedef struct drogue_kalman {
 void drogue_kalman_init(drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
                         const drogue_q16 std_q16[DROGUE_PARAMETERS][3]);
 
-/* Start one parameter anew; the others stay as they are. */
+/* Start one parameter, [0, DROGUE_PARAMETERS), anew; the others stay as they are. */
 void drogue_kalman_restart(drogue_kalman *filter, int parameter, drogue_q16 value_q16, const drogue_q16 std_q16[3]);
 
 /* Predict (35), (36): constant acceleration over dt, whose change per step has the given standard deviation s:
@@ -59,7 +59,7 @@ void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q
 void drogue_kalman_correct(drogue_kalman *filter, const drogue_q16 value_q16[DROGUE_PARAMETERS],
                            const drogue_q16 std_q16[DROGUE_PARAMETERS]);
 
-/* Measured less predicted value of parameter p, m or rad; an angle's less its whole turns. */
+/* Measured less predicted value of parameter p, [0, DROGUE_PARAMETERS), m or rad; an angle's less its whole turns. */
 void drogue_kalman_innovation(drogue_real *out, const drogue_kalman *filter, int p, drogue_q16 value_q16);
 
 /* State k (0 value, 1 rate, 2 acceleration) of every parameter, Q16, saturated. */

@@ -70,9 +70,10 @@ typedef struct drogue_quality {
 
 /* Score an ellipse from counts.
  *
- *  near    points that meet (10); total: points that were fitted, >= 1
- *  source  (11)-(15); the axis-ratio score is 0 below k2
- *  error   <= 2 LSB
+ *  near_count  points that meet (10)
+ *  total       points that were fitted, >= 1
+ *  source      (11)-(15); the axis-ratio score is 0 below k2
+ *  error       <= 2 LSB
  */
 void drogue_quality_score(drogue_quality *out, const drogue_ellipse *ellipse, uint32_t near_count, uint32_t total,
                           const drogue_quality_config *config);

@@ -10,15 +10,16 @@ extern "C" {
 /* Status of a call. */
 typedef enum drogue_status {
     DROGUE_OK = 0,
-    DROGUE_E_ARGUMENT,    /* an argument is outside its documented range */
-    DROGUE_E_REGION,      /* the region does not meet the image, exceeds DROGUE_MAX_SIDE, or ends beyond pixel 32766 */
-    DROGUE_E_WORKSPACE,   /* the workspace is too small for the region */
-    DROGUE_E_LABELS_FULL, /* more components or arcs than the workspace holds */
-    DROGUE_E_EDGES_FULL,  /* more edge points than the workspace holds */
-    DROGUE_E_ARCS_FULL,   /* more long arcs than the workspace holds */
-    DROGUE_E_NO_EDGES,    /* no edge point in the ring mask */
-    DROGUE_E_NO_ARCS,     /* no arc meets length, straightness and position */
-    DROGUE_E_NO_ELLIPSE,  /* no combination of arcs gives an acceptable ellipse */
+    DROGUE_E_ARGUMENT,  /* an argument is outside its documented range */
+    DROGUE_E_REGION,    /* the region does not meet the image, is larger than DROGUE_MAX_REGION or its part in the image
+                             than DROGUE_MAX_SIDE, or ends beyond pixel 32766 */
+    DROGUE_E_WORKSPACE, /* the workspace is too small for the region */
+    DROGUE_E_LABELS_FULL,    /* more components or arcs than the workspace holds */
+    DROGUE_E_EDGES_FULL,     /* more edge points than the workspace holds */
+    DROGUE_E_ARCS_FULL,      /* more long arcs than the workspace holds */
+    DROGUE_E_NO_EDGES,       /* no edge point in the ring mask */
+    DROGUE_E_NO_ARCS,        /* no arc meets length, straightness and position */
+    DROGUE_E_NO_ELLIPSE,     /* no combination of arcs gives an acceptable ellipse */
     DROGUE_E_TOO_FEW_POINTS, /* fewer than the six points a conic needs */
     DROGUE_E_DEGENERATE,     /* the points do not determine an ellipse */
     DROGUE_E_NO_INNER_PART,  /* no disc where the poses expect one: fewer than eight rays agree on an edge */

@@ -28,7 +28,10 @@ typedef struct drogue_capacity {
 #define DROGUE_ARCS_FOR(side_px) ((size_t)(side_px) > 896u ? 82u + (size_t)(side_px) / 64u : 96u)
 
 /* Capacity that no image of a size fills, where RAM is plenty: an edge point and a label a pixel, and arcs of no fewer
- * points than min_arc_px of the configuration that is used. */
+ * points than min_arc_px of the configuration that is used.
+ *
+ *  width_px, height_px  of the image or of its largest region, [1, DROGUE_MAX_SIDE]
+ */
 static inline void drogue_capacity_for_any(drogue_capacity *out, int32_t width_px, int32_t height_px,
                                            uint32_t min_arc_px)
 {
@@ -95,7 +98,8 @@ int drogue_workspace_spans(const drogue_workspace *workspace, const drogue_regio
  * about the same middle. */
 void drogue_workspace_narrow(drogue_region *region, const drogue_workspace *workspace, const drogue_image *image);
 
-/* Bytes that drogue_workspace_init() needs; equals DROGUE_WORKSPACE_BYTES. */
+/* Bytes that drogue_workspace_init() needs; equals DROGUE_WORKSPACE_BYTES. Of a capacity within its ranges: the sum of
+ * others may not fit a size_t. */
 size_t drogue_workspace_bytes(const drogue_capacity *capacity);
 
 /* Lay a workspace out in the caller's memory, which must live as long as the workspace.
