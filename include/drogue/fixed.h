@@ -20,7 +20,8 @@ typedef int32_t drogue_q16; /* value * 2^16, range [-32768, 32768) */
 #define DROGUE_Q16_PI 205887      /* pi, rad Q16 */
 #define DROGUE_Q16_HALF_PI 102944 /* pi / 2, rad Q16 */
 
-/* Integer n / d as a Q16 constant, rounded to nearest; for initialisers, n and d positive literals. */
+/* Integer n / d as a Q16 constant, rounded to nearest; for initialisers, n and d positive literals. A negative number:
+ * -DROGUE_Q16(n, d). */
 #define DROGUE_Q16(n, d) ((drogue_q16)(((int64_t)(n)*131072 + (d)) / (2 * (int64_t)(d))))
 
 /* Names a quantity and the number of bits that hold its magnitude. Nothing here; the checked build (tests/checked)
