@@ -130,6 +130,7 @@ enum drogue_hls_outline_word {
     DROGUE_HLS_O_PULL,                          /* five words, Q24 */
     DROGUE_HLS_O_SMEAR = DROGUE_HLS_O_PULL + 5, /* two words, px^2 Q16 */
     DROGUE_HLS_O_AXIS = DROGUE_HLS_O_SMEAR + 2, /* from which the bins count, rad Q16 */
+    DROGUE_HLS_O_OUTSIDE,                       /* parts outside which another edge shows, four bits */
     DROGUE_HLS_OUTLINE_WORDS
 };
 

@@ -43,7 +43,6 @@ static void forget(drogue_result *out)
 typedef struct best_try {
     drogue_q16 least_q16;  /* its doubt; DROGUE_Q16_MAX: it has no outline */
     drogue_q16 larger_q16; /* as the frame's */
-    uint32_t outside;      /* parts of its outline that show another edge outside */
     int smeared;           /* does motion blur its outline, or what is taken for that? */
     drogue_held held;      /* the edges that it is of */
     drogue_result *result; /* the workspace's, which leaves the stack free */
@@ -59,7 +58,6 @@ static void keep(best_try *best, const drogue_frame *f, drogue_status status)
 {
     best->least_q16 = f->doubt_q16;
     best->larger_q16 = f->larger_q16;
-    best->outside = f->outline.outside;
     best->smeared = seems_smeared(f);
     best->held = f->held;
     *best->result = *f->out;
@@ -229,7 +227,7 @@ static void try_beyond(best_try *best, drogue_frame *f)
 static int asks_outer(const best_try *best)
 {
     const drogue_result *was = best->result;
-    return was->status == DROGUE_OK && was->tried != DROGUE_TRIED_RAYS && best->outside > 0 &&
+    return was->status == DROGUE_OK && was->tried != DROGUE_TRIED_RAYS && was->outside > 0 &&
            (best->least_q16 != DROGUE_Q16_ONE || was->cover_q16 >= ALONE_Q16);
 }
 
@@ -282,7 +280,7 @@ static int lies_within(const drogue_ellipse *e, const drogue_image *image)
  * is dark is shade then, which hides the disc, and not the disc of a larger rim. */
 static int is_outermost(const best_try *best, const drogue_frame *f)
 {
-    return best->result->cover_q16 >= WHOLE_Q16 && best->outside == 0 &&
+    return best->result->cover_q16 >= WHOLE_Q16 && best->result->outside == 0 &&
            (best->larger_q16 == 0 || best->larger_q16 > SHADE_Q16) &&
            (f->ring_px_q16 <= best->result->ellipse.a_px_q16 || f->ring_cover_q16 < SHOWS_Q16);
 }

@@ -16,6 +16,7 @@ static void describe(drogue_result *out, const drogue_outline *outline)
     out->cluster_members = outline->cluster_members;
     out->refit_points = outline->refit_points;
     out->cover_q16 = outline->cover_q16;
+    out->outside = outline->support.outside;
     out->ellipse = outline->ellipse;
     drogue_frame_move(&out->ellipse, out->region.x_px, out->region.y_px);
     out->ideal = out->ellipse;
@@ -91,7 +92,7 @@ drogue_status drogue_frame_judge(drogue_frame *f)
         find_inner(&evidence, f);
     }
     status = decide(out, &evidence, f->setup);
-    if (status == DROGUE_OK && out->has_inner && out->doubt_q16 > f->doubt_q16) {
+    if (status == DROGUE_OK && out->has_inner && out->doubt_q16 > drogue_doubt_outside(f->doubt_q16, out->outside)) {
         f->doubt_q16 += DROGUE_CONTRADICTION_Q16; /* or the outline is too far: another one may be right */
     }
     return status;

@@ -156,6 +156,7 @@ static inline void frame_put_outline(frame *f, const drogue_pose poses[2], const
     w[DROGUE_HLS_O_AXIS] = o->support.axis_rad_q16;
     memcpy(w + DROGUE_HLS_O_PULL, o->support.pull_q24, sizeof o->support.pull_q24);
     memcpy(w + DROGUE_HLS_O_SMEAR, o->support.smear_px2_q16, sizeof o->support.smear_px2_q16);
+    w[DROGUE_HLS_O_OUTSIDE] = (int32_t)o->support.outside;
 }
 
 /* The first half of the back end, after the front end; also puts its words. */

@@ -87,6 +87,7 @@ static inline void put_support(int32_t words[DROGUE_HLS_OUTLINE_WORDS], const dr
     words[DROGUE_HLS_O_BRIGHT_BINS] = (int32_t)support->bright_bins;
     words[DROGUE_HLS_O_COVERED] = (int32_t)support->covered;
     words[DROGUE_HLS_O_AXIS] = support->axis_rad_q16;
+    words[DROGUE_HLS_O_OUTSIDE] = (int32_t)support->outside;
     for (k = 0; k < 5; k++) {
         words[DROGUE_HLS_O_PULL + k] = support->pull_q24[k];
     }

@@ -21,6 +21,7 @@ static inline void get_support(drogue_support *support, const int32_t words[DROG
     support->bright_bins = (uint32_t)words[DROGUE_HLS_O_BRIGHT_BINS];
     support->covered = (uint32_t)words[DROGUE_HLS_O_COVERED];
     support->axis_rad_q16 = words[DROGUE_HLS_O_AXIS];
+    support->outside = (uint32_t)words[DROGUE_HLS_O_OUTSIDE] & 15u;
     for (k = 0; k < 5; k++) {
         support->pull_q24[k] = words[DROGUE_HLS_O_PULL + k];
     }

@@ -125,11 +125,11 @@ static void frame_words(int32_t words[38], const frame *f)
     memcpy(words + 20, result + DROGUE_HLS_R_POSE, 18 * sizeof *words);
 }
 
-static void detail_words(int32_t words[18], const frame *f)
+static void detail_words(int32_t words[19], const frame *f)
 {
     const int32_t *o = f->words;
     const int found = o[DROGUE_HLS_O_FOUND] == DROGUE_OK;
-    memset(words, 0, 18 * sizeof *words);
+    memset(words, 0, 19 * sizeof *words);
     memset(words + 6, 0xFF, 4 * sizeof *words);
     words[0] = f->region.x_px;
     words[1] = f->region.y_px;
@@ -143,6 +143,7 @@ static void detail_words(int32_t words[18], const frame *f)
         words[15] = o[DROGUE_HLS_O_CLUSTER_MEMBERS];
         words[16] = o[DROGUE_HLS_O_COVER];
         words[17] = result[DROGUE_HLS_R_DOUBT];
+        words[18] = o[DROGUE_HLS_O_OUTSIDE];
     }
 }
 
@@ -165,7 +166,7 @@ static int refused_after(const frame *f, const conf_case *c)
 static int judge(bench *b, const frame *f, const conf_case *c)
 {
     int32_t words[38];
-    int32_t detail[18];
+    int32_t detail[19];
     const int refused = f->result.status == DROGUE_E_ARGUMENT;
     if (drogue_status_full(f->front) || (!refused && !first_look(f, c)) || refused_after(f, c)) {
         return 0;

@@ -39,10 +39,10 @@ typedef struct drogue_decision {
  * wrong by more than they say, and which pose it is stays clear. Where there is an inner part, the covariance is chi2
  * times as large where that, 0.5 on average of frames that are as supposed, is above 1, and max_chi2 times that of the
  * outline alone; and what the inner part's size puts in doubt is added, at least DROGUE_CONTRADICTED_Q16 where they
- * contradict each other. Where the orientation is resolved and the inner part says that the outline's pose is too far,
- * both poses are brought nearer by that share, and at least so much is in doubt: by all of it from a chi2 of 3 on, by
- * none up to 1, and by the less the nearer the frame's smear is to 1.25 px^2, since motion blur moves the disc's edge,
- * too; up to 0.25 px^2 by all. Where the model has an inner part and none is to be believed, the outline may be another
+ * contradict each other, with what another edge outside does. Where the orientation is resolved and the inner part says
+ * that the outline's pose is too far, both poses are brought nearer by that share, and at least so much is in doubt: by
+ * all of it from a chi2 of 3 on, by none up to 1, and by the less the nearer the frame's smear is to 1.25 px^2, since
+ * motion blur moves the disc's edge, too; up to 0.25 px^2 by all. Where the model has an inner part and none is to be believed, the outline may be another
  * edge than the rim, or partly: 1.1 % of its size is added to every parameter of the outline.
  *
  *  out     undefined on failure
@@ -53,6 +53,14 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
 #define DROGUE_CONTRADICTED_Q16 DROGUE_Q16(1, 64) /* least doubt where outline and inner part do so */
 
 #define DROGUE_DOUBT_PACKED 6 /* x, y, z: the first entries of a packed covariance that begins with them */
+
+/* A doubt and that of an outline outside which another edge shows: the rim's, of which it is an inner one, all the more
+ * likely in more parts. k of its eight parts put k^2 / 640 of the distance in doubt, beside what else does.
+ *
+ *  outside  [0, 8]
+ *  return   root of the sum of squares, below 1, Q16, rounded
+ */
+drogue_q16 drogue_doubt_outside(drogue_q16 doubt_q16, uint32_t outside);
 
 /* Add a doubt to a covariance. An inner part that is not of its size may be that of a larger outline: half the square
  * of that share of the position, since where it is one, the distance is off by about twice as much. The larger outline

@@ -78,12 +78,14 @@ typedef struct drogue_result {
     uint32_t cluster_members; /* candidates that agree with the winner, itself included */
     uint32_t refit_points;    /* points in the final fit */
     drogue_q16 cover_q16;     /* edge points that belong to the outline over its circumference, at most 1 */
-    int32_t has_inner;        /* 1: an inner part was found and believed: of its size, in its place, with contrast */
-    drogue_inner_part inner;  /* its centre, as seen; meaningful when has_inner */
-    drogue_pose pose;         /* the pose chosen; unresolved: the one nearer to what is dark inside, unproved */
-    drogue_pose alternative;  /* the other one that the outline allows */
+    uint32_t outside;  /* parts of the ellipse, of eight, outside which another edge shows: that may be the rim's */
+    int32_t has_inner; /* 1: an inner part was found and believed: of its size, in its place, with contrast */
+    drogue_inner_part inner;      /* its centre, as seen; meaningful when has_inner */
+    drogue_pose pose;             /* the pose chosen; unresolved: the one nearer to what is dark inside, unproved */
+    drogue_pose alternative;      /* the other one that the outline allows */
     int32_t orientation_resolved; /* 1: the inner part decided between the two */
-    drogue_q16 doubt_q16;      /* share of the distance that is in doubt by the inner part, [0, 1): in the covariance */
+    drogue_q16 doubt_q16;      /* share of the distance that is in doubt by the inner part and by another edge outside,
+                                  [0, 1): in the covariance */
     drogue_q16 ambiguity_q16;  /* [0, 1]: nearer over farther distance of the projected inner centres; 1 without one */
     int32_t covariance_halved; /* so often are all entries halved, for a variance of 2^15 or more to fit; mostly 0 */
     int64_t covariance_q48[5][5];  /* of x, y, z (m), yaw, pitch (rad); Q48, symmetric */

@@ -31,7 +31,6 @@ typedef struct drogue_outline {
     drogue_q16 band_px_q16;   /* half width of the band about the ellipse that they lie in */
     drogue_support support;   /* of the last fit */
     int32_t outer;            /* 1: the rim's outer edge along rays, see drogue_outline_pull() */
-    uint32_t outside;         /* parts, of eight, that show another edge outside, as drogue_outline_pull() sees them */
 } drogue_outline;
 
 /* Moments of points, 1 / 2^frac_bits px from an origin. */

@@ -34,18 +34,6 @@ typedef struct drogue_sighting {
     uint32_t score;       /* by evenness and contrast of disc and rim; compares those of one list of one frame */
 } drogue_sighting;
 
-/* What drogue_acquire() weighs of a measurement. */
-typedef struct drogue_weighed {
-    int32_t worth;             /* 0: there is no pose */
-    int32_t where;             /* it was measured: a number that drogue_acquire() gives the place */
-    drogue_q16 a_px_q16;       /* of the outline: its semi-major axis */
-    drogue_q16 xc_px_q16;      /* its centre */
-    drogue_q16 yc_px_q16;      /* its centre, downward */
-    drogue_q16 inner_x_px_q16; /* of the inner part: its centre */
-    drogue_q16 inner_y_px_q16; /* its centre, downward */
-    drogue_q16 inner_px_q16;   /* its radius where it decides and the outline is sure; else 0 */
-} drogue_weighed;
-
 /* A search in progress; set by drogue_search_init(). */
 typedef struct drogue_search {
     uint8_t *memory;     /* the caller's */
@@ -56,16 +44,15 @@ typedef struct drogue_search {
     int32_t rows_in;    /* fed so far */
     int32_t count;      /* of sightings */
     int32_t dark_count; /* of dark discs */
-    int32_t darkest;    /* grey of the darkest whole 4 x 4 px, 255 where there are none. Haze and glare lift it */
     drogue_search_level levels[DROGUE_SEARCH_LEVELS]; /* from 2 to 64 px a cell */
     drogue_sighting best[DROGUE_SEARCH_MAX];          /* by falling score */
     /* Dark discs, by falling score; radius and region are the disc's until drogue_acquire() makes them the rim's. Of a
      * model without an inner part it keeps none. */
     drogue_sighting dark[DROGUE_SEARCH_DARK];
-    drogue_region asked;   /* drogue_acquire()'s work area: what is to be measured, */
-    drogue_weighed last;   /* what was measured last, */
-    drogue_weighed stands; /* and the best so far */
-    drogue_result found;   /* drogue_track_frame()'s work area: what it acquired beside what it measured */
+    drogue_region asked; /* drogue_acquire()'s work area: what is to be measured, */
+    int32_t worth_q16;   /* of the best result so far; 0: there is none with a pose */
+    int32_t where;       /* it was measured: a number that drogue_acquire() gives the place */
+    drogue_result found; /* drogue_track_frame()'s work area: what it acquired beside what it measured */
 } drogue_search;
 
 /* Lay a search out in the caller's memory, which must live as long as the search.
@@ -77,8 +64,8 @@ typedef struct drogue_search {
 drogue_status drogue_search_init(drogue_search *search, void *memory, size_t bytes, int32_t width_px);
 
 /* Begin a frame; DROGUE_E_WORKSPACE when it is wider than the memory, DROGUE_E_ARGUMENT when width_px < 1,
- * min_contrast is out of range or the search was not set up. Refused, the search is still in the frame before: feed no
- * rows. */
+ * min_contrast is out of range or the search was not set up. Refused, the search has no
+ * sightings: feed no rows. */
 drogue_status drogue_search_begin(drogue_search *search, int32_t width_px);
 
 /* Feed the next row, width_px grey levels; the row is copied. */
@@ -87,22 +74,27 @@ void drogue_search_row(drogue_search *search, const uint8_t *row);
 /* End the frame: search->best[0 .. count - 1] are its sightings. Returns the count. */
 int32_t drogue_search_end(drogue_search *search);
 
-/* Is enough of a drogue seen in a measurement to begin with it?
+/* Log odds that a result is the drogue's pose: of many with as much the share 1 / (1 + exp(-L)) is right, to 3 % of its
+ * distance and 10 degrees. Where an inner part is believed
  *
- * For a model without an inner part: a cover of 3/4 and a reliability of 0.9. Else an inner part of a contrast of at
- * least a quarter of the grey at its edge must be there, with a doubt of at most 1/8, and the first row that fits says
- * what cover is asked for; r is the radius that the model expects in this outline:
+ *   L = (5 log2(r) + 10 cover - 18 spread - 2 outside + 2 decided) / 3 - 4
  *
- *   orientation              spread      r      radius off by at most   cover
- *   resolved, doubt < 1/64   <= 0.5 px   5 px   0.2 px + r / 64         1/2
- *   resolved, doubt < 1/64   <= 0.3 px          0.3 px + r / 25         0.6
- *   resolved, doubt < 1/64                      0.3 px + r / 25         0.9
- *                            <= 0.3 px          0.6 px + r / 10         3/4
- *   resolved                             5 px   0.6 px + r / 10         31/32, and a reliability of 0.99
+ * by what the result says: r is the radius of the inner part that the model expects in this outline, px, at least 1;
+ * spread that of the inner part, px; decided 1 where the orientation is resolved and the doubt below 1/64. But -3 and
+ * the cover where none is believed, or it is not of the size expected, to 0.6 px and a tenth, or no more than dark:
+ * unresolved, with an ambiguity above 0.9; or not decided, with a contrast below a quarter of the grey at its edge.
+ * Source: logistic regression, docs/accuracy.md.
  *
- * Two more suffice. One that lies beside its place: a spread of at most 0.5 px, r >= 9 px, a radius off by at most
- * 0.3 px + r / 25, a doubt of at most 1/64 and a cover of 7/8. And one that shade makes larger than the doubt and the
- * rows allow: resolved, a spread of at most 0.3 px, r >= 3.5 px, a doubt of at most 0.3 and a cover of 3/4.
+ *  r       of status DROGUE_OK
+ *  return  Q16, within [-64, 64]; error 2 LSB and what 2^-14 px are of sqrt(a b), in log2(r), of which straight lines
+ *          from one power to the next are taken, up to 0.086 below
+ */
+int32_t drogue_result_log_odds_q16(const drogue_result *r, const drogue_model *model);
+
+#define DROGUE_SURE_Q16 DROGUE_Q16(1, 2) /* log odds of what is sure */
+
+/* Is enough of a drogue seen in a measurement to begin with it? Log odds of 1/2; for a model without an inner part a
+ * cover of 3/4 and a reliability of 0.9.
  *
  *  r  of status DROGUE_OK
  */
@@ -110,30 +102,21 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
 
 /* Search a part of an image, and measure what was sighted:
  *
- *  - the sightings in order of score, until an inner part of its size decides the orientation within an outline covered
- *    to four fifths; after that only what has 9/8 to 2 times the radius about the same middle;
+ *  - the sightings in order of score, until one is sure whose inner part decides the orientation and agrees with the
+ *    outline; after that only what has 9/8 to 2 times the radius about the same middle;
  *  - where nothing is sure yet, one after another until something is: the drogue that the model puts about each dark
  *    disc; the first two sightings in regions a quarter larger, as far as the workspace is wide enough, since what was
  *    sighted may be an edge within the drogue; the part itself where it has at most 512 px a side.
  *    Without an inner part in the model only the last, of any size.
  *
- * What is sure is what drogue_result_sure() says, and where haze or glare lifts every grey, what has its contrast
- * above the darkest 4 x 4 px of the part, as any disc has that is the darkest there itself: it must be resolved with a
- * doubt < 1/64, r >= 5 px, a radius off by at most 0.3 px + r / 25 and a cover of 0.9; of what fits the first row 0.6.
- *
- * The result is the one of most cover, less the share that the inner part's radius is off, among those that are sure
- * and whose inner part decides; or else that are sure; or else of all, an inner part counting as a quarter of cover,
- * and one that decides as another. Two things go before it. Of two sure outlines whose inner parts are within 1 px of
- * each other and whose semi-axes differ by more than an eighth the larger one has an eighth of cover more. And what
- * lies about the inner part of a sure outline that decides, to half its radius, and has less than twice its radius and
- * four fifths of that outline's semi-axis, is a part of that, whatever it is worth.
+ * The result is the one of the largest log odds; for a model without an inner part that of most cover among those that
+ * are sure, or else of all. Of equals the first stands.
  *
  *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured. Where nothing is measured or
  *          sure, second_look says of any place tried, or too large to be, that there was too little room for it
  *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not
  *          measured itself
- *  return  DROGUE_OK when what was measured is sure as above, which drogue_result_sure() may deny of a drogue in haze,
- *          since it knows no darkest grey; DROGUE_E_UNSURE: something was measured, but less than that;
+ *  return  DROGUE_OK when what was measured is sure; DROGUE_E_UNSURE: something was measured, but less than that;
  *          DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else, of what was measured, the
  *          status that comes last in drogue_status: how far the best attempt got; and DROGUE_E_NO_INNER_PART where
  *          nothing was sighted

@@ -32,8 +32,9 @@ typedef struct drogue_support {
     int32_t smear_px2_q16[2]; /* motion blur: variance along the motion less that across it, px^2, times cosine and sine
                                  of twice its angle from +x; less what edges differ by without: 0 where none stands
                                  out */
-    drogue_q16 axis_rad_q16;  /* from which the bins count, the angle of the ellipse that they are about */
-    uint32_t covered;         /* covered bins, less one for each change of polarity round the outline; at least 0 */
+    uint32_t outside;        /* parts of the outline, of eight, that show another edge outside: drogue_outline_pull() */
+    drogue_q16 axis_rad_q16; /* from which the bins count, the angle of the ellipse that they are about */
+    uint32_t covered;        /* covered bins, less one for each change of polarity round the outline; at least 0 */
 } drogue_support;
 
 /* From the counts, decide the polarity of each bin and how many bins are covered.

@@ -128,7 +128,7 @@ static void pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], const dr
         for (across = 0; across < 2; across++) {
             const int32_t group = i + across * (GROUPS / 2);
             drogue_see_edge(&edge[across], slope[across]);
-            outline->outside += (uint32_t)drogue_edge_outside(slope[across]);
+            outline->support.outside += (uint32_t)drogue_edge_outside(slope[across]);
             variance_px2_q16[group] = edge[across].variance_px2_q16;
             cut_q20[group] = white[across] * config->optics_blur_px_q16; /* of 16 rays half of it, in half pixels */
         }
@@ -163,7 +163,7 @@ void drogue_outline_pull(drogue_outline *outline, drogue_ray rays[DROGUE_RAYS], 
         memset(outline->support.pull_q24, 0, sizeof outline->support.pull_q24);
     }
     memset(outline->support.smear_px2_q16, 0, sizeof outline->support.smear_px2_q16);
-    outline->outside = 0;
+    outline->support.outside = 0;
     outline->ellipse = outline->fitted;
     if (outline->fitted.b_px_q16 < DROGUE_Q16_ONE) {
         return;

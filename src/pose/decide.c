@@ -135,6 +135,13 @@ static void add_spread(drogue_joint *joint, const drogue_pose *other)
     }
 }
 
+drogue_q16 drogue_doubt_outside(drogue_q16 doubt_q16, uint32_t outside)
+{
+    const int32_t of_outside_q16 = (int32_t)(outside * outside) * DROGUE_Q16(1, 640);
+    const uint32_t twice_q16 = drogue_isqrt_u64(4 * drogue_square_sum(doubt_q16, of_outside_q16));
+    return drogue_clamp_s32((int32_t)((twice_q16 + 1) / 2), 0, DROGUE_Q16_ONE - 1);
+}
+
 void drogue_doubt_add(drogue_real covariance[DROGUE_DOUBT_PACKED], const drogue_q16 position_m_q16[3],
                       drogue_q16 doubt_q16, drogue_q16 rim_radius_m_q16)
 {
@@ -273,6 +280,7 @@ drogue_status drogue_decide(drogue_decision *out, const drogue_evidence *evidenc
     out->pose = joint.pose;
     out->doubt_q16 = doubt_of(evidence, agree);
     out->doubt_q16 = out->doubt_q16 > nearer_q16 ? out->doubt_q16 : nearer_q16;
+    out->doubt_q16 = drogue_doubt_outside(out->doubt_q16, evidence->support->outside);
     drogue_doubt_add(joint.covariance, joint.pose.position_m_q16, out->doubt_q16, setup->model->rim_radius_m_q16);
     if (!out->orientation_resolved) {
         add_spread(&joint, &out->alternative);

@@ -11,8 +11,7 @@
 #define SCALES DROGUE_SEARCH_SCALES
 #define REACH DROGUE_SEARCH_REACH
 #define RING DROGUE_SEARCH_RING
-#define PLACES 128      /* looked at together */
-#define DARKEST_LEVEL 1 /* cells of 4 px: noise is averaged, and the smallest disc still fills one */
+#define PLACES 128 /* looked at together */
 
 static const int32_t ring_q4[SCALES] = {36, 51, 72, 86}; /* radius of the circle, 16ths of a cell */
 
@@ -33,29 +32,27 @@ drogue_status drogue_search_init(drogue_search *search, void *memory, size_t byt
 
 drogue_status drogue_search_begin(drogue_search *search, int32_t width_px)
 {
-    uint8_t *next;
+    const drogue_status status =
+        width_px < 1 || search->memory == NULL || search->min_contrast < 0 || search->min_contrast > 255
+            ? DROGUE_E_ARGUMENT
+        : width_px > search->capacity_px ? DROGUE_E_WORKSPACE
+                                         : DROGUE_OK;
+    const int32_t width = status == DROGUE_OK ? width_px : 0; /* refused it is in an empty frame */
+    uint8_t *next = search->memory + width;                   /* a row of pixels waits before it */
     int k;
-    if (width_px < 1 || search->memory == NULL || search->min_contrast < 0 || search->min_contrast > 255) {
-        return DROGUE_E_ARGUMENT;
-    }
-    if (width_px > search->capacity_px) {
-        return DROGUE_E_WORKSPACE;
-    }
-    next = search->memory + width_px; /* a row of pixels waits before it */
-    search->width_px = width_px;
+    search->width_px = width;
     search->rows_in = 0;
     search->count = 0;
     search->dark_count = 0;
-    search->darkest = 255;
     for (k = 0; k < DROGUE_SEARCH_LEVELS; k++) {
         drogue_search_level *level = &search->levels[k];
         level->rows = next;
-        level->width = width_px >> (k + 1);
+        level->width = width >> (k + 1);
         level->rows_in = 0;
         level->pending_count = 0;
         next += DROGUE_SEARCH_ROWS * level->width;
     }
-    return DROGUE_OK;
+    return status;
 }
 
 /* A circle about a disc, in pixels. */
@@ -217,16 +214,6 @@ static void scan_row(drogue_search *search, int k, int32_t y)
     judge_above(search, k, y - RING);
 }
 
-static int32_t least_of(const uint8_t *row, int32_t width, int32_t least)
-{
-    uint8_t lowest = (uint8_t)least;
-    int32_t x;
-    for (x = 0; x < width; x++) {
-        lowest = row[x] < lowest ? row[x] : lowest;
-    }
-    return lowest;
-}
-
 void drogue_search_row(drogue_search *search, const uint8_t *row)
 {
     const uint8_t *above = search->memory;
@@ -242,9 +229,6 @@ void drogue_search_row(drogue_search *search, const uint8_t *row)
         const int32_t y = level->rows_in;
         drogue_search_halve(level->rows + (y % DROGUE_SEARCH_ROWS) * level->width, level->width, above, below);
         level->rows_in++;
-        if (k == DARKEST_LEVEL) {
-            search->darkest = least_of(drogue_search_level_row(level, y), level->width, search->darkest);
-        }
         if (y >= REACH) {
             scan_row(search, k, y - REACH);
         }

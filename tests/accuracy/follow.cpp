@@ -39,7 +39,21 @@ cv::Mat contact_sheet(const std::vector<cv::Mat> &images, int columns, const cv:
     return sheet;
 }
 
-void print_frames(const Options &o, bool has_drogue)
+/* Of measurements whose log odds lie from one whole number to the next: how many are right, and how many they expect. */
+struct Odds {
+    int frames = 0, right = 0;
+    double expected = 0;
+};
+
+void print_odds(const std::map<int, Odds> &odds)
+{
+    std::printf("log odds         measured  right  expected\n");
+    for (const auto &[from, o] : odds) {
+        std::printf("%3d to %3d       %9d %6d %9.1f\n", from, from + 1, o.frames, o.right, o.expected);
+    }
+}
+
+void print_frames(const Options &o, bool has_drogue, std::map<int, Odds> &odds)
 {
     struct Count {
         int frames = 0, hit = 0, wrong = 0, none = 0, unsure = 0, sighted = 0, can_be = 0, can_decide = 0;
@@ -76,6 +90,12 @@ void print_frames(const Options &o, bool has_drogue)
             by[a < 12 ? "a < 12 px" : a < 40 ? "a 12 to 40 px" : "a > 40 px"].add(found[i]);
         }
         statuses[found[i].result.status]++;
+        if (!std::isnan(found[i].log_odds)) {
+            Odds &own = odds[static_cast<int>(std::floor(std::clamp(found[i].log_odds, -3.0, 5.0)))];
+            own.frames++;
+            own.right += found[i].finding == Finding::hit || found[i].unsure_right;
+            own.expected += 1 / (1 + std::exp(-found[i].log_odds));
+        }
         ms.push_back(1e3 * found[i].seconds);
         if (o.list && found[i].finding != (has_drogue ? Finding::hit : Finding::none)) {
             const drogue_result &r = found[i].result;
@@ -219,8 +239,10 @@ int main(int argc, char **argv)
         }
     }
     if (frames) {
-        print_frames(o, true);
-        print_frames(o, false);
+        std::map<int, Odds> odds;
+        print_frames(o, true, odds);
+        print_frames(o, false, odds);
+        print_odds(odds);
     }
     return courses && !print_courses(o) && o.bars;
 }

@@ -137,6 +137,9 @@ Search search_whole(const WholeFrame &frame)
     (void)drogue_acquire(&s.result, &search, &workspace, &setup, &view, nullptr);
     s.seconds = thread_seconds() - before;
     s.finding = s.result.status != DROGUE_OK ? Finding::none : right(s.result, frame) ? Finding::hit : Finding::wrong;
+    s.log_odds = s.result.status == DROGUE_OK || s.result.status == DROGUE_E_UNSURE
+                     ? drogue_result_log_odds_q16(&s.result, &model) / 65536.0
+                     : std::nan("");
     s.unsure_right = s.result.status == DROGUE_E_UNSURE && right(s.result, frame);
     s.sighted = -1;
     for (int k = search.count - 1; k >= 0 && frame.has_drogue; k--) {

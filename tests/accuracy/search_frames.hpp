@@ -27,6 +27,7 @@ struct Search {
     Finding finding;
     drogue_result result;
     double seconds;          /* of the thread */
+    double log_odds;         /* of what was measured, sure or not; NaN: nothing was */
     bool unsure_right;       /* it would have been a hit, had the search been sure */
     int sighted;             /* rank of the sighting that suits; -1: none */
     bool can_be, can_decide; /* measured in the true region it is right, and its inner part decides */

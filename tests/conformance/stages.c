@@ -251,7 +251,7 @@ static const stage_spec stages[] = {
       {"config", 32, CONF_CONFIG_WORDS, OPTIONAL}}},
     {"decide",
      stage_decide,
-     {{"ellipse", 32, 5, FIXED}, {"camera", 32, 9, FIXED}, {"bins", 32, 64, FIXED}, {"params", 32, 30, FIXED}}},
+     {{"ellipse", 32, 5, FIXED}, {"camera", 32, 9, FIXED}, {"bins", 32, 64, FIXED}, {"params", 32, 31, FIXED}}},
     {"look",
      stage_look,
      {{"image", 0, 0, FIXED}, {"camera", 32, 9, FIXED}, {"model", 32, 3, FIXED}, {"params", 32, 9, FIXED}}},

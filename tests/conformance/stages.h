@@ -101,12 +101,12 @@ enum {
  *               -> frame: status, ellipse 5, ideal 5, polarity, bit set of quadrants with an arc, refit_points,
  *                  has_inner, inner x y area threshold spread, pose 8, alternative 8, resolved, ambiguity;
  *                  detail: region 4, edge_count arc_count, arc of each quadrant (-1: none),
- *                  fit_ratio length_ratio axis_ratio score reliability, members, cover;
+ *                  fit_ratio length_ratio axis_ratio score reliability, members, cover, doubt, outside;
  *                  covariance (64 bits, Q48) as of 'joint'; std (64 bits, Q32): x y z, axis;
  *                  whatever is known for every status
  *  decide       ellipse; camera; bins as of 'joint'; params: rim_radius inner_radius inner_depth, two poses (position 3,
  *               axis 3, yaw, pitch), nearer (whole), inner x y std, shading blur max_chi2 min_chi2_gap, gradient (whole), doubt
- *               too_far -> decision: status, pose 8, alternative 8, resolved, doubt; covariance and std as of 'frame'
+ *               too_far outside (whole) -> decision: status, pose 8, alternative 8, resolved, doubt; covariance and std as of 'frame'
  *  look         image; camera; model; params (whole): region x y width height, the workspace's width edges labels arcs
  *               -> looked: status second_look tried, region used 4, cover, ellipse 5, has_inner resolved
  *  rim          image: cells, at most 48 high; disc (whole): x y, ring (Q4), contrast

@@ -68,7 +68,7 @@ static void put_sightings(int32_t *out, const drogue_sighting *sightings, int32_
 int stage_search(stage_run *r)
 {
     const drogue_image image = r->image;
-    int32_t *out = stage_output32(r, "sightings", 4 + 8 * (DROGUE_SEARCH_MAX + DROGUE_SEARCH_DARK));
+    int32_t *out = stage_output32(r, "sightings", 3 + 8 * (DROGUE_SEARCH_MAX + DROGUE_SEARCH_DARK));
     drogue_search search;
     int32_t y;
     if (out == NULL || !new_search(r, &search, image.width_px)) {
@@ -84,9 +84,8 @@ int stage_search(stage_run *r)
     }
     out[1] = drogue_search_end(&search);
     out[2] = search.dark_count;
-    out[3] = search.darkest;
-    put_sightings(out + 4, search.best, search.count);
-    put_sightings(out + 4 + 8 * DROGUE_SEARCH_MAX, search.dark, search.dark_count);
+    put_sightings(out + 3, search.best, search.count);
+    put_sightings(out + 3 + 8 * DROGUE_SEARCH_MAX, search.dark, search.dark_count);
     return 0;
 }
 

@@ -67,11 +67,12 @@ int stage_decide(stage_run *r)
     config.min_chi2_gap_q16 = p[26];
     if (!drogue_config_valid(&config) ||
         !stage_support_of_words(&support, stage_input32(r, 2), p[27], stage_input32(r, 0)[4]) || p[22] < 0 ||
-        p[28] < 0 || p[29] < 0 || camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 || p[0] <= 0 || p[1] < 0 ||
-        !stage_angle_valid(&evidence.ideal) || evidence.ideal.b_px_q16 < DROGUE_Q16_ONE ||
+        p[28] < 0 || p[29] < 0 || p[30] < 0 || p[30] > 8 || camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 ||
+        p[0] <= 0 || p[1] < 0 || !stage_angle_valid(&evidence.ideal) || evidence.ideal.b_px_q16 < DROGUE_Q16_ONE ||
         evidence.ideal.a_px_q16 < evidence.ideal.b_px_q16) {
         return CONF_E_MALFORMED;
     }
+    support.outside = (uint32_t)p[30];
     out[0] = (int32_t)drogue_decide(&decision, &evidence, &(drogue_setup){&camera, &model, &config});
     if (out[0] == (int32_t)DROGUE_OK) {
         int32_t *at = stage_put_pose(stage_put_pose(out + 1, &decision.pose), &decision.alternative);

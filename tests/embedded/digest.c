@@ -5,7 +5,7 @@
 #if defined(__x86_64__)
 /* A size that differs: members were added or removed. Bring the functions below up to date, then the size. */
 #define COVERED(type, bytes) typedef char digest_covers_##type[sizeof(type) == (bytes) ? 1 : -1]
-COVERED(drogue_result, 464);
+COVERED(drogue_result, 472);
 COVERED(drogue_ellipse, 20);
 COVERED(drogue_quality, 20);
 COVERED(drogue_pose, 32);
@@ -65,7 +65,7 @@ uint64_t digest_result(uint64_t d, const drogue_result *r)
     d = add_ellipse(d, &r->ideal);
     d = add_quality(d, &r->quality);
     d = add(add(add(d, (int64_t)r->polarity), r->cluster_members), r->refit_points);
-    d = add(add(d, r->cover_q16), r->has_inner);
+    d = add(add(add(d, r->cover_q16), r->outside), r->has_inner);
     d = add_inner_part(d, &r->inner);
     d = add_pose(d, &r->pose);
     d = add_pose(d, &r->alternative);

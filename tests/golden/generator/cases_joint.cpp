@@ -277,6 +277,7 @@ struct Evidence {
     double max_chi2 = 16, gap = 9;
     double doubt = 0;   /* share by which the inner part is not of its size */
     double too_far = 0; /* share by which the outline's pose is */
+    int outside = 0;    /* parts outside which another edge shows */
     int behind = -1;    /* pose whose z is negative */
     bool inner = true;
 };
@@ -301,7 +302,7 @@ void add_evidence(Set &set, const std::string &name, Tier tier, const Flags &fla
     params.push_back(w.params[9]);
     params.push_back(e.inner ? w.params[10] : 0);
     params.insert(params.end(), {w.params[11], w.params[12], q16(e.max_chi2), q16(e.gap), w.params[13], q16(e.doubt),
-                                 q16(e.too_far)});
+                                 q16(e.too_far), e.outside});
     set.add(name, tier, flags,
             {word_array("ellipse", 32, 16, w.ellipse), word_array("camera", 32, 16, w.camera),
              word_array("bins", 32, 16, w.bins), word_array("params", 32, 16, params)});
@@ -368,6 +369,20 @@ void add_decide(Set &set)
     e.off_px = 0;
     e.inner = false;
     add_evidence(set, "doubt-of-nothing", Tier::stress, {"inner-missing"}, j, e);
+    e.doubt = 0;
+    e.outside = 5;
+    add_evidence(set, "outside-5-without-inner", Tier::stress, {"inner-missing"}, j, e);
+    e.inner = true;
+    for (const int outside : {1, 4, 8}) {
+        for (const double doubt : {0.0, 0.03, 1.0}) { /* with all of it there is no more */
+            e.outside = outside;
+            e.doubt = doubt;
+            add_evidence(set,
+                         "outside-" + std::to_string(outside) + "-doubt-percent-" +
+                             std::to_string(std::lround(100 * doubt)),
+                         Tier::stress, {"twin-pose"}, j, e);
+        }
+    }
     for (const double too_far : {0.004, 0.03, 0.09}) { /* more than is in doubt, less, of nothing */
         e = Evidence();
         e.too_far = too_far;

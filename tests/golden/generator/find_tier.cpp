@@ -63,7 +63,6 @@ Tiers search_tier(const Arrays &in, const Arrays &exact)
     const auto found = mirror::sightings_in(image_of(in[0]), as_int(least));
     words[1] = static_cast<int64_t>(found.best.size());
     words[2] = static_cast<int64_t>(found.dark.size());
-    words[3] = found.darkest;
     const auto put = [&](const std::vector<mirror::Sighting> &sightings, long at) {
         for (const mirror::Sighting &s : sightings) {
             const Words own = {s.x, s.y, s.radius, s.score, s.region.x, s.region.y, s.region.width, s.region.height};
@@ -71,8 +70,8 @@ Tiers search_tier(const Arrays &in, const Arrays &exact)
             at += 8;
         }
     };
-    put(found.best, 4);
-    put(found.dark, 4 + 8 * DROGUE_SEARCH_MAX);
+    put(found.best, 3);
+    put(found.dark, 3 + 8 * DROGUE_SEARCH_MAX);
     return {{like(exact[0], words), {}}};
 }
 
@@ -92,7 +91,8 @@ Tiers decide_tier(const Arrays &in, const Arrays &exact)
                           true,
                           true,
                           real(p[28]),
-                          real(p[29])};
+                          real(p[29]),
+                          as_int(p[30])};
     for (size_t k = 0; k < reference::SUPPORT_BINS; k++) {
         f.support.count[k][0] = as_int(bins[2 * k]);
         f.support.sum[k] = real(bins[2 * k + 1]);
@@ -177,81 +177,36 @@ namespace {
 /* What drogue_acquire() weighs in a measurement, by drogue/search.h. */
 class Weighed {
 public:
-    Weighed(const mirror::Result &r, const reference::Model &m, int darkest)
-        : ok_(r.status == DROGUE_OK), has_inner_(r.has_inner), cover_(r.outline.cover),
-          resolved_(r.resolved && r.doubt < 1 / 64.0L), model_(m)
+    Weighed(const mirror::Result &r, const reference::Model &m)
+        : ok_(r.status == DROGUE_OK), with_inner_(m.inner_radius > 0), cover_(r.outline.cover),
+          reliable_(ok_ && r.outline.quality.reliability >= 0.9L), decided_(r.resolved && r.doubt < 1 / 64.0L)
     {
         const Real z = r.pose.position[2], end = z + m.inner_depth;
-        reliable_ = ok_ && r.outline.quality.reliability >= 0.9L;
-        evident_ = ok_ && r.outline.quality.reliability >= 0.99L;
-        oriented_ = r.resolved;
-        seen_ = ok_ && r.has_inner && z > 0 && end > 0;
-        if (seen_) { /* radii of the inner part, px: as expected, and of its area */
-            expected_ = std::sqrt(r.seen.a * r.seen.b) * m.inner_radius / m.rim_radius * z / end;
-            const Real larger = std::sqrt(std::floor(r.area + 0.5L) / std::acos(Real(-1))) - expected_;
-            off_ = std::fabs(larger);
-            larger_ = larger > 0;
-            doubt_ = r.doubt;
-            spread_ = r.part.rms;
-            sharp_ = spread_ <= 0.3L;
-            dark_ = 4 * r.part.contrast >= r.part.level;
-            hazy_ = !dark_ && 4 * r.part.contrast >= r.part.level - darkest;
+        log_odds_ = cover_ - 3;
+        if (ok_ && r.has_inner && z > 0 && end > 0 && (r.resolved || r.ambiguity <= 0.9L) &&
+            (decided_ || 4 * r.part.contrast >= r.part.level)) {
+            const Real expected = std::sqrt(r.seen.a * r.seen.b) * m.inner_radius / m.rim_radius * z / end;
+            const Real radius = std::max<Real>(1, expected), power = std::floor(std::log2(radius));
+            const Real log2 = power + radius / std::exp2(power) - 1; /* straight from one power to the next */
+            const Real off = std::sqrt(std::floor(r.area + 0.5L) / std::acos(Real(-1))) - radius;
+            log_odds_ = std::fabs(off) > 0.6L + radius / 10
+                            ? log_odds_
+                            : (5 * log2 + 10 * cover_ - 18 * r.part.rms - 2 * r.outline.outside + 2 * decided_) / 3 - 4;
         }
     }
-    bool sure() const
-    {
-        if (!ok_ || model_.inner_radius <= 0) {
-            return ok_ && cover_ >= 0.75L && reliable_;
-        }
-        const bool decides = resolved_ && off_ <= 0.3L + expected_ / 25;
-        const bool witness = resolved_ && spread_ <= 0.5L && expected_ >= 5 && off_ <= 0.2L + expected_ / 64;
-        if (!seen_ || (!dark_ && !hazy_)) {
-            return false;
-        }
-        if (doubt_ > 1 / 8.0L || off_ > 0.6L + expected_ / 10) {
-            return larger_ && sharp_ && oriented_ && doubt_ <= 0.3L && expected_ >= 3.5L && cover_ >= 0.75L;
-        }
-        if (hazy_) {
-            return decides && expected_ >= 5 && cover_ >= (witness ? 0.6L : 0.9L);
-        }
-        const bool beside = expected_ >= 9 && off_ <= 0.3L + expected_ / 25 && spread_ <= 0.5L && doubt_ <= 1 / 64.0L &&
-                            cover_ >= 0.875L;
-        return witness   ? cover_ >= 0.5L
-               : decides ? cover_ >= (sharp_ ? 0.6L : 0.9L)
-               : beside  ? true
-               : sharp_  ? cover_ >= 0.75L
-                         : oriented_ && expected_ >= 5 && cover_ >= 31 / 32.0L && evident_;
-    }
-    bool settles() const
-    {
-        return sure() && cover_ >= 0.8L && (model_.inner_radius <= 0 || (resolved_ && off_ <= 0.3L + expected_ / 16));
-    }
-    /* Is another, smaller outline a ring about this one's inner part? */
-    bool has_part(const mirror::Result &small, const mirror::Result &own) const
-    {
-        const Real radius = std::sqrt(std::floor(own.area + 0.5L) / std::acos(Real(-1)));
-        return resolved_ && sure() && small.status == DROGUE_OK && small.seen.a < 0.8L * own.seen.a &&
-               small.seen.a < 2 * radius &&
-               std::hypot(small.seen.xc - own.inner.x, small.seen.yc - own.inner.y) < radius / 2;
-    }
+    bool sure() const { return ok_ && (with_inner_ ? log_odds_ >= 0.5L : cover_ >= 0.75L && reliable_); }
+    bool settles() const { return sure() && (!with_inner_ || decided_); }
     /* To whole units of Q16: of what is equal in it the first stands. */
-    Real worth() const { return std::floor(exact_worth() * 65536 + 0.5L) / 65536; }
+    Real worth() const
+    {
+        return !ok_ ? -1000 : with_inner_ ? std::floor(log_odds_ * 65536 + 0.5L) / 65536 : (sure() ? 0 : -100) + cover_;
+    }
 
 private:
-    Real exact_worth() const
-    {
-        return !ok_      ? 0
-               : !sure() ? 1 / 65536.0L + cover_ + (has_inner_ + resolved_) * 0.25L
-               : !seen_  ? 2 + cover_
-                         : (resolved_ ? 5 : 3) + cover_ - std::min<Real>(off_ / expected_, 1);
-    }
-
-    bool ok_, has_inner_, reliable_ = false, evident_ = false, oriented_ = false, seen_ = false, sharp_ = false,
-                          dark_ = false, hazy_ = false, larger_ = false;
+    bool ok_, with_inner_;
     Real cover_;
-    bool resolved_;
-    reference::Model model_;
-    Real expected_ = 0, off_ = 0, spread_ = 0, doubt_ = 0;
+    bool reliable_, decided_;
+    Real log_odds_;
 };
 
 } // namespace
@@ -293,23 +248,18 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
     std::vector<FrameWords> tried;
     const reference::Model model = {real(in[2].words[0]), real(in[2].words[1]), real(in[2].words[2])};
     const mirror::Sightings found = mirror::sightings_in(image(part), as_int(p[7]));
-    const auto weigh = [&](const FrameWords &f) { return Weighed(f.result, model, found.darkest); };
-    Real most = 0;
+    const auto weigh = [&](const FrameWords &f) { return Weighed(f.result, model); };
+    const Real none = -1000;
+    Real most = none;
+    bool any_sure = false;
     size_t best = 0;
     const auto attempt = [&](const std::array<int64_t, 4> &region) {
         tried.push_back(measured(region));
-        const FrameWords &f = tried.back(), &kept = tried[best];
-        const Weighed w = weigh(f);
-        Real own = w.worth(), other = most;
-        if (w.sure() && weigh(kept).sure() && f.result.has_inner &&
-            std::hypot(f.result.inner.x - kept.result.inner.x, f.result.inner.y - kept.result.inner.y) < 1) {
-            const Real larger = f.result.seen.a / kept.result.seen.a; /* of two about one inner part */
-            own += larger > 9 / 8.0L ? 0.125L : 0;
-            other += larger < 8 / 9.0L ? 0.125L : 0;
-        }
-        if (weigh(kept).has_part(f.result, kept.result) || (own <= other && !w.has_part(kept.result, f.result))) {
+        const Weighed w = weigh(tried.back());
+        if (w.worth() <= most) {
             return false;
         }
+        any_sure = w.sure();
         most = w.worth();
         best = tried.size() - 1;
         return w.settles();
@@ -334,22 +284,22 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
         measured_ones.push_back(s);
         settled = attempt(about(s.region)) || settled;
     }
-    for (size_t i = 0; i < found.dark.size() && most <= 2 && model.inner_radius > 0; i++) {
+    for (size_t i = 0; i < found.dark.size() && !any_sure && model.inner_radius > 0; i++) {
         const mirror::Sighting &s = found.dark[i]; /* the disc's radius as the rim's */
         const Real radius = std::floor((s.radius + 0.5L) * model.rim_radius / model.inner_radius + 0.5L);
         (void)attempt(about(mirror::frame_of(s.x, s.y, static_cast<int>(std::min<Real>(radius, DROGUE_MAX_SIDE)))));
     }
-    for (size_t i = 0; i < 2 && i < found.best.size() && most <= 2 && model.inner_radius > 0; i++) {
+    for (size_t i = 0; i < 2 && i < found.best.size() && !any_sure && model.inner_radius > 0; i++) {
         const cv::Rect &r = found.best[i].region;
         (void)attempt(about({r.x - r.width / 8, r.y - r.height / 8, r.width + r.width / 4, r.height + r.height / 4}));
     }
-    if (most <= 2 && (model.inner_radius <= 0 || std::max(part.width, part.height) <= 512)) {
+    if (!any_sure && (model.inner_radius <= 0 || std::max(part.width, part.height) <= 512)) {
         (void)attempt(asked);
     }
     if (tried.empty()) {
         return refused(DROGUE_E_NO_INNER_PART);
     }
-    if (most <= 0) {
+    if (most <= none) {
         return refused(static_cast<drogue_status>(
             std::max_element(tried.begin(), tried.end(), [](const FrameWords &a, const FrameWords &b) {
                 return a.result.status < b.result.status;

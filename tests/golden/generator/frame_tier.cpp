@@ -214,6 +214,14 @@ void poses_more(std::vector<Real> &more, const mirror::Task &task, const mirror:
     for (size_t i = COVARIANCE; i < ALL; i++) {
         more[i] = s.at(i) + std::fabs(static_cast<Real>(own[i])) * 0x1p-20L;
     }
+    for (int i = 0, at = COVARIANCE; i < 3;
+         i++) { /* the doubt is a share of a position whose words are off by an LSB */
+        for (int j = 0; j <= i; j++) {
+            const Real far =
+                std::fabs(r.pose.position[static_cast<size_t>(i)]) + std::fabs(r.pose.position[static_cast<size_t>(j)]);
+            more[static_cast<size_t>(at++)] += std::ldexp(r.doubt * r.doubt / 2 * far / 65536, 48);
+        }
+    }
     if (!r.resolved) { /* half the square of what lies between two poses, whose words are off by an LSB each and more */
         const reference::Pose &p = r.pose, &q = r.alternative;
         const Real apart[5] = {q.position[0] - p.position[0], q.position[1] - p.position[1],
@@ -277,7 +285,7 @@ drogue_result library_of(const std::vector<Array> &exact)
     return r;
 }
 
-/* Region, list, arcs, quality, members and cover. Edge points and arcs are counted by the front end that the mirror has in
+/* Region, list, arcs, quality, members, cover, doubt and what is outside. Edge points and arcs are counted by the front end that the mirror has in
  * common with the library; the stage 'arcs' has a reference of its own for them. */
 Expected detail_of(const Array &exact, const mirror::Result &r)
 {
@@ -301,6 +309,7 @@ Expected detail_of(const Array &exact, const mirror::Result &r)
         w[16] = q16(r.outline.cover);
         w[17] = r.status == DROGUE_OK ? q16(r.doubt) : 0;
         more[17] = 0;
+        w[18] = r.outline.outside;
     }
     return {like(exact, w), bounds("frame", like(exact, w), more)};
 }

@@ -318,6 +318,17 @@ std::array<std::array<Real, 3>, 3> doubt_covariance(const std::array<Real, 3> &p
     return added;
 }
 
+namespace {
+
+/* A doubt and that of an outline outside which another edge shows in so many parts, below 1 in Q16. */
+Real with_outside(Real doubt, int outside)
+{
+    const Real both = std::hypot(doubt, outside * outside * real(DROGUE_Q16(1, 640)));
+    return std::min<Real>(outside > 0 ? real(reference::q16(both)) : both, 65535 / 65536.0L);
+}
+
+} // namespace
+
 void decide(Result &out, const Task &task, const Features &f, const std::array<Pose, 2> &pair, size_t nearer,
             const drogue_result *library)
 {
@@ -360,6 +371,7 @@ void decide(Result &out, const Task &task, const Features &f, const std::array<P
         out.alternative.position[k] *= 1 - nearer_by;
     }
     out.doubt = std::max(nearer_by, !out.has_inner ? 0 : agree ? f.doubt : std::max<Real>(f.doubt, 1 / 64.0L));
+    out.doubt = with_outside(out.doubt, f.outside);
     const auto doubted = doubt_covariance(out.pose.position, out.doubt, task.model.rim_radius);
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) {
@@ -439,7 +451,7 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
         out.status = out.ideal.ok ? DROGUE_E_DOMAIN : DROGUE_E_NO_ELLIPSE;
         return DOUBTED;
     }
-    from = {out.ideal, out.outline.support, {{0, 0}, 0}, false, false, 0, 0};
+    from = {out.ideal, out.outline.support, {{0, 0}, 0}, false, false, 0, 0, out.outline.outside};
     turn(from.support, f.follow.library != nullptr ? real(f.decided.support.axis_rad_q16) : out.outline.fitted.angle,
          out.ideal.angle, library != nullptr ? library->ideal : drogue_ellipse{});
     if (task.model.inner_radius > 0) {
@@ -460,10 +472,12 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
         doubt = from.trusted ? from.doubt : 1;
     }
     finish(out, task, from, library);
-    return out.status == DROGUE_OK && out.has_inner && out.doubt > doubt ? doubt + 1 / 200.0L : doubt;
+    return out.status == DROGUE_OK && out.has_inner && out.doubt > with_outside(doubt, from.outside)
+               ? doubt + 1 / 200.0L
+               : doubt;
 }
 
-bool is_smeared(const Outline &o) { return std::hypot(o.support.smear[0], o.support.smear[1]) > 1.5L; }
+bool is_smeared(const Outline &o) { return std::hypot(o.support.smear[0], o.support.smear[1]) > 1.25L; }
 
 /* The edge points about an ellipse; false: they cover too little. */
 bool settle_there(Result &out, Frame &f, const drogue_ellipse &about, drogue_q16 band, const Task &task)
@@ -731,8 +745,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             least > SURE && best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.6L;
         Result out;
         Features from = {};
-        const bool asked_outer =
-            (best.outline.outside > 0 || best.seen.a > 160) && (least != 1 || best.outline.cover >= 0.7L);
+        const bool asked_outer = best.outline.outside > 0 && (least != 1 || best.outline.cover >= 0.7L);
         if (best.status != DROGUE_OK || best.tried == DROGUE_TRIED_RAYS || !(outer ? asked_outer : asked_beyond)) {
             continue;
         }

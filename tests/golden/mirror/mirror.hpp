@@ -55,6 +55,7 @@ struct Features {
     bool placed;            /* there, and its lens undone */
     Real doubt;             /* share by which it is not of its size, where it is trusted */
     Real too_far;           /* share by which size and place say that the outline's pose is, likewise */
+    int outside;            /* parts of the outline outside which another edge shows */
 };
 
 /* Follows the library's documented method from edge points to the pose.

@@ -344,12 +344,7 @@ Sightings sightings_in(const cv::Mat &image, int min_contrast)
     }
     std::sort(rows.begin(), rows.end());
     std::array<Waiting, DROGUE_SEARCH_LEVELS> waiting;
-    Sightings found = {{}, {}, 255};
-    if (!levels[1].empty()) {
-        double darkest = 0;
-        cv::minMaxLoc(levels[1], &darkest);
-        found.darkest = static_cast<int>(darkest);
-    }
+    Sightings found;
     for (const auto &[when, k, y] : rows) {
         const cv::Mat &m = levels[static_cast<size_t>(k)];
         Waiting &w = waiting[static_cast<size_t>(k)];

@@ -29,7 +29,6 @@ struct Sighting {
 
 struct Sightings {
     std::vector<Sighting> best, dark; /* by falling score */
-    int darkest;                      /* grey of the darkest cell of 4 px */
 };
 
 Sightings sightings_in(const cv::Mat &image, int min_contrast);

@@ -491,10 +491,10 @@ START_TEST(another_edge_outside)
     drogue_config_default(&config);
     drogue_outline_pull(&o, rays, &view, &config);
     drogue_outline_pull(&o, rays, &view, &config);
-    ck_assert_uint_eq(o.outside, 8);
+    ck_assert_uint_eq(o.support.outside, 8);
     view = draw(&alone, 1);
     drogue_outline_pull(&o, rays, &view, &config);
-    ck_assert_uint_eq(o.outside, 0);
+    ck_assert_uint_eq(o.support.outside, 0);
 }
 END_TEST
 

@@ -239,6 +239,11 @@ START_TEST(refusals)
     ck_assert_int_eq(drogue_search_begin(&s, 101), DROGUE_E_WORKSPACE);
     ck_assert_int_eq(drogue_search_begin(&s, 0), DROGUE_E_ARGUMENT);
     ck_assert_int_eq(drogue_search_begin(&s, 100), DROGUE_OK);
+    s.count = s.dark_count = 2; /* of a frame */
+    ck_assert_int_eq(drogue_search_begin(&s, 101), DROGUE_E_WORKSPACE);
+    ck_assert_int_eq(s.width_px, 0);
+    ck_assert_int_eq(drogue_search_end(&s), 0);
+    ck_assert_int_eq(s.dark_count, 0);
     s.min_contrast = -1;
     ck_assert_int_eq(drogue_search_begin(&s, 100), DROGUE_E_ARGUMENT);
     s.min_contrast = 256;
@@ -362,85 +367,6 @@ START_TEST(acquire_refuses_hostile_regions)
                      DROGUE_E_ARGUMENT);
     free_rig(&r);
     free(f.pixels);
-}
-END_TEST
-
-/* What makes a result sure, each on its limit and an LSB beyond: covers, reliability, size of the inner part. */
-START_TEST(sure_at_its_limits)
-{
-    const drogue_model even = {131072, 65536, 0}, deep = {131072, 65536, 65536}, none = {131072, 0, 0};
-    drogue_result r;
-    memset(&r, 0, sizeof r);
-    r.status = DROGUE_OK;
-    r.has_inner = r.orientation_resolved = 1;
-    r.pose.position_m_q16[2] = DROGUE_Q16_ONE;
-    r.ellipse.a_px_q16 = 200 * DROGUE_Q16_ONE; /* an inner part of 50 px is expected */
-    r.ellipse.b_px_q16 = 50 * DROGUE_Q16_ONE;
-    r.inner.area_px = 7540; /* 48.99 px: a 64th is 0.78, and 0.2 */
-    r.cover_q16 = DROGUE_Q16(1, 2);
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
-    r.inner.area_px = 7570; /* 49.09 px */
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
-    r.cover_q16--;
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
-    r.inner.area_px = 7450; /* 48.7 px */
-    r.cover_q16 = DROGUE_Q16(6, 10);
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
-    r.cover_q16--;
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
-    r.orientation_resolved = 0;
-    r.cover_q16 = DROGUE_Q16(3, 4);
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
-    r.cover_q16--;
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
-    r.cover_q16 = DROGUE_Q16_ONE;
-    r.has_inner = 0;
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
-    r.has_inner = 1;
-    r.inner.area_px = 9740; /* 55.68 px: a tenth is 5, and 0.6 */
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
-    r.inner.area_px = 9680; /* 55.51 px */
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
-    r.inner.area_px = 6170; /* 44.32 px */
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
-    r.inner.area_px = 6220; /* 44.5 px */
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 1);
-    r.inner.area_px = 1963; /* 25 px: as large as a part twice as far away */
-    ck_assert_int_eq(drogue_result_sure(&r, &even), 0);
-    ck_assert_int_eq(drogue_result_sure(&r, &deep), 1);
-    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){131072, 65536, -65536}), 0);
-    r.pose.position_m_q16[2] = -DROGUE_Q16_ONE;
-    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){131072, 65536, 4 * 65536}), 0);
-    r.quality.reliability_q16 = DROGUE_Q16(9, 10);
-    r.cover_q16 = DROGUE_Q16(3, 4);
-    ck_assert_int_eq(drogue_result_sure(&r, &none), 1);
-    r.cover_q16--;
-    ck_assert_int_eq(drogue_result_sure(&r, &none), 0);
-    r.cover_q16 = DROGUE_Q16(3, 4);
-    r.quality.reliability_q16--;
-    ck_assert_int_eq(drogue_result_sure(&r, &none), 0);
-}
-END_TEST
-
-/* An inner part larger than numbers hold is not the one that is seen: carelessly multiplied, its size would wrap to it. */
-START_TEST(a_model_beyond_measure_is_not_sure)
-{
-    const drogue_model huge = {1, 2622, 0}; /* an inner part of 2622 rims */
-    drogue_result r;
-    memset(&r, 0, sizeof r);
-    r.status = DROGUE_OK;
-    r.has_inner = r.orientation_resolved = 1;
-    r.cover_q16 = DROGUE_Q16_ONE;
-    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = 100 * DROGUE_Q16_ONE;
-    r.pose.position_m_q16[2] = 1 << 30;
-    r.inner.area_px = 9852; /* a radius of 56 px */
-    ck_assert_int_eq(drogue_result_sure(&r, &huge), 0);
-    r.pose.position_m_q16[2] = DROGUE_Q16_ONE;
-    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){1, INT32_MAX, -65532}), 0);
-    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){1, INT32_MAX, -65534}), 0);
-    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){1, INT32_MAX, -65535}), 0);
-    r.pose.position_m_q16[2] = 9 * DROGUE_Q16_ONE;
-    ck_assert_int_eq(drogue_result_sure(&r, &(drogue_model){6553600, 3670016, 0}), 1);
 }
 END_TEST
 
@@ -665,6 +591,5 @@ END_TEST
 
 SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
            any_size_of_frame, refusals, acquire_measures_what_it_finds, clipping_saturates,
-           acquire_refuses_hostile_regions, sure_at_its_limits, a_model_beyond_measure_is_not_sure,
-           frames_larger_than_a_region, track_frames, uncertain_searches_within_reach, first_region_then_anywhere,
-           what_shows_no_inner_part_is_reconsidered)
+           acquire_refuses_hostile_regions, frames_larger_than_a_region, track_frames, uncertain_searches_within_reach,
+           first_region_then_anywhere, what_shows_no_inner_part_is_reconsidered)

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* When a result is enough to begin with: each limit from both sides; and acquisition for a model without an inner part. */
+/* How sure a result is: its log odds beside the documented sum, and each limit from both sides; and acquisition for a model
+ * without an inner part. */
 #include "suite.h"
+
+#include <math.h>
 
 #include "drogue/search.h"
 #include "own_workspace.h"
@@ -8,7 +11,7 @@
 static const drogue_model model = {22938, 7864, 16384}; /* 0.35, 0.12, 0.25 m */
 static const drogue_model no_inner = {22938, 0, 0};
 
-/* A circle of 100 px at 4 m: the inner part is expected with 100 * 0.12 / 0.35 * 4 / 4.25 = 32.3 px, 3269 px of area. */
+/* A circle of 100 px at 4 m: the inner part is expected with 100 * 0.12 / 0.35 * 4 / 4.25 = 32.3 px. */
 static drogue_result measured(void)
 {
     drogue_result r;
@@ -27,185 +30,138 @@ static drogue_result measured(void)
     return r;
 }
 
-START_TEST(limits_of_sure)
+/* The documented sum. */
+static double log_odds(const drogue_result *r, const drogue_model *m)
+{
+    const double z = real_of_q16(r->pose.position_m_q16[2]);
+    double px = sqrt(real_of_q16(r->ellipse.a_px_q16) * real_of_q16(r->ellipse.b_px_q16)) *
+                real_of_q16(m->inner_radius_m_q16) / real_of_q16(m->rim_radius_m_q16) * z /
+                (z + real_of_q16(m->inner_depth_m_q16));
+    double power;
+    px = px < 1 ? 1 : px > 32768 ? 32768 : px;
+    power = floor(log2(px));
+    MUST(fabs(power + px / exp2(power) - 1 - log2(px)) < 0.0861, "log2 of %g", px);
+    return (5 * (power + px / exp2(power) - 1) + 10 * real_of_q16(r->cover_q16) -
+            18 * real_of_q16(r->inner.spread_px_q16) - 2.0 * r->outside +
+            2 * (r->orientation_resolved && r->doubt_q16 < DROGUE_Q16(1, 64))) /
+               3 -
+           4;
+}
+
+/* The area of a disc as large as is expected. */
+static void give_expected_size(drogue_result *r, const drogue_model *m)
+{
+    const double z = real_of_q16(r->pose.position_m_q16[2]);
+    const double px = sqrt(real_of_q16(r->ellipse.a_px_q16) * real_of_q16(r->ellipse.b_px_q16)) *
+                      real_of_q16(m->inner_radius_m_q16) / real_of_q16(m->rim_radius_m_q16) * z /
+                      (z + real_of_q16(m->inner_depth_m_q16));
+    r->inner.area_px = (uint32_t)lround(TEST_PI * pow(fmin(fmax(px, 1), 32768), 2));
+}
+
+START_TEST(log_odds_as_documented)
+{
+    uint64_t rng = 11;
+    int i;
+    for (i = 0; i < 20000; i++) {
+        drogue_result r = measured();
+        drogue_model m = model;
+        r.ellipse.a_px_q16 = rng_range(&rng, 0, 3) == 0 ? rng_range(&rng, 1, INT32_MAX) : rng_range(&rng, 1, 1 << 24);
+        r.ellipse.b_px_q16 = rng_range(&rng, 1, r.ellipse.a_px_q16);
+        r.pose.position_m_q16[2] = rng_range(&rng, 1, 1 << rng_range(&rng, 1, 30));
+        r.cover_q16 = rng_range(&rng, 0, DROGUE_Q16_ONE);
+        r.inner.spread_px_q16 = rng_range(&rng, 0, DROGUE_Q16_ONE);
+        r.outside = (uint32_t)rng_range(&rng, 0, 8);
+        r.orientation_resolved = rng_range(&rng, 0, 1);
+        r.doubt_q16 = rng_range(&rng, 1022, 1025);
+        m.inner_depth_m_q16 = rng_range(&rng, 0, 1 << 20);
+        give_expected_size(&r, &m);
+        MUST(fabs(real_of_q16(drogue_result_log_odds_q16(&r, &m)) - log_odds(&r, &m)) <
+                 2.0 / 65536 +
+                     5 / 3.0 / sqrt(real_of_q16(r.ellipse.a_px_q16) * real_of_q16(r.ellipse.b_px_q16)) / 16384,
+             "%d: %.7f for %.7f", i, real_of_q16(drogue_result_log_odds_q16(&r, &m)), log_odds(&r, &m));
+    }
+}
+END_TEST
+
+START_TEST(log_odds_at_their_ends)
 {
     drogue_result r = measured();
+    const drogue_model wide = {1, INT32_MAX, 0};
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = INT32_MAX;
+    r.pose.position_m_q16[2] = INT32_MAX;
+    r.cover_q16 = DROGUE_Q16_ONE;
+    r.inner.spread_px_q16 = 0;
+    give_expected_size(&r, &wide);
+    MUST(fabs(real_of_q16(drogue_result_log_odds_q16(&r, &wide)) - (5 * 15 + 10 + 2) / 3.0 + 4) < 1e-3, "%g",
+         real_of_q16(drogue_result_log_odds_q16(&r, &wide))); /* 2^15 px, no image has more */
+    r.inner.spread_px_q16 = INT32_MAX;
+    ck_assert_int_eq(drogue_result_log_odds_q16(&r, &wide), -64 * DROGUE_Q16_ONE);
+    r = measured();
+    r.has_inner = 0;
+    ck_assert_int_eq(drogue_result_log_odds_q16(&r, &model), DROGUE_Q16(9, 10) - 3 * DROGUE_Q16_ONE);
+}
+END_TEST
+
+START_TEST(limits_of_sure)
+{
+    drogue_result r = measured(); /* 8.347 + 3 - 0.6 + 0.667 - 4 = 7.414 */
     ck_assert(drogue_result_sure(&r, &model));
-    r.cover_q16 = DROGUE_Q16(61, 100);
+    r.inner.spread_px_q16 = DROGUE_Q16(1251, 1000); /* 6.91 less */
     ck_assert(drogue_result_sure(&r, &model));
-    r.inner.area_px = 2880; /* 30.3 px: off by 2.0, a twenty-fifth and 0.3 are 1.6 */
+    r.inner.spread_px_q16 = DROGUE_Q16(1254, 1000);
     ck_assert(!drogue_result_sure(&r, &model));
-    r.inner.area_px = 2980; /* 30.8 px: off by 1.5 */
+    r.cover_q16 = DROGUE_Q16(91, 100);
     ck_assert(drogue_result_sure(&r, &model));
-    r.cover_q16 = DROGUE_Q16(59, 100);
+    r.doubt_q16 = DROGUE_Q16(1, 64) - 1;
+    ck_assert(drogue_result_sure(&r, &model));
+    r.doubt_q16++;
     ck_assert(!drogue_result_sure(&r, &model));
-    r.cover_q16 = DROGUE_Q16(74, 100);
+    r = measured();
+    r.outside = 8;
     r.orientation_resolved = 0;
+    ck_assert(drogue_result_sure(&r, &model));                     /* 1.414 */
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = 50 * DROGUE_Q16_ONE; /* 1.667 less */
+    give_expected_size(&r, &model);
     ck_assert(!drogue_result_sure(&r, &model));
-    r.cover_q16 = DROGUE_Q16(76, 100);
-    ck_assert(drogue_result_sure(&r, &model));
-    r.orientation_resolved = 1; /* though the outline contradicts it: that does not count */
-    r.doubt_q16 = DROGUE_Q16(1, 64);
-    r.cover_q16 = DROGUE_Q16(74, 100);
+    r.outside = 7;
     ck_assert(!drogue_result_sure(&r, &model));
-    r.doubt_q16--;
+    r.outside = 6;
     ck_assert(drogue_result_sure(&r, &model));
-    r.doubt_q16 = 0;
-    r.orientation_resolved = 0;
-    r.cover_q16 = DROGUE_Q16(76, 100);
-    r.inner.area_px = 4100; /* 36.1 px: off by 3.9, a tenth and 0.6 are 3.8 */
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.inner.area_px = 2600; /* 28.8 px: off by 3.5 */
-    ck_assert(drogue_result_sure(&r, &model));
-    r.orientation_resolved = 1;
-    ck_assert(drogue_result_sure(&r, &model));
-    r.doubt_q16 = DROGUE_Q16(1, 8);
-    ck_assert(drogue_result_sure(&r, &model));
-    r.doubt_q16++; /* it may be something else */
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.doubt_q16 = 0;
     r.has_inner = 0;
     ck_assert(!drogue_result_sure(&r, &model));
 }
 END_TEST
 
-/* So exactly of its size and so sharp, and it decides: then half of the outline will do. */
-START_TEST(a_witness)
+/* What is no inner part, or no more than dark, is not weighed. */
+START_TEST(what_is_weighed)
 {
     drogue_result r = measured();
-    r.cover_q16 = DROGUE_Q16(1, 2) - 1;
+    r.inner.area_px = 4100; /* 36.1 px: off by 3.9, a tenth and 0.6 are 3.8 */
     ck_assert(!drogue_result_sure(&r, &model));
-    r.cover_q16++;
+    ck_assert_int_eq(drogue_result_log_odds_q16(&r, &model), DROGUE_Q16(9, 10) - 3 * DROGUE_Q16_ONE);
+    r.inner.area_px = 4050; /* 35.9 px */
     ck_assert(drogue_result_sure(&r, &model));
-    r.inner.area_px = 3409; /* 32.94 px: off by 0.68, a 64th and 0.2 are 0.7 */
-    ck_assert(drogue_result_sure(&r, &model));
-    r.inner.area_px = 3417; /* 32.98 px: off by 0.72 */
+    r.inner.area_px = 2520; /* 28.3 px: off by 3.95 */
     ck_assert(!drogue_result_sure(&r, &model));
-    r.inner.area_px = 3269;
-    r.inner.spread_px_q16 = DROGUE_Q16(1, 2); /* it need not be quite sharp */
-    ck_assert(drogue_result_sure(&r, &model));
-    r.inner.spread_px_q16++;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.inner.spread_px_q16 = DROGUE_Q16(1, 10);
-    r.orientation_resolved = 0;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.orientation_resolved = 1;
-    r.doubt_q16 = DROGUE_Q16(1, 64);
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.doubt_q16 = 0;
-    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(154, 10); /* where 4.97 px are expected */
-    r.inner.area_px = 78;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(156, 10); /* 5.03 px */
-    ck_assert(drogue_result_sure(&r, &model));
-}
-END_TEST
-
-START_TEST(dark_and_sharp)
-{
-    drogue_result r = measured();
-    r.inner.area_px = 3100; /* 31.4 px, off by 0.9: no witness */
-    r.inner.spread_px_q16 = DROGUE_Q16(31, 100);
-    ck_assert(drogue_result_sure(&r, &model)); /* it decides, has its size, and the cover is 0.9 */
-    r.cover_q16 = DROGUE_Q16(89, 100);
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.inner.spread_px_q16 = DROGUE_Q16(29, 100);
-    ck_assert(drogue_result_sure(&r, &model));
-    r.orientation_resolved = 0;
-    ck_assert(drogue_result_sure(&r, &model));
-    r.inner.area_px = 2880; /* 30.3 px, off by 2.0: only near its size */
-    r.inner.spread_px_q16 = DROGUE_Q16(31, 100);
-    r.cover_q16 = DROGUE_Q16_ONE;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.quality.reliability_q16 = DROGUE_Q16(989, 1000);
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.quality.reliability_q16 = DROGUE_Q16(991, 1000); /* the outline is whole, */
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.orientation_resolved = 1; /* and the disc decides, though outline and disc contradict each other */
-    r.doubt_q16 = DROGUE_Q16(1, 64);
-    ck_assert(drogue_result_sure(&r, &model));
-    r.cover_q16 = DROGUE_Q16(31, 32) - 1;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.cover_q16 = DROGUE_Q16(31, 32);
-    ck_assert(drogue_result_sure(&r, &model));
-    r.quality.reliability_q16 = DROGUE_Q16(989, 1000); /* or hardly one */
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.quality.reliability_q16 = DROGUE_Q16(991, 1000);
-    r.inner.area_px = 4100; /* and the disc near to its size */
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(154, 10); /* where 4.97 px, 77 px of area, are expected */
-    r.inner.area_px = 77;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(156, 10); /* 5.03 px */
+    r.inner.area_px = 2600; /* 28.8 px: off by 3.5 */
     ck_assert(drogue_result_sure(&r, &model));
     r = measured();
-    r.inner.threshold = 130;
-    r.inner.contrast = 33;
+    r.ambiguity_q16 = DROGUE_Q16_ONE;
     ck_assert(drogue_result_sure(&r, &model));
-    r.inner.contrast = 32;
-    ck_assert(!drogue_result_sure(&r, &model));
-}
-END_TEST
-
-/* A disc that is too large, as shade about it makes it: sharp, and it decides. */
-START_TEST(in_shade)
-{
-    drogue_result r = measured();
-    r.inner.area_px = 4500; /* 37.8 px for 32.3 */
-    r.cover_q16 = DROGUE_Q16(3, 4);
-    r.doubt_q16 = DROGUE_Q16(3, 10);
-    ck_assert(drogue_result_sure(&r, &model));
-    r.doubt_q16++;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.doubt_q16 = DROGUE_Q16(1, 10); /* too large, whatever doubt that gives */
-    ck_assert(drogue_result_sure(&r, &model));
-    r.cover_q16--;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.cover_q16 = DROGUE_Q16_ONE;
-    r.inner.spread_px_q16 = DROGUE_Q16(3, 10) + 1;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.inner.spread_px_q16 = DROGUE_Q16(3, 10);
     r.orientation_resolved = 0;
     ck_assert(!drogue_result_sure(&r, &model));
-    r.orientation_resolved = 1;
-    r.inner.area_px = 2100; /* 25.9 px: no shade makes it smaller */
+    r.ambiguity_q16 = DROGUE_Q16(9, 10) + 1;
     ck_assert(!drogue_result_sure(&r, &model));
-    r.inner.area_px = 70;
-    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(108, 10); /* where 3.48 px are expected */
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(109, 10); /* 3.52 px; it has 4.72 */
+    r.ambiguity_q16--;
     ck_assert(drogue_result_sure(&r, &model));
-}
-END_TEST
-
-/* A large disc of its size, beside its place: nearly as sharp, in an outline that is nearly whole. */
-START_TEST(beside_its_place)
-{
-    drogue_result r = measured();
+    r.inner.contrast = 15;
+    ck_assert(drogue_result_sure(&r, &model));
+    r.inner.contrast = 14;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.orientation_resolved = 1; /* it decides: what is less dark will do */
+    ck_assert(drogue_result_sure(&r, &model));
     r.doubt_q16 = DROGUE_Q16(1, 64);
-    r.cover_q16 = DROGUE_Q16(7, 8);
-    r.inner.spread_px_q16 = DROGUE_Q16(1, 2);
-    ck_assert(drogue_result_sure(&r, &model));
-    r.orientation_resolved = 0;
-    ck_assert(drogue_result_sure(&r, &model));
-    r.cover_q16--;
     ck_assert(!drogue_result_sure(&r, &model));
-    r.cover_q16++;
-    r.inner.spread_px_q16++;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.inner.spread_px_q16--;
-    r.doubt_q16++;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.doubt_q16--;
-    r.inner.area_px = 2980; /* 30.8 px: off by 1.5, a twenty-fifth and 0.3 are 1.6 */
-    ck_assert(drogue_result_sure(&r, &model));
-    r.inner.area_px = 2880; /* 30.3 px */
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.inner.area_px = 254;                                         /* 8.99 px */
-    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(278, 10); /* where 8.97 px are expected */
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = DROGUE_Q16(280, 10); /* 9.04 px */
-    ck_assert(drogue_result_sure(&r, &model));
 }
 END_TEST
 
@@ -216,6 +172,8 @@ START_TEST(behind_or_beside_the_camera_nothing_is_sure)
     r.pose.position_m_q16[2] = 0;
     ck_assert(!drogue_result_sure(&r, &model));
     r.pose.position_m_q16[2] = DROGUE_Q16(2, 10);
+    near.inner_depth_m_q16 = -DROGUE_Q16(2, 10); /* the inner part in the camera */
+    ck_assert(!drogue_result_sure(&r, &near));
     near.inner_depth_m_q16 = -DROGUE_Q16(25, 100); /* the inner part before the end plane, and behind the camera */
     ck_assert(!drogue_result_sure(&r, &near));
 }
@@ -278,6 +236,6 @@ START_TEST(acquire_without_an_inner_part)
 }
 END_TEST
 
-SUITE_MAIN("sure", limits_of_sure, a_witness, dark_and_sharp, in_shade, beside_its_place,
+SUITE_MAIN("sure", log_odds_as_documented, log_odds_at_their_ends, limits_of_sure, what_is_weighed,
            behind_or_beside_the_camera_nothing_is_sure, without_an_inner_part_cover_and_reliability_decide,
            acquire_without_an_inner_part)

@@ -100,7 +100,7 @@ START_TEST(what_is_believed_while_uncertain)
         expected.list.edge_count = 7;
         expected.list.arc_count = 1;
         expected.arcs[0] = 0;
-        expected.inner.area_px = 9331; /* 1.5 px off its radius: about its size, but not so that it needs no cover */
+        expected.inner.spread_px_q16 = DROGUE_Q16(129, 100); /* so unsharp that it needs a cover of 0.6 */
         state = frame(&result, &t);
         MUST(state == (cases[i].believed ? DROGUE_TRACKING : DROGUE_COASTING) &&
                  result.status == (cases[i].believed ? DROGUE_OK : DROGUE_E_UNSURE),
