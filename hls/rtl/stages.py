@@ -7,7 +7,8 @@ The module's input is the struct 'asked', whose words must stay as they are unti
 stage than its own needs one register, not one a stage. A stage takes as many operations one after another as fit the
 nanoseconds by an estimate. 'step' counts clocks from 0 with the input there; in the clock of 'done' the struct 'out' is
 right. A division is that of a divider which its step starts. A product takes two stages, to one of a few multipliers, which
-others have in other stages, and through it, and stays in a register.
+others have in other stages, and through it, and stays in a register. One of a wide factor is that of the factor's halves, from
+registers of whose its sum begins the third stage.
 """
 import re
 import sys
@@ -15,6 +16,8 @@ import sys
 DIVISION = 17  # clocks of drogue_divider
 MULTIPLIERS = 4  # of a kind in a module: neither, one or both factors wider than NARROW bits
 NARROW, WIDE = 18, 33
+HALF = 17  # bits of a wide factor's lower half, without a sign
+SUM = 7.0  # nanoseconds of the halves' products
 
 
 def delay(expression, bits):
@@ -41,7 +44,7 @@ def factors(expression, extended, width, low):
     found = []
     for p in product.groups() if product else ():
         signed, v = extended.get(p, (True, p))
-        if low.get(p, width[p]) < WIDE < width[p]:
+        if low.get(p, width[p]) < min(width[p], WIDE):
             found.append((f"$signed({{1'd0, {p}[{low[p] - 1}:0]}})", low[p] + 1, p))
             continue
         found.append((f"$signed({v})" if signed else f"$signed({{1'd0, {v}}})", width[v] + (not signed), v))
@@ -52,6 +55,14 @@ def sizes_of(kind):
     return (WIDE if kind == 2 else NARROW, WIDE if kind else NARROW)
 
 
+def sum_of(terms, kind):
+    """The product of products of halves; the lowest of them has no sign, and the highest begins where it ends."""
+    part = [name for name, *_ in terms]
+    if kind == 1:
+        return f"({part[1]} <<< {HALF}) + {part[0]}"
+    return f"$signed({{{part[3]}[{2 * (WIDE - HALF) - 1}:0], {part[0]}[{2 * HALF - 1}:0]}}) + (({part[1]} + {part[2]}) <<< {HALF})"
+
+
 def main():
     module, period = sys.argv[1], float(sys.argv[2])
     text = sys.stdin.read()
@@ -59,6 +70,7 @@ def main():
     given = {u: int(n) for u, n in re.findall(r"^    // (\w+): (\d+) bits$", text, re.M)}
     width, made, stage, time, extended = dict(given), [], {u: 0 for u in given}, {u: 0.0 for u in given}, {}
     kept, held, low, last, pools = {}, set(), {}, 0, {}
+    summed = {}  # a wide product, and what is made of it in its stage -> the step in which it is right
     for top, name, expression in lines:
         bits = width[name] = int(top or 0) + 1
         extension = re.fullmatch(r"\{\{(\d+)\{(?:(\w+)\[\d+\]|1'd0)\}\}, (\w+)\}", expression)
@@ -85,6 +97,8 @@ def main():
             kind = sum(n > NARROW for _, n, _ in product)
             while len(pools.setdefault(kind, {}).setdefault(at, [])) == MULTIPLIERS:
                 at += 1
+        if name.startswith("out_") and any(u in summed for u in used):
+            at = max(at, last)
         for u in used:
             if stage[u] < at and u not in given and u not in held:
                 kept[u] = None
@@ -94,6 +108,11 @@ def main():
             made.append(f"    wire [{bits - 1}:0] {name};\n    drogue_divider of_{name} (.clock(clock), .start(step == 8'd{at}), "
                         f".dividend({a}), .divisor({b}), .quotient({name}));")
             at, before, own = at + DIVISION, 0.0, 0.0
+        elif product and kind:
+            made.append(f"    wire [{bits - 1}:0] {name} = product_{kind}_{len(pools[kind][at])};")
+            pools[kind][at].append(expression.split(" * "))
+            summed[name] = at + 2
+            at, before, own = at + 2, 0.0, SUM
         elif product:
             made.append(f"    reg [{bits - 1}:0] {name};\n    always @(posedge clock) if (step == 8'd{at + 1}) "
                         f"{name} <= product_{kind}_{len(pools[kind][at])};")
@@ -101,6 +120,8 @@ def main():
             held.add(name)
             at, before, own = at + 2, 0.0, 0.0
         else:
+            if any(u in summed and stage[u] == at for u in used):
+                summed[name] = at
             what = f"assign out[{name[4:]} +: {bits}]" if name.startswith("out_") else f"wire [{bits - 1}:0] {name}"
             made.append(f"    {what} = {expression};")
         stage[name], time[name], last = at, before + own, max(last, at)
@@ -119,12 +140,22 @@ def main():
     for kind, stages in pools.items():
         for k in range(max(len(products) for products in stages.values())):
             for side, n in enumerate(sizes_of(kind)):
-                choice = " : ".join(f"step == 8'd{at} ? {products[k][side]}" for at, products in stages.items() if len(products) > k)
+                *first, final = [(at, products[k][side]) for at, products in sorted(stages.items()) if len(products) > k]
+                choice = "".join(f"step == 8'd{at} ? {factor} : " for at, factor in first) + final[1]
                 print(f"    reg signed [{n - 1}:0] factor_{kind}_{k}_{side};")
-                print(f"    always @(posedge clock) factor_{kind}_{k}_{side} <= {choice} : {n}'sd0;")
-            print(f"    assign product_{kind}_{k} = factor_{kind}_{k}_0 * factor_{kind}_{k}_1;")
+                print(f"    always @(posedge clock) factor_{kind}_{k}_{side} <= {choice};")
+            halves = [[f"factor_{kind}_{k}_{side}"] if n == NARROW else
+                      [f"$signed({{1'd0, factor_{kind}_{k}_{side}[{HALF - 1}:0]}})", f"$signed(factor_{kind}_{k}_{side}[{n - 1}:{HALF}])"]
+                      for side, n in enumerate(sizes_of(kind))]
+            terms = [(f"part_{kind}_{k}_{i}{j}", a, b, i + j) for i, a in enumerate(halves[0]) for j, b in enumerate(halves[1])]
+            if kind == 0:
+                print(f"    assign product_0_{k} = factor_0_{k}_0 * factor_0_{k}_1;")
+                continue
+            for part, a, b, _ in terms:
+                print(f"    reg signed [{2 * NARROW - 1}:0] {part};\n    always @(posedge clock) {part} <= {a} * {b};")
+            print(f"    assign product_{kind}_{k} = {sum_of(terms, kind)};")
     print("    always @(posedge clock) begin")
-    print("\n".join(f"        {n}_q <= {n};" for n in kept))
+    print("\n".join(f"        {f'if (step == 8{chr(39)}d{summed[n]}) ' if n in summed else ''}{n}_q <= {n};" for n in kept))
     print("    end\nendmodule")
 
 
