@@ -6,16 +6,16 @@ usage: verilog.py IR FUNCTION asked=in out=out | stages.py MODULE NANOSECONDS
 The module's input is the struct 'asked', whose words must stay as they are until it is done, so that a value used in a later
 stage than its own needs one register, not one a stage. A stage takes as many operations one after another as fit the
 nanoseconds by an estimate. 'step' counts clocks from 0 with the input there; in the clock of 'done' the struct 'out' is
-right. A division is that of a divider which its step starts. A product takes two stages, to one of a few multipliers, which
+right. A product takes two stages, to one of a few multipliers, which
 others have in other stages, and through it, and stays in a register. One of a wide factor is that of the factor's halves, from
 registers of whose its sum begins the third stage.
 """
 import re
 import sys
 
-DIVISION = 17  # clocks of drogue_divider
 MULTIPLIERS = 4  # of a kind in a module: neither, one or both factors wider than NARROW bits
 NARROW, WIDE = 18, 33
+CHOICE = 4.0  # nanoseconds of a multiplier's choice of a factor
 HALF = 17  # bits of a wide factor's lower half, without a sign
 SUM = 7.0  # nanoseconds of the halves' products
 
@@ -88,10 +88,11 @@ def main():
             expression = f"{product[0][0]} * {product[1][0]}"
         used = [u for u in dict.fromkeys(re.findall(r"(?<!['\w])[a-z]\w*", expression)) if u != "signed"]
         at = max((stage[u] for u in used), default=0)
-        division = re.fullmatch(r"(\S+) / (\S+)", expression)
+        if " / " in expression:
+            sys.exit(f"stages.py: no divider for {expression}")
         before = max((time[u] for u in used if stage[u] == at), default=0.0)
-        own = delay(expression, max([bits] + [width[u] for u in used]))
-        if before > 0 and (product or before + own > period) or division:
+        own = CHOICE if product else delay(expression, max([bits] + [width[u] for u in used]))
+        if before > 0 and (before + own > period or product and any(u in summed and stage[u] == at for u in used)):
             at, before = at + 1, 0.0
         if product:
             kind = sum(n > NARROW for _, n, _ in product)
@@ -103,12 +104,7 @@ def main():
             if stage[u] < at and u not in given and u not in held:
                 kept[u] = None
                 expression = re.sub(rf"\b{u}\b", f"{u}_q", expression)
-        if division:
-            a, b = re.fullmatch(r"(\S+) / (\S+)", expression).groups()
-            made.append(f"    wire [{bits - 1}:0] {name};\n    drogue_divider of_{name} (.clock(clock), .start(step == 8'd{at}), "
-                        f".dividend({a}), .divisor({b}), .quotient({name}));")
-            at, before, own = at + DIVISION, 0.0, 0.0
-        elif product and kind:
+        if product and kind:
             made.append(f"    wire [{bits - 1}:0] {name} = product_{kind}_{len(pools[kind][at])};")
             pools[kind][at].append(expression.split(" * "))
             summed[name] = at + 2

@@ -32,11 +32,3 @@ void real_unit_linear(const real_asked *restrict asked, drogue_real *restrict ou
     put_sum(&result, first_exponent, first, second, second_exponent);
     *out = result;
 }
-
-void real_unit_quotient(const real_asked *restrict asked, drogue_real *restrict out)
-{
-    const real_asked x = *asked;
-    drogue_real result;
-    drogue_real_quotient(&result, &x.c, &x.d);
-    *out = result;
-}

@@ -14,7 +14,7 @@ enum {
     REAL_SUBTRACT_PRODUCT, /* b - c d */
     REAL_PRODUCTS,         /* a b + c d */
     REAL_DETERMINANT,      /* a b - c d */
-    REAL_QUOTIENT          /* c / d; in a part of its own */
+    REAL_QUOTIENT          /* c / d; by unit.v's divider */
 };
 
 typedef struct real_asked {
@@ -26,6 +26,5 @@ typedef struct real_asked {
 } real_asked;
 
 void real_unit_linear(const real_asked *restrict asked, drogue_real *restrict out);
-void real_unit_quotient(const real_asked *restrict asked, drogue_real *restrict out);
 
 #endif

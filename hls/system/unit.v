@@ -12,14 +12,10 @@ module drogue_unit (
     reg [31:0] exponent;
     reg busy;
     reg [7:0] step;
-    wire linear_done, quotient_done;
-    wire [63:0] linear_real, quotient_real;
+    wire linear_done;
+    wire [63:0] linear_real;
     drogue_real_unit_linear linear (
         .clock(clock), .step(step), .done(linear_done), .asked({29'd0, what, d, c, b, a}), .out(linear_real));
-    drogue_real_unit_quotient quotient (
-        .clock(clock), .step(step), .done(quotient_done), .asked({32'd0, d, c, b, a}), .out(quotient_real));
-    wire divides = what == 3'd7;
-    wire done = divides ? quotient_done : linear_done;
 
     function [5:0] leading_zeros(input [31:0] v);
         integer k;
@@ -115,12 +111,16 @@ module drogue_unit (
     wire [34:0] after = second_bit ? second_left - second_by : second_left;
 
     // A quotient of whole numbers, rounded down, two bits a clock, sixteen that are 0 at once: the one that was told, then what is
-    // divided, whose place the quotient takes.
+    // divided, whose place the quotient takes. That of reals has 31 bits and is rounded to nearest, by one bit more: it begins with the
+    // divided number's upper word already there.
+    reg divides, rounds, negative, none; // of reals
     reg [63:0] divisor, dividend, remains;
     reg [65:0] thrice;
     reg [5:0] divide_step; // 0: not
     wire [66:0] part = {1'b0, remains, dividend[63:62]};
     wire [66:0] less_1 = part - {3'd0, divisor}, less_2 = part - {2'd0, divisor, 1'b0}, less_3 = part - {1'b0, thrice};
+    wire below = dividend[31:0] < divisor[31:0];
+    wire [31:0] rounded = {1'b0, dividend[31:1]} + {31'd0, dividend[0]};
     wire [1:0] divided = !less_2[66] ? {1'b1, !less_3[66]} : {1'b0, !less_1[66]};
     wire [66:0] remains_next = divided[1] ? divided[0] ? less_3 : less_2 : divided[0] ? less_1 : part;
 
@@ -136,6 +136,7 @@ module drogue_unit (
         add_step <= add_step + 8'd1;
         fit_step <= fit_step + 8'd1;
         if (taken) answered <= 1'b0;
+        if (begins) divides <= unit == 7'd0 && function_id[2:0] == 3'd7;
         if (begins && unit != 7'd0 && unit != 7'd15 && unit != 7'd25) answered <= 1'b1;
         if (begins) case (unit)
             7'd0: begin
@@ -219,9 +220,9 @@ module drogue_unit (
             end
             default: ;
         endcase
-        if (busy && root_step == 5'd0 && divide_step == 6'd0 && done) begin
+        if (busy && root_step == 5'd0 && divide_step == 6'd0 && !divides && linear_done) begin
             busy <= 1'b0;
-            {exponent, answer} <= divides ? quotient_real : linear_real;
+            {exponent, answer} <= linear_real;
             answered <= 1'b1;
         end
         if (placing && place_done) begin
@@ -311,40 +312,38 @@ module drogue_unit (
             dividend <= {dividend[61:0], divided};
             remains <= remains_next[63:0];
             divide_step <= divide_step - 6'd1;
-            if (divide_step == 6'd1) begin
+            rounds <= divide_step == 6'd1 && divides;
+            if (divide_step == 6'd1 && !divides) begin
                 busy <= 1'b0;
                 {exponent, answer} <= {dividend[61:0], divided};
                 answered <= 1'b1;
             end
         end
+        if (busy && divides && step == 8'd0) begin
+            dividend <= {32'd0, c[31] ? -c[31:0] : c[31:0]};
+            divisor <= {32'd0, d[31] ? -d[31:0] : d[31:0]};
+            exponent <= c[63:32] - d[63:32];
+            negative <= c[31] ^ d[31];
+        end
+        if (busy && divides && step == 8'd1) begin
+            none <= dividend[31:0] == 32'd0 || divisor[31:0] == 32'd0;
+            remains <= {32'd0, below ? dividend[31:0] : {1'b0, dividend[31:1]}};
+            dividend <= {dividend[0] && !below, 63'd0};
+            exponent <= exponent - (below ? 32'd31 : 32'd30);
+            divide_step <= 6'd16;
+        end
+        if (rounds) begin
+            rounds <= 1'b0;
+            busy <= 1'b0;
+            answer <= none ? 32'd0 : negative ? -rounded : rounded;
+            if (none) exponent <= 32'd0;
+            answered <= 1'b1;
+        end
         if (reset) begin
             {busy, answered, placing, adding, fitting, root_step, divide_step} <= 16'd0;
+            rounds <= 1'b0;
             {placing_sample, rowing, mixing, there, fetch} <= 7'd0;
             {seeking, sloping, peak, sought} <= 4'd0;
-        end
-    end
-endmodule
-
-// dividend / divisor, rounded down, 17 clocks from the one of 'start' on; two bits a clock.
-module drogue_divider (
-    input wire clock, input wire start, input wire [31:0] dividend, input wire [31:0] divisor, output reg [31:0] quotient);
-    reg [31:0] rest, by;
-    reg [4:0] count = 5'd0;
-    wire [33:0] next = {rest, quotient[31:30]}, twice = {1'b0, by, 1'b0};
-    wire upper = next >= twice;
-    wire [33:0] left = upper ? next - twice : next;
-    wire lower = left >= {2'd0, by};
-    wire [33:0] least = lower ? left - {2'd0, by} : left;
-    always @(posedge clock) begin
-        if (start) begin
-            quotient <= dividend;
-            rest <= 32'd0;
-            by <= divisor;
-            count <= 5'd16;
-        end else if (count != 5'd0) begin
-            quotient <= {quotient[29:0], upper, lower};
-            rest <= least[31:0];
-            count <= count - 5'd1;
         end
     end
 endmodule

@@ -106,7 +106,6 @@ void reals(uint32_t n)
     push(a), drogue_real_sum(&r, &a, &b), check_real("sum", REAL_SUM, b, r);
     push(a), drogue_real_difference(&r, &a, &b), check_real("difference", REAL_DIFFERENCE, b, r);
     push(a), drogue_real_product(&r, &a, &b), check_real("product", REAL_PRODUCT, b, r);
-    push(a), drogue_real_quotient(&r, &a, &b), check_real("quotient", REAL_QUOTIENT, b, r);
     r = c, push(c), push(a), drogue_real_subtract_product(&r, &a, &b);
     check_real("subtract product", REAL_SUBTRACT_PRODUCT, b, r);
     push(a), push(b), push(c), drogue_real_products(&r, &a, &b, &c, &d), check_real("products", REAL_PRODUCTS, d, r);
@@ -119,6 +118,7 @@ void reals(uint32_t n)
     const uint32_t z = edges ? (uint32_t)a.mantissa : draw() >> draw() % 32;
     const uint64_t square = (uint64_t)z * z - (draw() & 1),
                    v64 = edges ? square : ((uint64_t)draw() << 32 | draw()) >> shift;
+    push(a), drogue_real_quotient(&r, &a, &b), check_real("quotient", REAL_QUOTIENT, b, r);
     compare("root", instruction(UNIT_ROOT, 0, (uint32_t)v64, (uint32_t)(v64 >> 32)), drogue_isqrt_u64(v64));
     const uint64_t a64 = ((uint64_t)draw() << 32 | draw()) >> draw() % 64,
                    b64 = (((uint64_t)draw() << 32 | draw()) >> draw() % 64) | 1, factor = draw() % 3;
