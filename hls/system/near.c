@@ -93,41 +93,55 @@ void drogue_collect_arc(drogue_moments *moments, const drogue_edge *edges, uint3
     add_moments(moments);
 }
 
+/* Add the unit's counts and sums. */
+static void add_counted(drogue_support *support)
+{
+    uint32_t word[5];
+    uint32_t bins;
+    drogue_support_bin *bin = support->bin;
+    uint32_t k;
+    UNIT(bins, UNIT_COUNTED, COUNTED_BINS, 0, 0);
+    for (k = 0; k < 5; k++) {
+        UNIT(word[k], UNIT_COUNTED, COUNTED_SUMS, 0, 0);
+    }
+    support->squares_q32 = (int64_t)((uint64_t)support->squares_q32 + ((uint64_t)word[1] << 32 | word[0]));
+    support->gradient += (uint64_t)word[3] << 32 | word[2];
+    support->points += word[4];
+    for (k = 0; bins != 0; k++, bin++, bins >>= 1) {
+        if (bins & 1u) {
+            uint32_t counts;
+            int32_t offsets_q16;
+            UNIT(counts, UNIT_COUNTED, COUNTED_COUNTS, k, 0);
+            UNIT(offsets_q16, UNIT_COUNTED, COUNTED_OFFSETS, k, 0);
+            bin->count[0] += counts & 0xFFFFu;
+            bin->count[1] += counts >> 16;
+            bin->sum_q16 += offsets_q16;
+        }
+    }
+}
+
 void drogue_collect_edges(drogue_moments *moments, drogue_support *support, const drogue_ellipse_frame *frame,
                           const drogue_band *band, const drogue_edge *edges, uint32_t count, uint32_t stride,
                           uint32_t counted)
 {
     const points_asked a = {.frame = *frame, .band = *band, .reach = reach_of(frame, band)};
-    const uint32_t bright_bins = support->bright_bins;
-    support_sums sums = sums_of(support);
-    uint32_t points = (uint32_t)moments->n;
-    uint32_t changed = 0;
+    uint32_t none;
     uint32_t i;
+    uint32_t changed;
     if (count == 0) {
         return;
     }
     tell(&a);
-    ask(&edges[0]);
     clear();
+    UNIT(none, UNIT_COUNT, 0, support->bright_bins, (uint32_t)moments->n | (counted ? COUNT_OUT : 0));
     for (i = 0; i < count; i += stride) {
-        const drogue_edge *e = &edges[i];
-        uint32_t own = 0;
-        uint32_t said;
-        UNIT(said, UNIT_SAID, 0, 0, 0);
-        ask(i + stride < count ? e + stride : e); /* meanwhile */
-        if (said >> POINT_HELD & 1u) {
-            const uint32_t k = said >> POINT_BIN & (DROGUE_SUPPORT_BINS - 1);
-            const int32_t offset_q16 = (int32_t)(said << (32 - POINT_BIN)) >> (32 - POINT_BIN);
-            own = add_to_support(&support->bin[k], &sums, 1, (bright_bins >> k) & 1u, offset_q16,
-                                 (drogue_polarity)(said >> POINT_POLARITY & 1u), e->gx, e->gy);
-        }
-        if (own != counted && (!own || points < DROGUE_MAX_FIT_POINTS)) { /* as recount_edge() */
-            points += own ? 1u : UINT32_MAX;
-            changed = 1;
-            add(e, !own);
-        }
+        uint32_t word[2];
+        words_of(word, &edges[i]);
+        UNIT(none, UNIT_PLACE, 1, word[0], word[1]);
     }
-    put_sums(support, &sums);
+    (void)none;
+    add_counted(support);
+    UNIT(changed, UNIT_COUNTED, COUNTED_MOMENTS, 0, 0);
     if (changed) {
         add_moments(moments);
     }

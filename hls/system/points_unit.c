@@ -25,6 +25,23 @@ void points_unit_place(const points_asked *restrict asked, points_said *restrict
     out->word = word;
 }
 
+void points_unit_count(const count_asked *restrict asked, count_said *restrict out)
+{
+    const count_asked a = *asked;
+    const uint32_t polarity = a.word >> POINT_POLARITY & 1u;
+    const uint32_t bright_bin = a.bright_bins >> (a.word >> POINT_BIN & (DROGUE_SUPPORT_BINS - 1)) & 1u;
+    const int32_t offset_q16 = (int32_t)(a.word << (32 - POINT_BIN)) >> (32 - POINT_BIN);
+    drogue_support_bin bin = {{a.count, 0}, a.sum_q16}; /* the first count is that of the point's polarity */
+    support_sums sums = {a.squares_q32, a.gradient, a.points};
+    out->own = add_to_support(&bin, &sums, 1, bright_bin ^ polarity, offset_q16, (drogue_polarity)0,
+                              (int16_t)a.point_gradient, (int16_t)(a.point_gradient >> 16));
+    out->squares_q32 = sums.squares_q32;
+    out->gradient = sums.gradient;
+    out->points = sums.points;
+    out->count = bin.count[0];
+    out->sum_q16 = bin.sum_q16;
+}
+
 void points_unit_moments(const moments_asked *restrict asked, drogue_moments *restrict out)
 {
     const moments_asked a = *asked;

@@ -32,6 +32,38 @@ typedef struct points_said {
 
 void points_unit_place(const points_asked *restrict asked, points_said *restrict out);
 
+/* A support's sums, of a held point's bin the count of its polarity and the sum, and the point. */
+typedef struct count_asked {
+    int64_t squares_q32;
+    uint64_t gradient;
+    uint32_t points;
+    uint32_t count;
+    int32_t sum_q16;
+    uint32_t word; /* as it was said */
+    uint32_t point_gradient;
+    uint32_t bright_bins;
+} count_asked;
+
+typedef struct count_said {
+    int64_t squares_q32;
+    uint64_t gradient;
+    uint32_t points;
+    uint32_t count;
+    int32_t sum_q16;
+    uint32_t own; /* the bin's polarity is the point's */
+} count_said;
+
+void points_unit_count(const count_asked *restrict asked, count_said *restrict out);
+
+/* What is counted is read by a part of the instruction. */
+enum {
+    COUNTED_BINS,    /* bit k: the bin k has points */
+    COUNTED_SUMS,    /* squares, gradient, points, word after word */
+    COUNTED_COUNTS,  /* of the bin told, the second's in the upper half */
+    COUNTED_OFFSETS, /* sum of the bin told */
+    COUNTED_MOMENTS  /* 1: they changed */
+};
+
 /* Moments, and a point that they are to have once more, or, with 'out_of' 1, once less. */
 typedef struct moments_asked {
     drogue_moments moments;

@@ -11,7 +11,7 @@ enum {
     UNIT_EXPONENT,
     UNIT_ZEROS,
     UNIT_TELL, /* two words of points_asked */
-    UNIT_PLACE,
+    UNIT_PLACE, /* what: 0, or 1 for a point that is to be counted */
     UNIT_SAID,
     UNIT_CLEAR, /* the moments */
     UNIT_ADD,
@@ -31,8 +31,12 @@ enum {
     UNIT_RAY_LEAST, /* slope of a peak, and the samples to seek among */
     UNIT_RAY_PEAK,
     UNIT_DIVISOR, /* lower and upper word */
-    UNIT_DIVIDE   /* the same of what it divides; the quotient's upper word by UNIT_EXPONENT */
+    UNIT_DIVIDE,  /* the same of what it divides; the quotient's upper word by UNIT_EXPONENT */
+    UNIT_COUNT,   /* bright bins; points in the moments, and COUNT_OUT: those that are not held leave them. Clears what is counted */
+    UNIT_COUNTED  /* points_unit.h: which of it */
 };
+
+#define COUNT_OUT (1u << 31)
 
 /* In the order of the text: units keep what they were told. An operand of 0 is the register that always is. */
 #define UNIT(result, unit, what, first, second)           \

@@ -30,6 +30,7 @@ part() {
 {
     part real_unit.c real_unit_linear
     part points_unit.c points_unit_place
+    part points_unit.c points_unit_count
     part points_unit.c points_unit_moments
     part ray_unit.c ray_unit_place
     part ray_unit.c ray_unit_rows

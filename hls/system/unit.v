@@ -41,6 +41,32 @@ module drogue_unit (
     drogue_points_unit_moments add (
         .clock(clock), .step(add_step), .done(add_done), .asked({31'd0, out_of, added, moments}), .out(moments_next));
 
+    // Points that are counted: one that is held in its bin and in a support's sums, and one whose place among the moments changes is
+    // added to them or taken out, as drogue_collect_edges() does, while the next one's place is worked out.
+    reg counts_it, judging, counting, deciding, counted_out, moments_changed;
+    reg [7:0] count_step;
+    reg [31:0] bright_bins, points_in, its_place, its_gradient;
+    reg [159:0] support;
+    reg [63:0] counts_told; // bins' counts that are not 0, two of each; the sum of a bin is told with one of them
+    reg [15:0] bin_counts [0:63];
+    reg [31:0] bin_sums [0:31];
+    reg [15:0] bin_count;
+    reg [31:0] bin_sum;
+    reg own;
+    wire count_done;
+    wire [255:0] count_said;
+    wire [5:0] its_count = {said[28:24], said[29]};
+    drogue_points_unit_count count (
+        .clock(clock), .step(count_step), .done(count_done),
+        .asked({bright_bins, its_gradient, said, bin_sum, 16'd0, bin_count, support}), .out(count_said));
+    wire settling = placing || judging || counting || deciding || adding;
+    wire [31:0] bins_told;
+    genvar bin;
+    generate for (bin = 0; bin < 32; bin = bin + 1) begin : told_of
+        assign bins_told[bin] = |counts_told[2 * bin +: 2];
+    end endgenerate
+    wire [5:0] asked_count = {first[4:0], 1'b0};
+
     // Grey along a ray, sample after sample before the soft core asks, each five clocks after the one before: while the pixels of
     // one come, a pixel a clock, the next one's place is worked out, and the one before is interpolated. What is worked out stays
     // until it is taken.
@@ -126,13 +152,14 @@ module drogue_unit (
 
     wire [6:0] unit = {2'd0, function_id[7:3]}; // there are thirty-two: the next are those again
     assign ready = !busy && (!answered || taken) && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
-        !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(unit == 7'd14 && !there) &&
+        !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(settling && unit[6:1] == 6'd13) && !(unit == 7'd14 && !there) &&
         !(unit == 7'd23 && function_id[2:0] == 3'd0 && !peak && !sought) &&
         !(fitting && (unit == 7'd16 || unit == 7'd17 || unit == 7'd19 || unit == 7'd20 || unit == 7'd21));
     wire begins = asked && ready;
     always @(posedge clock) begin
         step <= begins ? 8'd0 : step + 8'd1;
         place_step <= place_step + 8'd1;
+        count_step <= count_step + 8'd1;
         add_step <= add_step + 8'd1;
         fit_step <= fit_step + 8'd1;
         if (taken) answered <= 1'b0;
@@ -154,6 +181,7 @@ module drogue_unit (
             7'd4: told <= {second, first, told[703:64]};
             7'd5: begin
                 point <= {second, first};
+                counts_it <= function_id[0];
                 place_step <= 8'd0;
                 placing <= 1'b1;
             end
@@ -218,6 +246,23 @@ module drogue_unit (
                 divide_step <= 6'd32;
                 busy <= 1'b1;
             end
+            7'd26: begin
+                bright_bins <= first;
+                points_in <= {1'b0, second[30:0]};
+                counted_out <= second[31];
+                {support, counts_told, moments_changed} <= 225'd0;
+            end
+            7'd27: case (function_id[2:0])
+                3'd0: answer <= bins_told;
+                3'd1: begin
+                    answer <= support[31:0];
+                    support <= {32'd0, support[159:32]};
+                end
+                3'd2: answer <= {bin_counts[asked_count | 6'd1] & {16{counts_told[asked_count | 6'd1]}},
+                    bin_counts[asked_count] & {16{counts_told[asked_count]}}};
+                3'd3: answer <= bin_sums[first[4:0]];
+                default: answer <= {31'd0, moments_changed};
+            endcase
             default: ;
         endcase
         if (busy && root_step == 5'd0 && divide_step == 6'd0 && !divides && linear_done) begin
@@ -228,6 +273,37 @@ module drogue_unit (
         if (placing && place_done) begin
             placing <= 1'b0;
             said <= place_said;
+            {its_gradient, its_place} <= point;
+            judging <= counts_it;
+        end
+        if (judging) begin
+            judging <= 1'b0;
+            counting <= said[31];
+            deciding <= !said[31];
+            own <= 1'b0;
+            count_step <= 8'd0;
+            bin_count <= counts_told[its_count] ? bin_counts[its_count] : 16'd0;
+            bin_sum <= bins_told[said[28:24]] ? bin_sums[said[28:24]] : 32'd0;
+        end
+        if (counting && count_done) begin
+            counting <= 1'b0;
+            deciding <= 1'b1;
+            support <= count_said[159:0];
+            bin_counts[its_count] <= count_said[175:160];
+            bin_sums[said[28:24]] <= count_said[223:192];
+            counts_told[its_count] <= 1'b1;
+            own <= count_said[224];
+        end
+        if (deciding) begin
+            deciding <= 1'b0;
+            if (own != counted_out && (!own || points_in < 32'd131072)) begin
+                points_in <= points_in + (own ? 32'd1 : 32'hFFFFFFFF);
+                moments_changed <= 1'b1;
+                added <= its_place;
+                out_of <= !own;
+                add_step <= 8'd0;
+                adding <= 1'b1;
+            end
         end
         if (adding && add_done) begin
             adding <= 1'b0;
@@ -341,7 +417,7 @@ module drogue_unit (
         end
         if (reset) begin
             {busy, answered, placing, adding, fitting, root_step, divide_step} <= 16'd0;
-            rounds <= 1'b0;
+            {rounds, judging, counting, deciding} <= 4'd0;
             {placing_sample, rowing, mixing, there, fetch} <= 7'd0;
             {seeking, sloping, peak, sought} <= 4'd0;
         end

@@ -2,6 +2,7 @@
 // The units beside the soft core under Verilator: every word that they answer must be the library's, over operands at the edges
 // of their ranges and drawn ones.
 // usage: unit_test [DRAWN]     operands drawn for each operation
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -21,7 +22,7 @@ extern "C" {
 namespace {
 
 Vdrogue_unit v;
-unsigned long failed, compared;
+unsigned long failed, compared, held;
 uint64_t state = 1;
 
 uint32_t draw()
@@ -130,6 +131,64 @@ void reals(uint32_t n)
     compare("leading zeros", instruction(UNIT_ZEROS, 0, z, 0), z == 0 ? 32 : (uint32_t)__builtin_clz(z));
 }
 
+// Points about an ellipse that the unit knows, counted as the soft core has it do.
+void counts(const points_asked &a, const drogue_ellipse &e)
+{
+    drogue_edge edges[60];
+    drogue_support support = {};
+    drogue_moments m, before;
+    support.bright_bins = draw();
+    drogue_moments_clear(&m);
+    m.n = draw() % 4 ? draw() % 100 + 60 : DROGUE_MAX_FIT_POINTS - draw() % 10;
+    before = m;
+    const uint32_t counted = draw() & 1;
+    instruction(UNIT_CLEAR, 0, 0, 0);
+    instruction(UNIT_COUNT, 0, support.bright_bins, (uint32_t)m.n | (counted ? COUNT_OUT : 0));
+    for (drogue_edge &edge : edges) {
+        const double t = draw() * 6.2831853 / 4294967296.0, r = 0.99 + draw() * 0.02 / 4294967296.0;
+        const double axis = e.angle_rad_q16 / 65536.0, u = r * e.a_px_q16 * cos(t), w = r * e.b_px_q16 * sin(t);
+        const double grey = draw() & 1 ? 300 : -300;
+        edge = {};
+        edge.x_q5 = (uint16_t)((e.xc_px_q16 + u * cos(axis) - w * sin(axis)) / 2048);
+        edge.y_q5 = (uint16_t)((e.yc_px_q16 + u * sin(axis) + w * cos(axis)) / 2048);
+        edge.gx = (int16_t)(grey * cos(axis + t));
+        edge.gy = (int16_t)(grey * sin(axis + t));
+        uint32_t words[2];
+        memcpy(words, &edge.x_q5, sizeof words);
+        instruction(UNIT_PLACE, 1, words[0], words[1]);
+    }
+    drogue_collect_edges(&m, &support, &a.frame, &a.band, edges, 60, 1, counted);
+    uint32_t bins = 0;
+    for (unsigned k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        const drogue_support_bin &b = support.bin[k];
+        bins |= (b.count[0] + b.count[1] > 0 ? 1u : 0u) << k;
+    }
+    held += support.points;
+    compare("bins", instruction(UNIT_COUNTED, COUNTED_BINS, 0, 0), bins);
+    const support_sums sums = sums_of(&support);
+    for (unsigned k = 0; k < 5; k++) {
+        uint32_t expected;
+        memcpy(&expected, (const char *)&sums + 4 * k, 4);
+        compare("sums of the support", instruction(UNIT_COUNTED, COUNTED_SUMS, 0, 0), expected);
+    }
+    for (unsigned k = 0; k < DROGUE_SUPPORT_BINS; k++) {
+        const drogue_support_bin &b = support.bin[k];
+        compare("counts", instruction(UNIT_COUNTED, COUNTED_COUNTS, k, 0), b.count[0] | b.count[1] << 16);
+        if (bins >> k & 1) {
+            compare("offsets", instruction(UNIT_COUNTED, COUNTED_OFFSETS, k, 0), (uint32_t)b.sum_q16);
+        }
+    }
+    const bool changed = memcmp(&m, &before, sizeof m) != 0;
+    compare("do the moments change", instruction(UNIT_COUNTED, COUNTED_MOMENTS, 0, 0) & changed, changed);
+    for (unsigned k = 0; k < sizeof m / 8; k++) {
+        uint64_t expected, from;
+        memcpy(&expected, (const char *)&m + 8 * k, 8);
+        memcpy(&from, (const char *)&before + 8 * k, 8);
+        compare("counted moments", instruction(UNIT_MOMENTS, 0, 0, 0), (uint32_t)(expected - from));
+        compare("counted moments", instruction(UNIT_MOMENTS, 0, 0, 0), (uint32_t)((expected - from) >> 32));
+    }
+}
+
 // An ellipse and points about it.
 void points()
 {
@@ -173,6 +232,7 @@ void points()
         memcpy(&expected, (const char *)&m + 4 * k, 4);
         compare("moments", instruction(UNIT_MOMENTS, 0, 0, 0), expected);
     }
+    counts(a, e);
 }
 
 void wait()
@@ -314,6 +374,6 @@ int main(int argc, char **argv)
     for (uint32_t n = 0; n < drawn / 200; n++) {
         fits();
     }
-    printf("unit: words=%lu failed=%lu\n", compared, failed);
+    printf("unit: words=%lu points held=%lu failed=%lu\n", compared, held, failed);
     return failed != 0;
 }
