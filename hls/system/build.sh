@@ -6,8 +6,8 @@
 root=$PWD
 made=$root/build/hls/system
 
-# need WHO TOOL...: exit 77 where the core or a tool is absent; sets core, without the instruction cache that is icache.v's, its data
-# cache of 8 KB where the package has 4: as many block RAMs hold it
+# need WHO TOOL...: exit 77 where the core or a tool is absent; sets core, without the instruction cache that is icache.v's, with a data
+# cache of 8 KB where the package has 4, since as many block RAMs hold it, and with its registers in LUTs
 need() {
     local tool who=$1
     for tool in "${@:2}"; do
@@ -17,7 +17,7 @@ need() {
 print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
     [ -e "$core" ] || { echo "$who: SKIPPED: no pythondata-cpu-vexriscv" && exit 77; }
     mkdir -p "$made"
-    sed -e '/^module InstructionCache (/,/^endmodule/d' -e '/^module DataCache (/,/^endmodule/{
+    sed -e '/^module InstructionCache (/,/^endmodule/d' -e '/RegFilePlugin_regFile \[/s/"block"/"distributed"/' -e '/^module DataCache (/,/^endmodule/{
         s/\[9:0\]/[10:0]/; s/\[6:0\]/[7:0]/; s/\[11 : \([25]\)\]/[12 : \1]/g; s/\[0:127\]/[0:255]/; s/\[0:1023\]/[0:2047]/
         /stageB_flusher_counter/{ s/\[7:0\] *stageB/[8:0] stageB/; s/\[7\]/[8]/; s/8'\''h/9'\''h/g; }
     }' "$core" >"$made/VexRiscv.v"

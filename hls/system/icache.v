@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The soft core's instruction cache, in the place of the package's module of this name and with its ports: 8 KB where that has 4 KB,
+// The soft core's instruction cache, in the place of the package's module of this name and with its ports: 16 KB where that has 4,
 // and the core goes on as soon as the word that it misses is there, not when all of its line is. One way: the way from a tag by the
 // choice of a word to the register file was the longest of all.
 //
@@ -24,34 +24,34 @@ module InstructionCache (
     output wire io_mem_cmd_valid, input wire io_mem_cmd_ready, output wire [31:0] io_mem_cmd_payload_address,
     output wire [2:0] io_mem_cmd_payload_size,
     input wire io_mem_rsp_valid, input wire [31:0] io_mem_rsp_payload_data, input wire io_mem_rsp_payload_error);
-    localparam LINES = 256; // of eight words
+    localparam LINES = 512; // of eight words
     reg [31:0] words [0:8*LINES-1];
-    reg [19:0] tags [0:LINES-1]; // valid, address
+    reg [18:0] tags [0:LINES-1]; // valid, address
 
     reg loading, asked, overtaken;
     reg [31:0] missed;  // the word that is waited for; its line comes
     reg [2:0] come;     // words of it, of which the last ends the loading
-    reg [8:0] clearing; // from line 0 on: LINES is the end
+    reg [9:0] clearing; // from line 0 on: LINES is the end
 
     assign io_cpu_prefetch_haltIt =
-        !clearing[8] || io_flush || io_cpu_fill_valid || (loading && (overtaken || come <= missed[4:2]));
+        !clearing[9] || io_flush || io_cpu_fill_valid || (loading && (overtaken || come <= missed[4:2]));
     assign io_mem_cmd_valid = loading && !asked;
     assign io_mem_cmd_payload_address = {missed[31:5], 5'd0};
     assign io_mem_cmd_payload_size = 3'd5;
 
     reg [31:0] word;
-    reg [19:0] tag;
+    reg [18:0] tag;
     reg was_loading; // when the word was read, and so many words had come
     reg [2:0] had_come;
     always @(posedge clk) begin
         if (!io_cpu_fetch_isStuck) begin
-            word <= words[io_cpu_prefetch_pc[12:2]];
-            tag <= tags[io_cpu_prefetch_pc[12:5]];
+            word <= words[io_cpu_prefetch_pc[13:2]];
+            tag <= tags[io_cpu_prefetch_pc[13:5]];
             was_loading <= loading;
             had_come <= come;
         end
-        if (!clearing[8] || loading) tags[clearing[8] ? missed[12:5] : clearing[7:0]] <= {clearing[8], missed[31:13]};
-        if (io_mem_rsp_valid) words[{missed[12:5], come}] <= io_mem_rsp_payload_data;
+        if (!clearing[9] || loading) tags[clearing[9] ? missed[13:5] : clearing[8:0]] <= {clearing[9], missed[31:14]};
+        if (io_mem_rsp_valid) words[{missed[13:5], come}] <= io_mem_rsp_payload_data;
     end
 
     wire to_come = was_loading && io_cpu_fetch_pc[31:5] == missed[31:5] && io_cpu_fetch_pc[4:2] >= had_come;
@@ -61,7 +61,7 @@ module InstructionCache (
     always @(posedge clk) if (!io_cpu_decode_isStuck) begin
         io_cpu_decode_data <= io_cpu_fetch_data;
         io_cpu_decode_physicalAddress <= io_cpu_fetch_pc;
-        io_cpu_decode_cacheMiss <= tag != {1'b1, io_cpu_fetch_pc[31:13]} || to_come;
+        io_cpu_decode_cacheMiss <= tag != {1'b1, io_cpu_fetch_pc[31:14]} || to_come;
     end
 
     wire starts = io_cpu_fill_valid && !loading;
@@ -71,8 +71,8 @@ module InstructionCache (
         overtaken <= loading && (overtaken || io_cpu_fill_valid);
         if (io_mem_rsp_valid) come <= come + 3'd1;
         loading <= starts || (loading && !(io_mem_rsp_valid && come == 3'd7));
-        if (!clearing[8]) clearing <= clearing + 9'd1;
+        if (!clearing[9]) clearing <= clearing + 10'd1;
         if (reset) {loading, asked, overtaken, come} <= 6'd0;
-        if (reset || io_flush) clearing <= 9'd0;
+        if (reset || io_flush) clearing <= 10'd0;
     end
 endmodule
