@@ -6,8 +6,7 @@
 #include "../../src/inner/fit.c"
 #undef drogue_ray_sums_add_edges
 
-#include "fit_unit.h"
-#include "unit.h"
+#include "fit_sums.h"
 
 /* The edge that the unit chose on the ray that it was told last. */
 static inline void take(drogue_ray_sums *s, const drogue_ray *r)
@@ -20,21 +19,11 @@ static inline void take(drogue_ray_sums *s, const drogue_ray *r)
     }
 }
 
-static inline int64_t sum_of_unit(void)
-{
-    uint32_t low;
-    uint32_t high;
-    UNIT(low, UNIT_FIT_SUMS, 0, 0, 0);
-    UNIT(high, UNIT_FIT_SUMS, 0, 0, 0);
-    return (int64_t)((uint64_t)high << 32 | low);
-}
-
 void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const drogue_ray rays[RAYS],
                                const drogue_q16 v_px_q16[3], drogue_q16 within_px_q16)
 {
     const drogue_ray *told = NULL; /* whose choice is to come */
     uint32_t none;
-    uint32_t count;
     int32_t k;
     if (bins != NULL) {
         add_edges_by_core(s, bins, rays, v_px_q16, within_px_q16);
@@ -60,14 +49,5 @@ void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const 
     if (told != NULL) {
         take(s, told);
     }
-    for (k = 0; k < 5; k++) {
-        s->normal[k] += sum_of_unit();
-    }
-    for (k = 0; k < 3; k++) {
-        s->right[k] += sum_of_unit();
-    }
-    s->squares_q16 += sum_of_unit();
-    UNIT(count, UNIT_FIT_SUMS, 0, 0, 0);
-    s->normal[5] += count;
-    s->rays += count;
+    add_sums_of_unit(s);
 }

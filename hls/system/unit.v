@@ -291,7 +291,7 @@ module drogue_unit (
             support <= count_said[159:0];
             bin_counts[its_count] <= count_said[175:160];
             bin_sums[said[28:24]] <= count_said[223:192];
-            counts_told[its_count] <= 1'b1;
+            counts_told <= counts_told | 64'd1 << its_count;
             own <= count_said[224];
         end
         if (deciding) begin
