@@ -30,8 +30,7 @@ def delay(expression, bits):
         return 11.0
     if re.search(r" (<<|>>|>>>) [a-z]", expression):
         return 1.2 * max(1, (bits - 1).bit_length())
-    power = re.fullmatch(r"\S+ < \d+'d(\d+)", expression)
-    if power and int(power[1]) & (int(power[1]) - 1) == 0 or re.search(r" [!=]= ", expression):
+    if re.search(r" [!=]= ", expression):
         return 1.2 + 0.02 * bits  # a tree
     if re.search(r" [-+] |-\w|<<", expression) or re.search(r" [<>]=? ", expression):
         return 2.2 + 0.06 * max(bits, 32)
@@ -80,6 +79,10 @@ def main():
         if constant:  # bits that are not 0
             n, c = low.get(constant[1], width[constant[1]]), int(constant[3])
             low[name] = {"&": min(n, c.bit_length()), "^": max(n, c.bit_length()), ">>": max(1, n - c)}[constant[2]]
+        power = re.fullmatch(r"(\w+) < \d+'d(\d+)", expression)
+        if power and 1 < int(power[2]) < 1 << width[power[1]] and int(power[2]) & (int(power[2]) - 1) == 0:
+            n = int(power[2]).bit_length() - 1  # a tree, where yosys makes a chain of carries of it
+            expression = f"{power[1]}[{width[power[1]] - 1}:{n}] == {width[power[1]] - n}'d0"
         shift = re.fullmatch(r"(.* (?:<<|>>|>>>)) ([a-z]\w*)", expression)
         if shift and width[shift[2]] > 6:  # by more than there are bits, LLVM's result is anything
             expression = f"{shift[1]} {shift[2]}[5:0]"

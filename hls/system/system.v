@@ -43,7 +43,7 @@ module drogue_system #(
         .dBusWishbone_SEL(d_bytes), .dBusWishbone_ERR(1'b0), .dBusWishbone_CTI(d_burst), .dBusWishbone_BTE());
     drogue_unit units (
         .clock(clock), .reset(reset), .asked(unit_asked), .ready(unit_ready), .function_id(unit_function),
-        .first(unit_first), .second(unit_second), .answered(unit_answered), .taken(unit_taken), .answer(unit_answer),
+        .first(unit_first), .second(unit_second), .answers(unit_answered), .taken(unit_taken), .says(unit_answer),
         .frame_at(ray_at), .frame_free(ray_free), .frame_word(frame_read));
 
     // A word that is read comes three clocks after it was asked for: the way to so many block RAMs and the way from there are long,

@@ -3,7 +3,7 @@
 module drogue_unit (
     input wire clock, input wire reset,
     input wire asked, output wire ready, input wire [9:0] function_id, input wire [31:0] first, input wire [31:0] second,
-    output reg answered, input wire taken, output reg [31:0] answer,
+    output wire answers, input wire taken, output wire [31:0] says,
     // the frame memory's: the word about a byte, a clock after it was asked for
     output wire [31:0] frame_at, input wire frame_free, input wire [31:0] frame_word);
     // Reals, mantissa and exponent: a, b, c were told before the operation, which brings d.
@@ -12,6 +12,12 @@ module drogue_unit (
     reg [31:0] exponent;
     reg busy;
     reg [7:0] step;
+    // An answer, and one before it that the soft core has not taken yet: whether it takes one is known too late to say by that whether
+    // an instruction may begin.
+    reg answered, kept;
+    reg [31:0] answer, kept_answer;
+    assign answers = answered || kept;
+    assign says = kept ? kept_answer : answer;
     wire linear_done;
     wire [63:0] linear_real;
     drogue_real_unit_linear linear (
@@ -151,7 +157,7 @@ module drogue_unit (
     wire [66:0] remains_next = divided[1] ? divided[0] ? less_3 : less_2 : divided[0] ? less_1 : part;
 
     wire [6:0] unit = {2'd0, function_id[7:3]}; // there are thirty-two: the next are those again
-    assign ready = !busy && (!answered || taken) && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
+    assign ready = !busy && !kept && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
         !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(settling && unit[6:1] == 6'd13) && !(unit == 7'd14 && !there) &&
         !(unit == 7'd23 && function_id[2:0] == 3'd0 && !peak && !sought) &&
         !(fitting && (unit == 7'd16 || unit == 7'd17 || unit == 7'd19 || unit == 7'd20 || unit == 7'd21));
@@ -162,7 +168,15 @@ module drogue_unit (
         count_step <= count_step + 8'd1;
         add_step <= add_step + 8'd1;
         fit_step <= fit_step + 8'd1;
-        if (taken) answered <= 1'b0;
+        if (taken) begin
+            kept <= 1'b0;
+            if (!kept) answered <= 1'b0;
+        end
+        if (begins) begin
+            kept <= answered && !taken;
+            kept_answer <= answer;
+            answered <= 1'b0;
+        end
         if (begins) divides <= unit == 7'd0 && function_id[2:0] == 3'd7;
         if (begins && unit != 7'd0 && unit != 7'd15 && unit != 7'd25) answered <= 1'b1;
         if (begins) case (unit)
@@ -417,7 +431,7 @@ module drogue_unit (
         end
         if (reset) begin
             {busy, answered, placing, adding, fitting, root_step, divide_step} <= 16'd0;
-            {rounds, judging, counting, deciding} <= 4'd0;
+            {kept, rounds, judging, counting, deciding} <= 5'd0;
             {placing_sample, rowing, mixing, there, fetch} <= 7'd0;
             {seeking, sloping, peak, sought} <= 4'd0;
         end

@@ -57,11 +57,11 @@ uint32_t instruction(unsigned unit, unsigned what, uint32_t first, uint32_t seco
     }
     tick();
     v.asked = 0;
-    for (int k = 0; k < 100 && !v.answered; k++) {
+    for (int k = 0; k < 100 && !v.answers; k++) {
         tick();
     }
     v.taken = 1;
-    const uint32_t answer = v.answer;
+    const uint32_t answer = v.says;
     tick();
     v.taken = 0;
     return answer;
