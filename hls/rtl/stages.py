@@ -6,9 +6,9 @@ usage: verilog.py IR FUNCTION asked=in out=out | stages.py MODULE NANOSECONDS
 The module's input is the struct 'asked', whose words must stay as they are until it is done, so that a value used in a later
 stage than its own needs one register, not one a stage. A stage takes as many operations one after another as fit the
 nanoseconds by an estimate. 'step' counts clocks from 0 with the input there; in the clock of 'done' the struct 'out' is
-right. A product takes two stages, to one of a few multipliers, which
-others have in other stages, and through it, and stays in a register. One of a wide factor is that of the factor's halves, from
-registers of whose its sum begins the third stage.
+right. A product takes two stages, to one of a few multipliers, which others have in other stages, and through it, and stays in
+a register. One with a wide factor is the sum of products of the factors' halves, which have registers: the sum is made in the
+third stage, in whose clock alone it is right, and so is what is made of it there.
 """
 import re
 import sys
@@ -146,11 +146,11 @@ def main():
             halves = [[f"factor_{kind}_{k}_{side}"] if n == NARROW else
                       [f"$signed({{1'd0, factor_{kind}_{k}_{side}[{HALF - 1}:0]}})", f"$signed(factor_{kind}_{k}_{side}[{n - 1}:{HALF}])"]
                       for side, n in enumerate(sizes_of(kind))]
-            terms = [(f"part_{kind}_{k}_{i}{j}", a, b, i + j) for i, a in enumerate(halves[0]) for j, b in enumerate(halves[1])]
+            terms = [(f"part_{kind}_{k}_{i}{j}", a, b) for i, a in enumerate(halves[0]) for j, b in enumerate(halves[1])]
             if kind == 0:
                 print(f"    assign product_0_{k} = factor_0_{k}_0 * factor_0_{k}_1;")
                 continue
-            for part, a, b, _ in terms:
+            for part, a, b in terms:
                 print(f"    reg signed [{2 * NARROW - 1}:0] {part};\n    always @(posedge clock) {part} <= {a} * {b};")
             print(f"    assign product_{kind}_{k} = {sum_of(terms, kind)};")
     print("    always @(posedge clock) begin")

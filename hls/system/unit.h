@@ -10,7 +10,7 @@ enum {
     UNIT_PUSH,
     UNIT_EXPONENT,
     UNIT_ZEROS,
-    UNIT_TELL, /* two words of points_asked */
+    UNIT_TELL,  /* two words of points_asked */
     UNIT_PLACE, /* what: 0, or 1 for a point that is to be counted */
     UNIT_SAID,
     UNIT_CLEAR, /* the moments */
@@ -32,11 +32,11 @@ enum {
     UNIT_RAY_PEAK,
     UNIT_DIVISOR, /* lower and upper word */
     UNIT_DIVIDE,  /* the same of what it divides; the quotient's upper word by UNIT_EXPONENT */
-    UNIT_COUNT,   /* bright bins; points in the moments, and COUNT_OUT: those that are not held leave them. Clears what is counted */
-    UNIT_COUNTED  /* points_unit.h: which of it */
+    UNIT_COUNT,   /* clears the counts: bright bins; points in the moments, and may they leave them? */
+    UNIT_COUNTED  /* points_unit.h: which of the counts */
 };
 
-#define COUNT_OUT (1u << 31)
+#define COUNT_OUT (1u << 31) /* points that are not held leave the moments */
 
 /* In the order of the text: units keep what they were told. An operand of 0 is the register that always is. */
 #define UNIT(result, unit, what, first, second)           \

@@ -44,8 +44,7 @@ void tick()
     v.eval();
 }
 
-// An instruction: what the unit answers.
-uint32_t instruction(unsigned unit, unsigned what, uint32_t first, uint32_t second)
+void ask(unsigned unit, unsigned what, uint32_t first, uint32_t second)
 {
     v.asked = 1;
     v.function_id = (uint16_t)(unit << 3 | what);
@@ -57,14 +56,25 @@ uint32_t instruction(unsigned unit, unsigned what, uint32_t first, uint32_t seco
     }
     tick();
     v.asked = 0;
+}
+
+uint32_t answer()
+{
     for (int k = 0; k < 100 && !v.answers; k++) {
         tick();
     }
     v.taken = 1;
-    const uint32_t answer = v.says;
+    const uint32_t said = v.says;
     tick();
     v.taken = 0;
-    return answer;
+    return said;
+}
+
+// An instruction: what the unit answers.
+uint32_t instruction(unsigned unit, unsigned what, uint32_t first, uint32_t second)
+{
+    ask(unit, what, first, second);
+    return answer();
 }
 
 void compare(const char *what, uint32_t found, uint32_t expected)
@@ -128,7 +138,10 @@ void reals(uint32_t n)
     compare("quotient of 64 bits", instruction(UNIT_DIVIDE, 0, (uint32_t)of64, (uint32_t)(of64 >> 32)),
             (uint32_t)(of64 / by64));
     compare("quotient of 64 bits", instruction(UNIT_EXPONENT, 0, 0, 0), (uint32_t)(of64 / by64 >> 32));
-    compare("leading zeros", instruction(UNIT_ZEROS, 0, z, 0), z == 0 ? 32 : (uint32_t)__builtin_clz(z));
+    ask(UNIT_ZEROS, 0, z, 0); // and another instruction, long or short, before its answer is taken
+    ask(n & 1 ? UNIT_ROOT : UNIT_ZEROS, 0, 1, 0);
+    compare("leading zeros", answer(), z == 0 ? 32 : (uint32_t)__builtin_clz(z));
+    compare("the answer after", answer(), n & 1 ? 1 : 31);
 }
 
 // Points about an ellipse that the unit knows, counted as the soft core has it do.
