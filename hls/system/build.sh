@@ -7,7 +7,9 @@ root=$PWD
 made=$root/build/hls/system
 
 # need WHO TOOL...: exit 77 where the core or a tool is absent; sets core, without the instruction cache that is icache.v's, with a data
-# cache of 8 KB where the package has 4, since as many block RAMs hold it, and with its registers in LUTs
+# cache of 8 KB where the package has 4, since as many block RAMs hold it, and with its registers in LUTs. What the data cache reads in
+# the clock of its writing is no matter, and no address waits for a comparison: such a word is read once more (dataColisions), tags are
+# written while execute is halted. In simulation such a word is a wrong one, such a tag the one that was asked for.
 need() {
     local tool who=$1
     for tool in "${@:2}"; do
@@ -17,7 +19,14 @@ need() {
 print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
     [ -e "$core" ] || { echo "$who: SKIPPED: no pythondata-cpu-vexriscv" && exit 77; }
     mkdir -p "$made"
-    sed -e '/^module InstructionCache (/,/^endmodule/d' -e '/RegFilePlugin_regFile \[/s/"block"/"distributed"/' -e '/^module DataCache (/,/^endmodule/{
+    sed -e '/^module InstructionCache (/,/^endmodule/d' -e '/RegFilePlugin_regFile \[/s/"block"/"distributed"/' \
+        -e '/^module DataCache (/,/^endmodule/{
+        s/ram_style = "block"/&, no_rw_check/
+        s/\(_zz_ways_0_datasymbol_read[_0-9]*\) <= ways_0_data_symbol\([0-3]\)\[.*/&\n`ifdef VERILATOR\
+            if (_zz_1 \&\& dataWriteCmd_payload_mask[\2] \&\& dataWriteCmd_payload_address == dataReadCmd_payload) \1 <= 8'\''hA5;\n`endif/
+        s/_zz_ways_0_tags_port0 <= ways_0_tags\[.*/&\n`ifdef VERILATOR\
+            if (_zz_2 \&\& tagsWriteCmd_payload_address == tagsReadCmd_payload)\
+                _zz_ways_0_tags_port0 <= {io_cpu_execute_address[31:12], 2'\''b01};\n`endif/
         s/\[9:0\]/[10:0]/; s/\[6:0\]/[7:0]/; s/\[11 : \([25]\)\]/[12 : \1]/g; s/\[0:127\]/[0:255]/; s/\[0:1023\]/[0:2047]/
         /stageB_flusher_counter/{ s/\[7:0\] *stageB/[8:0] stageB/; s/\[7\]/[8]/; s/8'\''h/9'\''h/g; }
     }' "$core" >"$made/VexRiscv.v"

@@ -25,8 +25,12 @@ module InstructionCache (
     output wire [2:0] io_mem_cmd_payload_size,
     input wire io_mem_rsp_valid, input wire [31:0] io_mem_rsp_payload_data, input wire io_mem_rsp_payload_error);
     localparam LINES = 512; // of eight words
-    reg [31:0] words [0:8*LINES-1];
-    reg [18:0] tags [0:LINES-1]; // valid, address
+    // What a word or a tag reads in the clock of its writing is no matter, and its address waits for no comparison with the one written.
+    // A line's tag is written before its first word has come, and all are cleared, while prefetch halts: what is read then no one takes.
+    // A word that comes behind its line's tag is 'to_come' where it belongs to the address that was asked for, and else its tag is not
+    // that of the address; either way it is missed.
+    (* no_rw_check *) reg [31:0] words [0:8*LINES-1];
+    (* no_rw_check *) reg [18:0] tags [0:LINES-1]; // valid, address
 
     reg loading, asked, overtaken;
     reg [31:0] missed;  // the word that is waited for; its line comes
@@ -43,6 +47,8 @@ module InstructionCache (
     reg [18:0] tag;
     reg was_loading; // when the word was read, and so many words had come
     reg [2:0] had_come;
+    wire tags_line = loading && !asked;
+    wire [8:0] line = clearing[9] ? missed[13:5] : clearing[8:0];
     always @(posedge clk) begin
         if (!io_cpu_fetch_isStuck) begin
             word <= words[io_cpu_prefetch_pc[13:2]];
@@ -50,7 +56,7 @@ module InstructionCache (
             was_loading <= loading;
             had_come <= come;
         end
-        if (!clearing[9] || loading) tags[clearing[9] ? missed[13:5] : clearing[8:0]] <= {clearing[9], missed[31:14]};
+        if (!clearing[9] || tags_line) tags[line] <= {clearing[9], missed[31:14]};
         if (io_mem_rsp_valid) words[{missed[13:5], come}] <= io_mem_rsp_payload_data;
     end
 
@@ -75,4 +81,20 @@ module InstructionCache (
         if (reset) {loading, asked, overtaken, come} <= 6'd0;
         if (reset || io_flush) clearing <= 10'd0;
     end
+
+`ifdef VERILATOR
+    // Stops where the core takes what was read in the clock of its writing.
+    reg tag_unknown, word_unknown, taken_unknown;
+    always @(posedge clk) begin
+        if (!io_cpu_fetch_isStuck) begin
+            tag_unknown <= (!clearing[9] || tags_line) && io_cpu_prefetch_pc[13:5] == line;
+            word_unknown <= io_mem_rsp_valid && io_cpu_prefetch_pc[13:2] == {missed[13:5], come};
+        end
+        if (!io_cpu_decode_isStuck) taken_unknown <= tag_unknown || (word_unknown && !(tag != {1'b1, io_cpu_fetch_pc[31:14]} || to_come));
+        if (!reset && io_cpu_decode_isValid && taken_unknown) begin
+            $display("icache: %x was read while it was written", io_cpu_decode_pc);
+            $stop;
+        end
+    end
+`endif
 endmodule
