@@ -10,6 +10,9 @@ made=$root/build/hls/system
 # cache of 8 KB where the package has 4, since as many block RAMs hold it, and with its registers in LUTs. What the data cache reads in
 # the clock of its writing is no matter, and no address waits for a comparison: such a word is read once more (dataColisions), tags are
 # written while execute is halted. In simulation such a word is a wrong one, such a tag the one that was asked for.
+# What waited for the longest ways does so no more: the registers are read as an instruction is decoded, not ahead of that, behind the
+# instruction cache and what holds decoding up; branches compare registers, not what is chosen for other instructions in their place;
+# the bus has no errors; whether the program counter goes on is but a gate behind what says whether fetch takes an instruction.
 need() {
     local tool who=$1
     for tool in "${@:2}"; do
@@ -20,6 +23,17 @@ print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
     [ -e "$core" ] || { echo "$who: SKIPPED: no pythondata-cpu-vexriscv" && exit 77; }
     mkdir -p "$made"
     sed -e '/^module InstructionCache (/,/^endmodule/d' -e '/RegFilePlugin_regFile \[/s/"block"/"distributed"/' \
+        -e '/^  always @(posedge clk) begin$/{N; s/(posedge clk)\( begin\n *if(_zz_decode_RegFilePlugin_rs[12]Data)\)/(*)\1/; }' \
+        -e '/_zz_RegFilePlugin_regFile_port[01] <=/s/<=/=/' \
+        -e '/decode_RegFilePlugin_regFileReadAddress[12] =/s/_ANTICIPATED//' \
+        -e '/execute_BranchPlugin_eq =/s/SRC\([12]\)/RS\1/g' \
+        -e '/_zz_execute_BRANCH_COND_RESULT = /s/execute_SRC_LESS/branch_less/' \
+        -e '/^  assign execute_BranchPlugin_eq/i wire branch_less = {execute_RS1[31] ^ !execute_INSTRUCTION[13], execute_RS1[30:0]} <\
+            {execute_RS2[31] ^ !execute_INSTRUCTION[13], execute_RS2[30:0]};' \
+        -e 's/\(stageB_tagsReadRsp_0_error <=\).*/\1 1'\''b0;/' \
+        -e 's/\(IBusCachedPlugin_fetchPc_output_fire_1 =\).*/\1 1'\''b1;/; s/\(when_Fetcher_l134_1 =\).*/\1 1'\''b0;/' \
+        -e 's/\(IBusCachedPlugin_fetchPc_inc <=\) 1.*1;/\1 IBusCachedPlugin_fetchPc_pcRegPropagate ?\
+            IBusCachedPlugin_iBusRsp_stages_0_output_valid : IBusCachedPlugin_fetchPc_inc \&\& !IBusCachedPlugin_fetchPc_correction;/' \
         -e '/^module DataCache (/,/^endmodule/{
         s/ram_style = "block"/&, no_rw_check/
         s/\(_zz_ways_0_datasymbol_read[_0-9]*\) <= ways_0_data_symbol\([0-3]\)\[.*/&\n`ifdef VERILATOR\
