@@ -162,7 +162,39 @@ module drogue_unit (
         !(unit == 7'd23 && function_id[2:0] == 3'd0 && !peak && !sought) &&
         !(fitting && (unit == 7'd16 || unit == 7'd17 || unit == 7'd19 || unit == 7'd20 || unit == 7'd21));
     wire begins = asked && ready;
+
+    // What is answered at once is chosen before it is known whether an instruction begins, which none does while the unit is busy.
+    reg [31:0] at_once;
+    always @(*) case (unit)
+        7'd2: at_once = exponent;
+        7'd3: at_once = {26'd0, leading_zeros(first)};
+        7'd6: at_once = said;
+        7'd9: at_once = moments[31:0];
+        7'd14: at_once = grey;
+        7'd20: at_once = sums[639:608];
+        7'd21: at_once = sums[31:0];
+        7'd23: case (function_id[2:0])
+            3'd0: at_once = peak ? peak_at : 32'hFFFFFFFF;
+            3'd1: at_once = slope_before;
+            3'd2: at_once = slope;
+            3'd3: at_once = slope_after;
+            default: at_once = greys[31:0];
+        endcase
+        7'd27: case (function_id[2:0])
+            3'd0: at_once = bins_told;
+            3'd1: at_once = support[31:0];
+            3'd2: at_once = {bin_counts[asked_count | 6'd1] & {16{counts_told[asked_count | 6'd1]}},
+                bin_counts[asked_count] & {16{counts_told[asked_count]}}};
+            3'd3: at_once = bin_sums[first[4:0]];
+            default: at_once = {31'd0, moments_changed};
+        endcase
+        default: at_once = 32'd0;
+    endcase
+    wire [31:0] worked_out = rounds ? none ? 32'd0 : negative ? -rounded : rounded :
+        root_step != 5'd0 ? root : divide_step != 6'd0 ? {dividend[29:0], divided} : linear_real[31:0];
+
     always @(posedge clock) begin
+        if (busy || begins) answer <= busy ? worked_out : at_once;
         step <= begins ? 8'd0 : step + 8'd1;
         place_step <= place_step + 8'd1;
         count_step <= count_step + 8'd1;
@@ -190,8 +222,6 @@ module drogue_unit (
                 b <= c;
                 c <= {second, first};
             end
-            7'd2: answer <= exponent;
-            7'd3: answer <= {26'd0, leading_zeros(first)};
             7'd4: told <= {second, first, told[703:64]};
             7'd5: begin
                 point <= {second, first};
@@ -199,7 +229,6 @@ module drogue_unit (
                 place_step <= 8'd0;
                 placing <= 1'b1;
             end
-            7'd6: answer <= said;
             7'd7: moments <= 1280'd0;
             7'd8: begin
                 added <= first;
@@ -207,15 +236,11 @@ module drogue_unit (
                 add_step <= 8'd0;
                 adding <= 1'b1;
             end
-            7'd9: begin
-                answer <= moments[31:0];
-                moments <= {moments[31:0], moments[1279:32]};
-            end
+            7'd9: moments <= {moments[31:0], moments[1279:32]};
             7'd10: image <= {second, first};
             7'd11: size <= {second, first};
             7'd12: pace <= {second, first};
             7'd13: ; // below
-            7'd14: answer <= grey;
             7'd15: begin
                 radicand <= {second, first};
                 {root, left} <= 64'd0;
@@ -240,19 +265,8 @@ module drogue_unit (
                 fit_step <= 8'd0;
                 fitting <= 1'b1;
             end
-            7'd20: answer <= sums[639:608];
-            7'd21: begin
-                answer <= sums[31:0];
-                sums <= {sums[31:0], sums[639:32]};
-            end
+            7'd21: sums <= {sums[31:0], sums[639:32]};
             7'd22: {samples_wanted, slope_least} <= {second[7:0], first};
-            7'd23: case (function_id[2:0])
-                3'd0: answer <= peak ? peak_at : 32'hFFFFFFFF;
-                3'd1: answer <= slope_before;
-                3'd2: answer <= slope;
-                3'd3: answer <= slope_after;
-                default: answer <= greys[31:0];
-            endcase
             7'd24: divisor <= {second, first};
             7'd25: begin
                 dividend <= {second, first};
@@ -266,22 +280,12 @@ module drogue_unit (
                 counted_out <= second[31];
                 {support, counts_told, moments_changed} <= 225'd0;
             end
-            7'd27: case (function_id[2:0])
-                3'd0: answer <= bins_told;
-                3'd1: begin
-                    answer <= support[31:0];
-                    support <= {32'd0, support[159:32]};
-                end
-                3'd2: answer <= {bin_counts[asked_count | 6'd1] & {16{counts_told[asked_count | 6'd1]}},
-                    bin_counts[asked_count] & {16{counts_told[asked_count]}}};
-                3'd3: answer <= bin_sums[first[4:0]];
-                default: answer <= {31'd0, moments_changed};
-            endcase
+            7'd27: if (function_id[2:0] == 3'd1) support <= {32'd0, support[159:32]};
             default: ;
         endcase
         if (busy && root_step == 5'd0 && divide_step == 6'd0 && !divides && linear_done) begin
             busy <= 1'b0;
-            {exponent, answer} <= linear_real;
+            exponent <= linear_real[63:32];
             answered <= 1'b1;
         end
         if (placing && place_done) begin
@@ -390,7 +394,6 @@ module drogue_unit (
             root_step <= root_step - 5'd1;
             if (root_step == 5'd1) begin
                 busy <= 1'b0;
-                answer <= root;
                 answered <= 1'b1;
             end
         end
@@ -405,7 +408,7 @@ module drogue_unit (
             rounds <= divide_step == 6'd1 && divides;
             if (divide_step == 6'd1 && !divides) begin
                 busy <= 1'b0;
-                {exponent, answer} <= {dividend[61:0], divided};
+                exponent <= dividend[61:30];
                 answered <= 1'b1;
             end
         end
@@ -425,7 +428,6 @@ module drogue_unit (
         if (rounds) begin
             rounds <= 1'b0;
             busy <= 1'b0;
-            answer <= none ? 32'd0 : negative ? -rounded : rounded;
             if (none) exponent <= 32'd0;
             answered <= 1'b1;
         end
