@@ -42,8 +42,9 @@ typedef struct drogue_decision {
  * contradict each other, with what another edge outside does. Where the orientation is resolved and the inner part says
  * that the outline's pose is too far, both poses are brought nearer by that share, and at least so much is in doubt: by
  * all of it from a chi2 of 3 on, by none up to 1, and by the less the nearer the frame's smear is to 1.25 px^2, since
- * motion blur moves the disc's edge, too; up to 0.25 px^2 by all. Where the model has an inner part and none is to be believed, the outline may be another
- * edge than the rim, or partly: 1.1 % of its size is added to every parameter of the outline.
+ * motion blur moves the disc's edge, too; up to 0.25 px^2 by all. Where the model has an inner part and none is to be
+ * believed, the outline may be another edge than the rim, or partly: 1.1 % of its size is added to every parameter of
+ * the outline.
  *
  *  out     undefined on failure
  *  return  DROGUE_OK, DROGUE_E_DOMAIN

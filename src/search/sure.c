@@ -49,7 +49,8 @@ static int is_one(const drogue_result *r, int32_t expected_px_q16)
            (drogue_result_decided(r) || 4 * r->inner.contrast >= r->inner.threshold);
 }
 
-/* log2 of a number of at least 1, Q16, by its leading bit and straight from one power to the next: at most 0.086 less */
+/* log2 of a number of at least 1, Q16, by its leading bit and straight from one power to the next: at most 0.086
+ * less. */
 static int32_t log2_q16(int32_t v_q16)
 {
     const int whole = 15 - drogue_clz_u32((uint32_t)v_q16);
