@@ -225,6 +225,7 @@ py::dict from_result(const drogue_result &r)
     d["cluster_members"] = r.cluster_members;
     d["refit_points"] = r.refit_points;
     d["cover"] = q16(r.cover_q16);
+    d["outside"] = r.outside;
     d["has_inner"] = r.has_inner != 0;
     d["inner"] = py::make_tuple(q16(r.inner.x_px_q16), q16(r.inner.y_px_q16), r.inner.area_px,
                                 q16(r.inner.spread_px_q16), r.inner.threshold, r.inner.contrast);

@@ -107,14 +107,15 @@ class Result:
     cluster_members: int
     refit_points: int
     cover: float
+    outside: int  # parts of the ellipse, of eight, outside which another edge shows
     has_inner: bool
     inner: Optional[InnerPart]  # as found; believed when has_inner
     pose: Optional[Pose]
     alternative: Optional[Pose]  # the other pose that the ellipse allows
     orientation_resolved: bool  # the inner part decided between the two
     ambiguity: float
-    doubt: float  # share of the distance in doubt by the inner part's size, in the covariance; 1/64 and more where it
-    # contradicts the outline
+    doubt: float  # share of the distance in doubt by the inner part's size and by edges outside, in the covariance;
+    # 1/64 and more where the inner part contradicts the outline
     covariance: Optional[Vector]  # shape (5, 5): x, y, z in metres, yaw, pitch in radians
     position_std_m: Optional[Vector]  # shape (3,)
     axis_std_rad: Optional[float]
