@@ -64,8 +64,7 @@ typedef struct drogue_search {
 drogue_status drogue_search_init(drogue_search *search, void *memory, size_t bytes, int32_t width_px);
 
 /* Begin a frame; DROGUE_E_WORKSPACE when it is wider than the memory, DROGUE_E_ARGUMENT when width_px < 1,
- * min_contrast is out of range or the search was not set up. Refused, the search has no
- * sightings: feed no rows. */
+ * min_contrast is out of range or the search was not set up. Refused, the search has no sightings: feed no rows. */
 drogue_status drogue_search_begin(drogue_search *search, int32_t width_px);
 
 /* Feed the next row, width_px grey levels; the row is copied. */

@@ -159,6 +159,7 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     int32_t settled = -1;                         /* the sighting after which only larger ones about it are looked at */
     int current = 0;                              /* was the best measured last? */
     drogue_second_look room = DROGUE_SECOND_NONE; /* the first want of it */
+    int32_t own_q16;
     int32_t i;
     drogue_result_clear(out);
     out->status =
@@ -179,9 +180,10 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         (void)drogue_measure(out, workspace, setup, image, &search->asked);
         drogue_note_room(&room, out->status, out->second_look);
         furthest = out->status > furthest ? out->status : furthest;
-        current = worth(out, setup->model) > search->worth_q16;
+        own_q16 = worth(out, setup->model);
+        current = own_q16 > search->worth_q16;
         if (current) {
-            search->worth_q16 = worth(out, setup->model);
+            search->worth_q16 = own_q16;
             search->where = i;
             if (i < DARK && (settled >= 0 || settles(out, setup->model))) {
                 settled = i;

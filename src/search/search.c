@@ -32,14 +32,17 @@ drogue_status drogue_search_init(drogue_search *search, void *memory, size_t byt
 
 drogue_status drogue_search_begin(drogue_search *search, int32_t width_px)
 {
-    const drogue_status status =
-        width_px < 1 || search->memory == NULL || search->min_contrast < 0 || search->min_contrast > 255
-            ? DROGUE_E_ARGUMENT
-        : width_px > search->capacity_px ? DROGUE_E_WORKSPACE
-                                         : DROGUE_OK;
+    const drogue_status status = width_px < 1 || search->min_contrast < 0 || search->min_contrast > 255
+                                     ? DROGUE_E_ARGUMENT
+                                 : width_px > search->capacity_px ? DROGUE_E_WORKSPACE
+                                                                  : DROGUE_OK;
     const int32_t width = status == DROGUE_OK ? width_px : 0; /* refused it is in an empty frame */
-    uint8_t *next = search->memory + width;                   /* a row of pixels waits before it */
+    uint8_t *next;
     int k;
+    if (search->memory == NULL) {
+        return DROGUE_E_ARGUMENT; /* it was not set up */
+    }
+    next = search->memory + width; /* a row of pixels waits before it */
     search->width_px = width;
     search->rows_in = 0;
     search->count = 0;
