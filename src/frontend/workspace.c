@@ -2,8 +2,6 @@
 /* Layout of line buffers, tables and lists in the caller's memory. */
 #include "drogue/frontend.h"
 
-#include <string.h>
-
 static int capacity_valid(const drogue_capacity *c)
 {
     const uint32_t most = (uint32_t)1 << 24;
@@ -19,7 +17,8 @@ size_t drogue_workspace_bytes(const drogue_capacity *capacity)
 /* No region fits in afterwards: who does not look at the status is told by the next call. */
 static drogue_status refuse(drogue_workspace *workspace, drogue_status why)
 {
-    memset(workspace, 0, sizeof *workspace);
+    const drogue_workspace none = {0};
+    *workspace = none;
     return why;
 }
 
