@@ -179,8 +179,8 @@ static inline void drogue_hls_unpack_edge_words(drogue_inner_edge *e, const int3
 enum drogue_hls_result_word {
     DROGUE_HLS_R_STATUS, /* status register */
     DROGUE_HLS_R_HAS_INNER,
-    DROGUE_HLS_R_INNER, /* coordinates of the image: x y area spread threshold contrast; 0 without HAS_INNER */
-    DROGUE_HLS_R_POSE = DROGUE_HLS_R_INNER + 6, /* x y z, axis x y z, yaw, pitch */
+    DROGUE_HLS_R_INNER, /* coordinates of the image: x y area spread threshold contrast rays; 0 without HAS_INNER */
+    DROGUE_HLS_R_POSE = DROGUE_HLS_R_INNER + 7, /* x y z, axis x y z, yaw, pitch */
     DROGUE_HLS_R_ALTERNATIVE = DROGUE_HLS_R_POSE + 8,
     DROGUE_HLS_R_RESOLVED = DROGUE_HLS_R_ALTERNATIVE + 8,
     DROGUE_HLS_R_AMBIGUITY,

@@ -42,6 +42,7 @@ static inline void put(int32_t words[DROGUE_HLS_RESULT_WORDS], int64_t covarianc
     words[DROGUE_HLS_R_INNER + 3] = inner->part.spread_px_q16;
     words[DROGUE_HLS_R_INNER + 4] = inner->part.threshold;
     words[DROGUE_HLS_R_INNER + 5] = inner->part.contrast;
+    words[DROGUE_HLS_R_INNER + 6] = inner->part.rays;
     drogue_hls_pack_pose(words + DROGUE_HLS_R_POSE, &r->pose);
     drogue_hls_pack_pose(words + DROGUE_HLS_R_ALTERNATIVE, &r->alternative);
     words[DROGUE_HLS_R_RESOLVED] = r->orientation_resolved;

@@ -78,6 +78,7 @@ static void compare(bench *b, const drogue_result *r)
     expected[DROGUE_HLS_R_INNER + 3] = r->inner.spread_px_q16;
     expected[DROGUE_HLS_R_INNER + 4] = r->inner.threshold;
     expected[DROGUE_HLS_R_INNER + 5] = r->inner.contrast;
+    expected[DROGUE_HLS_R_INNER + 6] = r->inner.rays;
     drogue_hls_pack_pose(expected + DROGUE_HLS_R_POSE, &r->pose);
     drogue_hls_pack_pose(expected + DROGUE_HLS_R_ALTERNATIVE, &r->alternative);
     expected[DROGUE_HLS_R_RESOLVED] = r->orientation_resolved;
@@ -125,11 +126,11 @@ static void frame_words(int32_t words[38], const frame *f)
     memcpy(words + 20, result + DROGUE_HLS_R_POSE, 18 * sizeof *words);
 }
 
-static void detail_words(int32_t words[19], const frame *f)
+static void detail_words(int32_t words[20], const frame *f)
 {
     const int32_t *o = f->words;
     const int found = o[DROGUE_HLS_O_FOUND] == DROGUE_OK;
-    memset(words, 0, 19 * sizeof *words);
+    memset(words, 0, 20 * sizeof *words);
     memset(words + 6, 0xFF, 4 * sizeof *words);
     words[0] = f->region.x_px;
     words[1] = f->region.y_px;
@@ -144,6 +145,7 @@ static void detail_words(int32_t words[19], const frame *f)
         words[16] = o[DROGUE_HLS_O_COVER];
         words[17] = result[DROGUE_HLS_R_DOUBT];
         words[18] = o[DROGUE_HLS_O_OUTSIDE];
+        words[19] = result[DROGUE_HLS_R_INNER + 6];
     }
 }
 
@@ -166,7 +168,7 @@ static int refused_after(const frame *f, const conf_case *c)
 static int judge(bench *b, const frame *f, const conf_case *c)
 {
     int32_t words[38];
-    int32_t detail[19];
+    int32_t detail[20];
     const int refused = f->result.status == DROGUE_E_ARGUMENT;
     if (drogue_status_full(f->front) || (!refused && !first_look(f, c)) || refused_after(f, c)) {
         return 0;

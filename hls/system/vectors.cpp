@@ -19,7 +19,7 @@ const unsigned long most_clocks = 200ul * 1000 * 1000;
 
 // Everything that stage 'frame' puts out.
 struct Words {
-    int32_t frame[38], detail[19];
+    int32_t frame[38], detail[20];
     int64_t covariance[15], std[4];
     bool operator==(const Words &o) const
     {

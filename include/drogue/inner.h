@@ -20,6 +20,7 @@ typedef struct drogue_inner_part {
     drogue_q16 spread_px_q16; /* root mean square of the rays' residuals */
     uint8_t threshold;        /* grey level at the edge */
     uint8_t contrast;         /* grey levels across the edge */
+    uint8_t rays;             /* that see the edge, of DROGUE_RAYS */
 } drogue_inner_part;
 
 /* What is looked for. */

@@ -76,13 +76,11 @@ int32_t drogue_search_end(drogue_search *search);
 /* Log odds that a result is the drogue's pose: of many with as much the share 1 / (1 + exp(-L)) is right, to 3 % of its
  * distance and 10 degrees. Where an inner part is believed
  *
- *   L = (5 log2(r) + 10 cover - 18 spread - 2 outside + 2 decided) / 3 - 4
+ *   L = (5 log2(r) + 9 cover - 2 outside + 10 seen - 14 spread - 7 ambiguity + 3 decided) / 4 - 5
  *
  * by what the result says: r is the radius of the inner part that the model expects in this outline, px, at least 1;
- * spread that of the inner part, px; decided 1 where the orientation is resolved and the doubt below 1/64. But -3 and
- * the cover where none is believed, or it is not of the size expected, to 0.6 px and a tenth, or no more than dark:
- * unresolved, with an ambiguity above 0.9; or not decided, with a contrast below a quarter of the grey at its edge.
- * Source: logistic regression, docs/accuracy.md.
+ * seen the share of rays that see its edge, spread how they scatter, px; decided 1 where the orientation is resolved
+ * and the doubt below 1/64. Where none is believed -3 and the cover. Source: logistic regression, docs/accuracy.md.
  *
  *  r       of status DROGUE_OK
  *  return  Q16, within [-64, 64]; error 2 LSB and what 2^-14 px are of sqrt(a b), in log2(r), of which straight lines
@@ -90,9 +88,9 @@ int32_t drogue_search_end(drogue_search *search);
  */
 int32_t drogue_result_log_odds_q16(const drogue_result *r, const drogue_model *model);
 
-#define DROGUE_SURE_Q16 DROGUE_Q16(1, 2) /* log odds of what is sure */
+#define DROGUE_SURE_Q16 DROGUE_Q16(5, 8) /* log odds of what is sure */
 
-/* Is enough of a drogue seen in a measurement to begin with it? Log odds of 1/2; for a model without an inner part a
+/* Is enough of a drogue seen in a measurement to begin with it? Log odds of 5/8; for a model without an inner part a
  * cover of 3/4 and a reliability of 0.9.
  *
  *  r  of status DROGUE_OK

@@ -195,6 +195,7 @@ static void describe(drogue_inner_part *part, const drogue_inner_edge *edge, con
     part->spread_px_q16 = edge->spread_px_q16;
     part->threshold = edge->threshold;
     part->contrast = edge->contrast;
+    part->rays = (uint8_t)edge->rays;
 }
 
 void drogue_inner_weigh(drogue_inner_evidence *evidence, const drogue_inner_edge *edge, const drogue_region *region,

@@ -228,7 +228,7 @@ py::dict from_result(const drogue_result &r)
     d["outside"] = r.outside;
     d["has_inner"] = r.has_inner != 0;
     d["inner"] = py::make_tuple(q16(r.inner.x_px_q16), q16(r.inner.y_px_q16), r.inner.area_px,
-                                q16(r.inner.spread_px_q16), r.inner.threshold, r.inner.contrast);
+                                q16(r.inner.spread_px_q16), r.inner.threshold, r.inner.contrast, r.inner.rays);
     d["pose"] = from_pose(r.pose);
     d["alternative"] = from_pose(r.alternative);
     d["orientation_resolved"] = r.orientation_resolved != 0;

@@ -7,20 +7,12 @@
 
 #define SURE_COVER DROGUE_Q16(3, 4) /* without an inner part */
 #define SURE_RELIABILITY DROGUE_Q16(9, 10)
-#define MOST_OFF_PX DROGUE_Q16(6, 10)    /* and a tenth of the radius that is expected: its size */
-#define MOST_AMBIGUITY DROGUE_Q16(9, 10) /* of a place that tells the poses apart */
-#define UNWEIGHED (-3 * DROGUE_Q16_ONE)  /* log odds without one, but for the cover */
-#define FARTHEST (64 * DROGUE_Q16_ONE)   /* from even odds */
+#define UNWEIGHED (-3 * DROGUE_Q16_ONE) /* log odds without one, but for the cover */
+#define FARTHEST (64 * DROGUE_Q16_ONE)  /* from even odds */
 
 int drogue_result_decided(const drogue_result *r)
 {
     return r->orientation_resolved && r->doubt_q16 < DROGUE_CONTRADICTED_Q16;
-}
-
-/* Radius of a circle of an inner part's area, px Q16. */
-static int64_t radius_of(const drogue_inner_part *p)
-{
-    return (int64_t)drogue_isqrt_u64((((uint64_t)p->area_px << 32) / (uint64_t)DROGUE_Q16_PI) << 16);
 }
 
 /* Radius of the inner part that the model expects in this outline, px Q16, at least 1 px; 0 where none is believed, or
@@ -39,16 +31,6 @@ static int32_t expected(const drogue_result *r, const drogue_model *model)
     return px_q16 < DROGUE_Q16_ONE ? DROGUE_Q16_ONE : (int32_t)px_q16;
 }
 
-/* Is the inner part one, for all that can be said of it: of the size that is expected, its place between the poses'
- * not in the middle, and dark where it does not decide? */
-static int is_one(const drogue_result *r, int32_t expected_px_q16)
-{
-    const int64_t off = (int64_t)drogue_abs_u64(radius_of(&r->inner) - expected_px_q16);
-    return 10 * (off - MOST_OFF_PX) <= expected_px_q16 &&
-           (r->orientation_resolved || r->ambiguity_q16 <= MOST_AMBIGUITY) &&
-           (drogue_result_decided(r) || 4 * r->inner.contrast >= r->inner.threshold);
-}
-
 /* log2 of a number of at least 1, Q16, by its leading bit and straight from one power to the next: at most 0.086
  * less. */
 static int32_t log2_q16(int32_t v_q16)
@@ -61,12 +43,13 @@ int32_t drogue_result_log_odds_q16(const drogue_result *r, const drogue_model *m
 {
     const int32_t radius_px_q16 = expected(r, model);
     int64_t sum_q16;
-    if (radius_px_q16 == 0 || !is_one(r, radius_px_q16)) {
+    if (radius_px_q16 == 0) {
         return UNWEIGHED + r->cover_q16;
     }
-    sum_q16 = 5 * log2_q16(radius_px_q16) + 10 * (int64_t)r->cover_q16 - 18 * (int64_t)r->inner.spread_px_q16 -
-              2 * (int64_t)r->outside * DROGUE_Q16_ONE + drogue_result_decided(r) * 2 * DROGUE_Q16_ONE;
-    return drogue_clamp_s32(drogue_sat_s32(drogue_div_round_s64(sum_q16, 3) - 4 * DROGUE_Q16_ONE), -FARTHEST, FARTHEST);
+    sum_q16 = 5 * log2_q16(radius_px_q16) + 9 * (int64_t)r->cover_q16 - 14 * (int64_t)r->inner.spread_px_q16 -
+              7 * (int64_t)r->ambiguity_q16 + 10 * r->inner.rays * (DROGUE_Q16_ONE / DROGUE_RAYS) -
+              (2 * (int64_t)r->outside - 3 * drogue_result_decided(r)) * DROGUE_Q16_ONE;
+    return drogue_clamp_s32(drogue_sat_s32(drogue_div_round_s64(sum_q16, 4) - 5 * DROGUE_Q16_ONE), -FARTHEST, FARTHEST);
 }
 
 int drogue_result_sure(const drogue_result *r, const drogue_model *model)

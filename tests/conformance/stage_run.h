@@ -56,7 +56,7 @@ int stage_mask(drogue_mask *mask, const int32_t *words);
 int stage_support_of_words(drogue_support *support, const int32_t *bins, int32_t gradient, int32_t axis);
 
 /* The outputs of stage 'frame'. */
-void stage_put_result(int32_t frame[38], int32_t detail[19], int64_t covariance[15], int64_t std[4],
+void stage_put_result(int32_t frame[38], int32_t detail[20], int64_t covariance[15], int64_t std[4],
                       const drogue_result *result);
 
 /* The stages: 0 or CONF_E_*. Names, widths and counts of the inputs are checked before. */

@@ -101,7 +101,7 @@ enum {
  *               -> frame: status, ellipse 5, ideal 5, polarity, bit set of quadrants with an arc, refit_points,
  *                  has_inner, inner x y area threshold spread, pose 8, alternative 8, resolved, ambiguity;
  *                  detail: region 4, edge_count arc_count, arc of each quadrant (-1: none),
- *                  fit_ratio length_ratio axis_ratio score reliability, members, cover, doubt, outside;
+ *                  fit_ratio length_ratio axis_ratio score reliability, members, cover, doubt, outside, rays of the inner part;
  *                  covariance (64 bits, Q48) as of 'joint'; std (64 bits, Q32): x y z, axis;
  *                  whatever is known for every status
  *  decide       ellipse; camera; bins as of 'joint'; params: rim_radius inner_radius inner_depth, two poses (position 3,

@@ -159,7 +159,8 @@ static void put_detail(int32_t *at, const drogue_result *result)
     *at++ = (int32_t)result->cluster_members;
     *at++ = result->cover_q16;
     *at++ = result->doubt_q16;
-    *at = (int32_t)result->outside;
+    *at++ = (int32_t)result->outside;
+    *at = result->inner.rays;
 }
 
 static void put_covariance(int64_t *covariance, int64_t *std, const drogue_result *result)
@@ -177,7 +178,7 @@ static void put_covariance(int64_t *covariance, int64_t *std, const drogue_resul
     *std = result->axis_std_rad_q32;
 }
 
-void stage_put_result(int32_t frame[38], int32_t detail[19], int64_t covariance[15], int64_t std[4],
+void stage_put_result(int32_t frame[38], int32_t detail[20], int64_t covariance[15], int64_t std[4],
                       const drogue_result *result)
 {
     put_frame(frame, result);
@@ -192,7 +193,7 @@ int stage_frame(stage_run *r)
     const drogue_model model = conf_model(stage_input32(r, 2));
     const drogue_region region = conf_region(stage_input32(r, 3));
     int32_t *frame = stage_output32(r, "frame", 38);
-    int32_t *detail = stage_output32(r, "detail", 19);
+    int32_t *detail = stage_output32(r, "detail", 20);
     int64_t *covariance = (int64_t *)stage_output(r, "covariance", 64, 15);
     int64_t *std = (int64_t *)stage_output(r, "std", 64, 4);
     drogue_workspace workspace;

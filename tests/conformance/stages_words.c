@@ -40,7 +40,7 @@ static const struct layout {
                {"joint", "outline", "|o"},
                {"kalman", "states", "|k"},
                {"frame", "frame", ".ppppaiiiib....cc..smmmrrrrrmmmrrrrr.x"},
-               {"frame", "detail", "..........qqqqq..h."},
+               {"frame", "detail", "..........qqqqq..h.."},
                {"frame", "covariance", "|v"},
                {"frame", "std", "|t"},
                {"decide", "decision", ".mmmrrrrrmmmrrrrr.."},

@@ -37,7 +37,7 @@ static uint64_t add_quality(uint64_t d, const drogue_quality *q)
 static uint64_t add_inner_part(uint64_t d, const drogue_inner_part *p)
 {
     d = add(add(add(d, p->x_px_q16), p->y_px_q16), p->area_px);
-    return add(add(d, p->spread_px_q16), p->threshold);
+    return add(add(add(d, p->spread_px_q16), p->threshold), p->rays);
 }
 
 static uint64_t add_pose(uint64_t d, const drogue_pose *p)

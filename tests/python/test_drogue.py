@@ -55,7 +55,7 @@ def words_of(r):
     detail = list(r.region) + [r.edge_count, r.arc_count] + [-1 if a is None else a for a in r.arcs]
     detail += [w for v in (r.quality.fit_ratio, r.quality.length_ratio, r.quality.axis_ratio, r.quality.score,
                            r.quality.reliability) for w in q(v)]
-    detail += [r.cluster_members] + q(r.cover) + q(r.doubt) + [r.outside]
+    detail += [r.cluster_members] + q(r.cover) + q(r.doubt) + [r.outside, 0 if inner is None else inner.rays]
     if r.covariance is None:
         return {'frame': frame, 'detail': detail, 'covariance': [0] * 15, 'std': [0] * 4}
     return {'frame': frame, 'detail': detail, 'covariance': q(r.covariance[np.tril_indices(5)], 48),

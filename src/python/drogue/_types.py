@@ -55,13 +55,15 @@ class Ellipse:
 
 @dataclass(frozen=True)
 class InnerPart:
-    """Centre and root mean square of the rays' residuals in pixels, area in pixels, grey at the edge and step across it."""
+    """Centre and root mean square of the rays' residuals in pixels, area in pixels, grey at the edge and step across it,
+    rays of 64 that see it."""
     x: float
     y: float
     area: int
     spread: float
     threshold: int
     contrast: int
+    rays: int
 
 
 @dataclass(frozen=True)

@@ -183,18 +183,18 @@ public:
     {
         const Real z = r.pose.position[2], end = z + m.inner_depth;
         log_odds_ = cover_ - 3;
-        if (ok_ && r.has_inner && z > 0 && end > 0 && (r.resolved || r.ambiguity <= 0.9L) &&
-            (decided_ || 4 * r.part.contrast >= r.part.level)) {
+        if (ok_ && r.has_inner && z > 0 && end > 0) {
             const Real expected = std::sqrt(r.seen.a * r.seen.b) * m.inner_radius / m.rim_radius * z / end;
             const Real radius = std::max<Real>(1, expected), power = std::floor(std::log2(radius));
             const Real log2 = power + radius / std::exp2(power) - 1; /* straight from one power to the next */
-            const Real off = std::sqrt(std::floor(r.area + 0.5L) / std::acos(Real(-1))) - radius;
-            log_odds_ = std::fabs(off) > 0.6L + radius / 10
-                            ? log_odds_
-                            : (5 * log2 + 10 * cover_ - 18 * r.part.rms - 2 * r.outline.outside + 2 * decided_) / 3 - 4;
+            const Real seen = r.part.rays / Real(DROGUE_RAYS);
+            log_odds_ = (5 * log2 + 9 * cover_ - 2 * r.outline.outside + 10 * seen - 14 * r.part.rms - 7 * r.ambiguity +
+                         3 * decided_) /
+                            4 -
+                        5;
         }
     }
-    bool sure() const { return ok_ && (with_inner_ ? log_odds_ >= 0.5L : cover_ >= 0.75L && reliable_); }
+    bool sure() const { return ok_ && (with_inner_ ? log_odds_ >= 0.625L : cover_ >= 0.75L && reliable_); }
     bool settles() const { return sure() && (!with_inner_ || decided_); }
     /* To whole units of Q16: of what is equal in it the first stands. */
     Real worth() const

@@ -285,8 +285,9 @@ drogue_result library_of(const std::vector<Array> &exact)
     return r;
 }
 
-/* Region, list, arcs, quality, members, cover, doubt and what is outside. Edge points and arcs are counted by the front end that the mirror has in
- * common with the library; the stage 'arcs' has a reference of its own for them. */
+/* Region, list, arcs, quality, members, cover, doubt, what is outside, and rays that see the inner part. Edge points and
+ * arcs are counted by the front end that the mirror has in common with the library; the stage 'arcs' has a reference
+ * of its own for them. */
 Expected detail_of(const Array &exact, const mirror::Result &r)
 {
     Words w = exact.words;
@@ -310,6 +311,7 @@ Expected detail_of(const Array &exact, const mirror::Result &r)
         w[17] = r.status == DROGUE_OK ? q16(r.doubt) : 0;
         more[17] = 0;
         w[18] = r.outline.outside;
+        w[19] = r.status == DROGUE_OK && r.has_inner ? static_cast<int>(r.part.rays) : 0;
     }
     return {like(exact, w), bounds("frame", like(exact, w), more)};
 }

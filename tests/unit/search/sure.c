@@ -22,9 +22,7 @@ static drogue_result measured(void)
     r.cover_q16 = DROGUE_Q16(9, 10);
     r.quality.reliability_q16 = DROGUE_Q16(95, 100);
     r.has_inner = 1;
-    r.inner.area_px = 3269;
-    r.inner.threshold = 60;
-    r.inner.contrast = 40;
+    r.inner.rays = 56;
     r.inner.spread_px_q16 = DROGUE_Q16(1, 10);
     r.orientation_resolved = 1;
     return r;
@@ -41,21 +39,11 @@ static double log_odds(const drogue_result *r, const drogue_model *m)
     px = px < 1 ? 1 : px > 32768 ? 32768 : px;
     power = floor(log2(px));
     MUST(fabs(power + px / exp2(power) - 1 - log2(px)) < 0.0861, "log2 of %g", px);
-    return (5 * (power + px / exp2(power) - 1) + 10 * real_of_q16(r->cover_q16) -
-            18 * real_of_q16(r->inner.spread_px_q16) - 2.0 * r->outside +
-            2 * (r->orientation_resolved && r->doubt_q16 < DROGUE_Q16(1, 64))) /
-               3 -
-           4;
-}
-
-/* The area of a disc as large as is expected. */
-static void give_expected_size(drogue_result *r, const drogue_model *m)
-{
-    const double z = real_of_q16(r->pose.position_m_q16[2]);
-    const double px = sqrt(real_of_q16(r->ellipse.a_px_q16) * real_of_q16(r->ellipse.b_px_q16)) *
-                      real_of_q16(m->inner_radius_m_q16) / real_of_q16(m->rim_radius_m_q16) * z /
-                      (z + real_of_q16(m->inner_depth_m_q16));
-    r->inner.area_px = (uint32_t)lround(TEST_PI * pow(fmin(fmax(px, 1), 32768), 2));
+    return (5 * (power + px / exp2(power) - 1) + 9 * real_of_q16(r->cover_q16) - 2.0 * r->outside +
+            10 * r->inner.rays / 64.0 - 14 * real_of_q16(r->inner.spread_px_q16) - 7 * real_of_q16(r->ambiguity_q16) +
+            3 * (r->orientation_resolved && r->doubt_q16 < DROGUE_Q16(1, 64))) /
+               4 -
+           5;
 }
 
 START_TEST(log_odds_as_documented)
@@ -70,14 +58,15 @@ START_TEST(log_odds_as_documented)
         r.pose.position_m_q16[2] = rng_range(&rng, 1, 1 << rng_range(&rng, 1, 30));
         r.cover_q16 = rng_range(&rng, 0, DROGUE_Q16_ONE);
         r.inner.spread_px_q16 = rng_range(&rng, 0, DROGUE_Q16_ONE);
+        r.inner.rays = (uint8_t)rng_range(&rng, 0, 64);
+        r.ambiguity_q16 = rng_range(&rng, 0, DROGUE_Q16_ONE);
         r.outside = (uint32_t)rng_range(&rng, 0, 8);
         r.orientation_resolved = rng_range(&rng, 0, 1);
         r.doubt_q16 = rng_range(&rng, 1022, 1025);
         m.inner_depth_m_q16 = rng_range(&rng, 0, 1 << 20);
-        give_expected_size(&r, &m);
         MUST(fabs(real_of_q16(drogue_result_log_odds_q16(&r, &m)) - log_odds(&r, &m)) <
                  2.0 / 65536 +
-                     5 / 3.0 / sqrt(real_of_q16(r.ellipse.a_px_q16) * real_of_q16(r.ellipse.b_px_q16)) / 16384,
+                     5 / 4.0 / sqrt(real_of_q16(r.ellipse.a_px_q16) * real_of_q16(r.ellipse.b_px_q16)) / 16384,
              "%d: %.7f for %.7f", i, real_of_q16(drogue_result_log_odds_q16(&r, &m)), log_odds(&r, &m));
     }
 }
@@ -91,8 +80,8 @@ START_TEST(log_odds_at_their_ends)
     r.pose.position_m_q16[2] = INT32_MAX;
     r.cover_q16 = DROGUE_Q16_ONE;
     r.inner.spread_px_q16 = 0;
-    give_expected_size(&r, &wide);
-    MUST(fabs(real_of_q16(drogue_result_log_odds_q16(&r, &wide)) - (5 * 15 + 10 + 2) / 3.0 + 4) < 1e-3, "%g",
+    r.inner.rays = 64;
+    MUST(fabs(real_of_q16(drogue_result_log_odds_q16(&r, &wide)) - (5 * 15 + 9 + 10 + 3) / 4.0 + 5) < 1e-3, "%g",
          real_of_q16(drogue_result_log_odds_q16(&r, &wide))); /* 2^15 px, no image has more */
     r.inner.spread_px_q16 = INT32_MAX;
     ck_assert_int_eq(drogue_result_log_odds_q16(&r, &wide), -64 * DROGUE_Q16_ONE);
@@ -102,15 +91,24 @@ START_TEST(log_odds_at_their_ends)
 }
 END_TEST
 
+/* Each term of the sum takes a result over the limit. */
 START_TEST(limits_of_sure)
 {
-    drogue_result r = measured(); /* 8.347 + 3 - 0.6 + 0.667 - 4 = 7.414 */
+    drogue_result r = measured(); /* 6.261 + 2.025 + 2.188 - 0.35 + 0.75 - 5 = 5.874 */
     ck_assert(drogue_result_sure(&r, &model));
-    r.inner.spread_px_q16 = DROGUE_Q16(1251, 1000); /* 6.91 less */
+    r.inner.spread_px_q16 = DROGUE_Q16(1599, 1000); /* 5.246 less */
     ck_assert(drogue_result_sure(&r, &model));
-    r.inner.spread_px_q16 = DROGUE_Q16(1254, 1000);
+    r.inner.spread_px_q16 = DROGUE_Q16(1601, 1000);
     ck_assert(!drogue_result_sure(&r, &model));
     r.cover_q16 = DROGUE_Q16(91, 100);
+    ck_assert(drogue_result_sure(&r, &model));
+    r.inner.rays = 55;
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.inner.rays = 57;
+    ck_assert(drogue_result_sure(&r, &model));
+    r.ambiguity_q16 = DROGUE_Q16(4, 100);
+    ck_assert(!drogue_result_sure(&r, &model));
+    r.ambiguity_q16 = DROGUE_Q16(3, 100);
     ck_assert(drogue_result_sure(&r, &model));
     r.doubt_q16 = DROGUE_Q16(1, 64) - 1;
     ck_assert(drogue_result_sure(&r, &model));
@@ -119,48 +117,14 @@ START_TEST(limits_of_sure)
     r = measured();
     r.outside = 8;
     r.orientation_resolved = 0;
-    ck_assert(drogue_result_sure(&r, &model));                     /* 1.414 */
-    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = 50 * DROGUE_Q16_ONE; /* 1.667 less */
-    give_expected_size(&r, &model);
+    ck_assert(drogue_result_sure(&r, &model));                     /* 1.124 */
+    r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = 50 * DROGUE_Q16_ONE; /* 1.25 less */
     ck_assert(!drogue_result_sure(&r, &model));
     r.outside = 7;
     ck_assert(!drogue_result_sure(&r, &model));
     r.outside = 6;
     ck_assert(drogue_result_sure(&r, &model));
     r.has_inner = 0;
-    ck_assert(!drogue_result_sure(&r, &model));
-}
-END_TEST
-
-/* What is no inner part, or no more than dark, is not weighed. */
-START_TEST(what_is_weighed)
-{
-    drogue_result r = measured();
-    r.inner.area_px = 4100; /* 36.1 px: off by 3.9, a tenth and 0.6 are 3.8 */
-    ck_assert(!drogue_result_sure(&r, &model));
-    ck_assert_int_eq(drogue_result_log_odds_q16(&r, &model), DROGUE_Q16(9, 10) - 3 * DROGUE_Q16_ONE);
-    r.inner.area_px = 4050; /* 35.9 px */
-    ck_assert(drogue_result_sure(&r, &model));
-    r.inner.area_px = 2520; /* 28.3 px: off by 3.95 */
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.inner.area_px = 2600; /* 28.8 px: off by 3.5 */
-    ck_assert(drogue_result_sure(&r, &model));
-    r = measured();
-    r.ambiguity_q16 = DROGUE_Q16_ONE;
-    ck_assert(drogue_result_sure(&r, &model));
-    r.orientation_resolved = 0;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.ambiguity_q16 = DROGUE_Q16(9, 10) + 1;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.ambiguity_q16--;
-    ck_assert(drogue_result_sure(&r, &model));
-    r.inner.contrast = 15;
-    ck_assert(drogue_result_sure(&r, &model));
-    r.inner.contrast = 14;
-    ck_assert(!drogue_result_sure(&r, &model));
-    r.orientation_resolved = 1; /* it decides: what is less dark will do */
-    ck_assert(drogue_result_sure(&r, &model));
-    r.doubt_q16 = DROGUE_Q16(1, 64);
     ck_assert(!drogue_result_sure(&r, &model));
 }
 END_TEST
@@ -236,6 +200,6 @@ START_TEST(acquire_without_an_inner_part)
 }
 END_TEST
 
-SUITE_MAIN("sure", log_odds_as_documented, log_odds_at_their_ends, limits_of_sure, what_is_weighed,
+SUITE_MAIN("sure", log_odds_as_documented, log_odds_at_their_ends, limits_of_sure,
            behind_or_beside_the_camera_nothing_is_sure, without_an_inner_part_cover_and_reliability_decide,
            acquire_without_an_inner_part)

@@ -37,7 +37,6 @@ static drogue_result covered(double x, int32_t cover_percent, int has_inner)
     r.ellipse.a_px_q16 = r.ellipse.b_px_q16 = 100 * DROGUE_Q16_ONE;
     r.cover_q16 = DROGUE_Q16(cover_percent, 100);
     r.has_inner = has_inner;
-    r.inner.area_px = 9845; /* 100 px * 0.2 / 0.35 * 12 / 12.25 */
     return r;
 }
 
@@ -100,7 +99,7 @@ START_TEST(what_is_believed_while_uncertain)
         expected.list.edge_count = 7;
         expected.list.arc_count = 1;
         expected.arcs[0] = 0;
-        expected.inner.spread_px_q16 = DROGUE_Q16(129, 100); /* so unsharp that it needs a cover of 0.6 */
+        expected.inner.spread_px_q16 = DROGUE_Q16(1046, 1000); /* so unsharp that it needs a cover of 0.6 */
         state = frame(&result, &t);
         MUST(state == (cases[i].believed ? DROGUE_TRACKING : DROGUE_COASTING) &&
                  result.status == (cases[i].believed ? DROGUE_OK : DROGUE_E_UNSURE),
