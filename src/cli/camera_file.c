@@ -37,6 +37,12 @@ static const char *place_value(const keys *k, const char *name, int place)
     return keys_value(k, whole);
 }
 
+static int is_empty(const keys *k, const char *name)
+{
+    const char *text = keys_value(k, name);
+    return text != NULL && strcmp(text, KEYS_EMPTY) == 0;
+}
+
 static int read_place(drogue_q16 *out, const keys *k, const char *name, int place, const char *path)
 {
     const char *text = place_value(k, name, place);
@@ -47,6 +53,52 @@ static int read_place(drogue_q16 *out, const keys *k, const char *name, int plac
         return complain(path, "%s: '%s' is no number within +-32768", name, text);
     }
     return EXIT_MEASURED;
+}
+
+static int complain_of_two(const char *path, const char *key)
+{
+    return complain(path, "has %s more than once, with different values", key);
+}
+
+/* Rows or columns of a matrix that is called 'stem'; -1 where the file does not say. */
+static int read_extent(int32_t *out, const keys *k, const char *stem, const char *side, const char *path)
+{
+    char name[KEYS_NAME];
+    const char *text;
+    drogue_q16 value;
+    snprintf(name, sizeof name, "%s.%s", stem, side);
+    text = keys_value(k, name);
+    *out = -1;
+    if (text == NULL) {
+        return EXIT_MEASURED;
+    }
+    if (keys_contradiction(k, name) != NULL) {
+        return complain_of_two(path, name);
+    }
+    if (decimal_to_q16(&value, text, strlen(text)) != DECIMAL_OK || value < 0 || value % DROGUE_Q16_ONE != 0) {
+        return complain(path, "%s: '%s' is no number of %s", name, text, side);
+    }
+    *out = value / DROGUE_Q16_ONE;
+    return EXIT_MEASURED;
+}
+
+/* Where rows and columns stand beside the numbers, they must be as many: or one of the three is not what was meant. */
+static int check_extent(const keys *k, const char *data, int count, const char *path)
+{
+    const char *end = strstr(data, ".data");
+    char stem[KEYS_NAME];
+    int32_t rows;
+    int32_t cols;
+    if (end == NULL) { /* a form without them */
+        return EXIT_MEASURED;
+    }
+    snprintf(stem, sizeof stem, "%.*s", (int)(end - data), data);
+    if (read_extent(&rows, k, stem, "rows", path) || read_extent(&cols, k, stem, "cols", path)) {
+        return EXIT_BAD;
+    }
+    return rows < 0 || cols < 0 || rows * cols == count
+               ? EXIT_MEASURED
+               : complain(path, "%s: rows x cols is %d x %d, but data has %d numbers", stem, rows, cols, count);
 }
 
 static int read_matrix(drogue_camera *out, const keys *k, const form *f, const char *path)
@@ -64,11 +116,22 @@ static int read_matrix(drogue_camera *out, const keys *k, const form *f, const c
     if (f->is_matrix && (m[1] != 0 || m[3] != 0 || m[6] != 0 || m[7] != 0 || m[8] != DROGUE_Q16_ONE)) {
         return complain(path, "%s is not fx 0 cx 0 fy cy 0 0 1: skew is not modelled", f->matrix);
     }
+    if (check_extent(k, f->matrix, i, path)) {
+        return EXIT_BAD;
+    }
     out->fx_px_q16 = m[0];
     out->fy_px_q16 = f->is_matrix ? m[4] : m[1];
     out->cx_px_q16 = m[2];
     out->cy_px_q16 = f->is_matrix ? m[5] : m[3];
     return EXIT_MEASURED;
+}
+
+/* Is it a camera without distortion as ROS writes one: no coefficients, of plumb_bob or of no model? */
+static int is_plain(const keys *k, const form *f)
+{
+    const char *model = keys_value(k, "distortion_model");
+    return f->is_matrix && is_empty(k, f->distortion) &&
+           (model == NULL || *model == '\0' || strcmp(model, "plumb_bob") == 0);
 }
 
 /* Brown-Conrady of OpenCV's order; what follows the fifth is another model unless it is 0. */
@@ -86,7 +149,7 @@ static int read_distortion(drogue_camera *out, const keys *k, const form *f, con
     if (place_value(k, f->distortion, count) != NULL && count == MOST_COEFFICIENTS) {
         return complain(path, "%s: more than %d numbers; Brown-Conrady has five", f->distortion, MOST_COEFFICIENTS);
     }
-    if (count < 4) {
+    if (count < 4 && !is_plain(k, f)) {
         return complain(path, "has no %s with four or five numbers", f->distortion);
     }
     for (i = KEPT_COEFFICIENTS; i < count; i++) {
@@ -94,6 +157,9 @@ static int read_distortion(drogue_camera *out, const keys *k, const form *f, con
             return complain(path, "%s: coefficient %d is of the rational model; Brown-Conrady has five", f->distortion,
                             i + 1);
         }
+    }
+    if (check_extent(k, f->distortion, count, path)) {
+        return EXIT_BAD;
     }
     out->k1_q16 = v[0];
     out->k2_q16 = v[1];
@@ -118,7 +184,7 @@ static int check_name(const keys *k, const char *key, const char *const *good, c
     return complain(path, "%s is '%s', which is not the Brown-Conrady model of a pinhole camera", key, name);
 }
 
-static int check_model(const keys *k, const char *path)
+static int check_model(const keys *k, const form *f, const char *path)
 {
     static const char *const lenses[] = {"plumb_bob", "rational_polynomial", "radtan", NULL};
     static const char *const cameras[] = {"pinhole", NULL};
@@ -126,9 +192,9 @@ static int check_model(const keys *k, const char *path)
     if (keys_has(k, "cam1.")) {
         return complain(path, "holds more than one camera: keep one, as cam0");
     }
-    return check_name(k, "distortion_model", lenses, path) || check_name(k, "cam0.distortion_model", lenses, path) ||
-           check_name(k, "cam0.camera_model", cameras, path) || check_name(k, "fisheye_model", no, path) ||
-           check_name(k, "fisheye", no, path);
+    return (!is_plain(k, f) && check_name(k, "distortion_model", lenses, path)) ||
+           check_name(k, "cam0.distortion_model", lenses, path) || check_name(k, "cam0.camera_model", cameras, path) ||
+           check_name(k, "fisheye_model", no, path) || check_name(k, "fisheye", no, path);
 }
 
 static int read_side(int32_t *out, const keys *k, const char *name, const char *path)
@@ -166,10 +232,11 @@ static int check_once(const keys *k, const form *f, const char *path)
     for (i = 0; i < sizeof read / sizeof read[0]; i++) {
         const char *twice = keys_contradiction(k, read[i]);
         if (twice != NULL) {
-            return complain(path, "has %s more than once, with different values", twice);
+            return complain_of_two(path, twice);
         }
     }
-    return EXIT_MEASURED;
+    return is_empty(k, f->distortion) && place_value(k, f->distortion, 0) != NULL ? complain_of_two(path, f->distortion)
+                                                                                  : EXIT_MEASURED;
 }
 
 static int interpret(drogue_camera *out, int32_t *width_px, int32_t *height_px, const keys *k, const char *path)
@@ -178,7 +245,7 @@ static int interpret(drogue_camera *out, int32_t *width_px, int32_t *height_px, 
     for (i = 0; i < sizeof FORMS / sizeof FORMS[0]; i++) {
         const form *f = &FORMS[i];
         if (place_value(k, f->matrix, 0) != NULL) {
-            return check_once(k, f, path) || check_model(k, path) || read_matrix(out, k, f, path) ||
+            return check_once(k, f, path) || check_model(k, f, path) || read_matrix(out, k, f, path) ||
                    read_distortion(out, k, f, path) || read_size(width_px, height_px, k, f, path);
         }
     }

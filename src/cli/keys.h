@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A YAML or XML file as a list of keys with values: nested keys joined by dots, places in a sequence as numbers, such
- * as "camera_matrix.data.4". The words of an XML element are a sequence. */
+ * as "camera_matrix.data.4". The words of an XML element are a sequence. A sequence of YAML without places has the value
+ * KEYS_EMPTY. */
 #ifndef CLI_KEYS_H
 #define CLI_KEYS_H
 
@@ -11,6 +12,8 @@ typedef struct keys {
     char **names; /* name and value in one block, a 0 byte between them */
     size_t count;
 } keys;
+
+#define KEYS_EMPTY "[]"
 
 /* Read a file; by its first byte, < is XML.
  *

@@ -81,6 +81,14 @@ static void open_level(walk *w, int is_sequence)
     w->levels[w->depth].length = strlen(w->name);
 }
 
+static void close_level(walk *w)
+{
+    const level *l = &w->levels[w->depth--];
+    if (l->is_sequence && l->place == 0 && !keys_add(w->k, w->name, KEYS_EMPTY, strlen(KEYS_EMPTY))) {
+        w->wrong = KEYS_TOO_MUCH;
+    }
+}
+
 static void handle(walk *w, const yaml_event_t *e)
 {
     switch (e->type) {
@@ -88,7 +96,7 @@ static void handle(walk *w, const yaml_event_t *e)
     case YAML_MAPPING_START_EVENT: open_level(w, 0); break;
     case YAML_SEQUENCE_START_EVENT: open_level(w, 1); break;
     case YAML_MAPPING_END_EVENT:
-    case YAML_SEQUENCE_END_EVENT: w->depth--; break;
+    case YAML_SEQUENCE_END_EVENT: close_level(w); break;
     case YAML_ALIAS_EVENT: w->wrong = "is no camera file: it holds an alias"; break;
     default: break;
     }

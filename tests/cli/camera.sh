@@ -137,6 +137,48 @@ refused message.yaml 's/805.0/8050.0/' 'too unlike'
 refused message.yaml 's/0.003\]/0.003, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1]/' 'more than 14'
 refused opencv.xml 's,</data>,,' 'no sound XML'
 refused ros.yaml 's/data: \[800.0/data: [800.0, [/' 'no YAML'
+# Rows x columns are as many as there are numbers, of both matrices and in both forms.
+refused opencv.yaml '/^camera_matrix/,/data/s/rows: 3/rows: 4/' 'camera_matrix: rows x cols is 4 x 3, but data has 9 numbers'
+refused opencv.yaml 's/rows: 5/rows: 4/' 'distortion_coefficients: rows x cols is 4 x 1, but data has 5 numbers'
+refused opencv.yaml 's/, 3.0e-03 \]/ ]/' 'distortion_coefficients: rows x cols is 5 x 1, but data has 4 numbers'
+refused opencv.xml 's/<cols>3/<cols>2/' 'camera_matrix: rows x cols is 3 x 2, but data has 9 numbers'
+refused ros.yaml 's/cols: 5/cols: 4/' 'distortion_coefficients: rows x cols is 1 x 4, but data has 5 numbers'
+refused ros.yaml 's/cols: 5/cols: 0/' 'rows x cols is 1 x 0'
+refused ros.yaml 's/cols: 5/cols: five/' "distortion_coefficients.cols: 'five' is no number of cols"
+refused ros.yaml 's/cols: 5/cols: -5/' "'-5' is no number of cols"
+refused ros.yaml 's/rows: 1$/rows: 0.5/' "distortion_coefficients.rows: '0.5' is no number of rows"
+refused ros.yaml 's/cols: 5/&\n  cols: 4/' 'has distortion_coefficients.cols more than once'
+run 0 measure scene.png --camera ros.yaml $roi --json
+cp out first
+for file in ros.yaml opencv.xml opencv.yaml; do # a file that says nothing of them, or of one alone, has its numbers
+    for side in rows cols 'rows\|cols'; do
+        sed "s,<\($side\)>[0-9]*</\($side\)>,,g;/^ *\($side\):/d" $file >bad
+        cmp -s $file bad && fail "$side are not gone from $file"
+        run 0 measure scene.png --camera bad $roi --json
+        cmp -s out first || fail "$file without $side: another answer"
+    done
+done
+
+# ROS writes no coefficients of a camera without distortion, with plumb_bob or with no model; of another model they are missing.
+run 0 measure scene.png --camera 800,805,159.5,119.5 $roi --json
+cp out first
+sed 's/^d: .*/d: []/' message.yaml >plain.yaml
+sed '/^distortion_coefficients/,/data/{s/cols: 5/cols: 0/;s/data: .*/data: []/}' ros.yaml >plain_file.yaml
+for file in plain.yaml plain_file.yaml; do
+    for model in '' 's/plumb_bob//' "s/plumb_bob/''/" '/^distortion_model/d'; do
+        sed "$model" $file >bad
+        run 0 measure scene.png --camera bad $roi --json
+        cmp -s out first || fail "$file, $model: another answer"
+    done
+    refused $file 's/plumb_bob/rational_polynomial/' 'with four or five numbers'
+    refused $file 's/plumb_bob/equidistant/' equidistant
+done
+refused message.yaml 's/plumb_bob//' "distortion_model is ''"
+refused plain.yaml '$a d: [0, 0, 0, 0]' 'has d more than once'
+refused plain.yaml '/^d:/d' 'has no d with four or five numbers'
+refused plain.yaml 's/^d: .*/d: [0]/' 'has no d with four or five numbers'
+refused plain_file.yaml 's/cols: 0/cols: 5/' 'distortion_coefficients: rows x cols is 1 x 5, but data has 0 numbers'
+refused kalibr.yaml 's/^  distortion_coeffs: .*/  distortion_coeffs: []/' 'has no cam0.distortion_coeffs'
 # Which of two was meant nobody knows, but the same twice is one: what ROS prints of a topic.
 refused opencv.yaml '$a image_width: 640' 'has image_width more than once'
 refused opencv.yaml '$a distortion_coefficients: {data: [0, 0, 0, 0]}' 'has distortion_coefficients.data.0 more than once'
