@@ -49,7 +49,7 @@ static void remark(const options *o, const measurement *m)
 
 static int measure(const options *o, frame_workspace *w, const picture *grey)
 {
-    measurement m = {o->files[0], NULL, options_length_unit(o), 0, 0};
+    measurement m = {o->files[0], NULL, &o->model, options_length_unit(o), 0, 0};
     drogue_region region;
     drogue_result result;
     if (frame_check_camera(o, m.path, grey) || find(&result, &region, &m.searched, w, o, grey)) {

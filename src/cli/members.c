@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "decimal.h"
+#include "odds.h"
 
 enum { MEMBER_DECIMALS = 6, MEMBER_DIGITS = 6 };
 
@@ -83,6 +84,13 @@ static long count_arcs(const drogue_result *r)
     return count;
 }
 
+/* Also of what is not sure enough for a pose to be shown: they say by how much. */
+static void put_log_odds(const member_sink *s, const measurement *m)
+{
+    const int known = odds_known(m->result, m->model);
+    put_q16(s, "log_odds", known ? drogue_result_log_odds_q16(m->result, m->model) : 0, known);
+}
+
 /* The outline can be known when its pose is not. */
 static void put_outline(const member_sink *s, const drogue_result *r)
 {
@@ -96,6 +104,7 @@ static void put_outline(const member_sink *s, const drogue_result *r)
     s->end(s->state);
     put_q16(s, "reliability", r->quality.reliability_q16, known);
     put_q16(s, "cover", r->cover_q16, known);
+    put_whole(s, "outside", (long)r->outside, known);
     put_whole(s, "arcs", count_arcs(r), known);
     put_whole(s, "cluster_members", (long)r->cluster_members, known);
     s->text(s->state, "polarity", known ? polarity_name(r->polarity) : NULL);
@@ -161,6 +170,7 @@ void members_of_measurement(const member_sink *s, const measurement *m)
     put_flag(s, "orientation_resolved", r->orientation_resolved, known);
     put_q16(s, "ambiguity", r->ambiguity_q16, known);
     put_q16(s, "doubt", r->doubt_q16, known);
+    put_log_odds(s, m);
     put_uncertainty(s, r, known);
 }
 

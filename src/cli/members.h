@@ -19,6 +19,7 @@ typedef struct member_sink {
 typedef struct measurement {
     const char *path;
     const drogue_result *result;
+    const drogue_model *model;
     const char *length_unit;
     int searched;   /* 1: the whole image, or the region asked for, was searched for it; -1: not known */
     int unreliable; /* 1: measured, but below --min-reliability */

@@ -103,7 +103,8 @@ static uint32_t advance(frame_clock *c, uint64_t rate)
 
 static int track_frame(tracker *s, const char *path, const picture *grey)
 {
-    measurement m = {path, NULL, options_length_unit(s->o), -1, 0}; /* the tracker does not say where it searched */
+    /* the tracker does not say where it searched */
+    measurement m = {path, NULL, &s->o->model, options_length_unit(s->o), -1, 0};
     drogue_region region;
     drogue_result result;
     drogue_track_state state;

@@ -39,7 +39,7 @@ drogue_model to_model(const py::sequence &three);
 drogue_region to_region(const py::sequence &four);
 drogue_config to_config(const py::dict &changed);
 
-py::dict from_result(const drogue_result &r);
+py::dict from_result(const drogue_result &r, const drogue_model &model);
 py::tuple from_region(const drogue_region &r);
 py::array_t<double> from_vector(const drogue_q16 v[3]);
 

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string>
 
+#include "odds.h"
 #include "ranges.h"
 #include "thresholds.h"
 
@@ -192,7 +193,7 @@ static py::tuple from_pose(const drogue_pose &p)
                           q16(p.pitch_rad_q16));
 }
 
-py::dict from_result(const drogue_result &r)
+py::dict from_result(const drogue_result &r, const drogue_model &model)
 {
     py::dict d;
     py::list arcs;
@@ -234,6 +235,8 @@ py::dict from_result(const drogue_result &r)
     d["orientation_resolved"] = r.orientation_resolved != 0;
     d["ambiguity"] = q16(r.ambiguity_q16);
     d["doubt"] = q16(r.doubt_q16);
+    d["log_odds"] = odds_known(&r, &model) ? py::object(py::float_(q16(drogue_result_log_odds_q16(&r, &model))))
+                                           : py::object(py::none());
     d["covariance"] = covariance;
     d["position_std_m"] = position_std;
     d["axis_std_rad"] = std::ldexp(static_cast<double>(r.axis_std_rad_q32), -32);
@@ -288,7 +291,7 @@ static py::dict measure(const py::object &array, const py::sequence &camera_, co
             drogue_measure(&result, &memory.workspace, &setup, &grey.image, &region);
         }
     }
-    return from_result(result);
+    return from_result(result, model);
 }
 
 static py::list search(const py::object &array)

@@ -74,8 +74,8 @@ public:
                                       std::ldexp(static_cast<double>(e.pitch_std_rad_q32), -32),
                                       std::ldexp(static_cast<double>(e.axis_std_rad_q32), -32));
         }
-        return py::make_tuple(drogue_track_state_name(state), gated, from_region(region), from_result(result),
-                              estimate);
+        return py::make_tuple(drogue_track_state_name(state), gated, from_region(region),
+                              from_result(result, track.model), estimate);
     }
 
 private:

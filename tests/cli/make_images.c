@@ -174,12 +174,25 @@ static void write_large_scene(const char *name, const uint8_t *scene)
 
 static uint8_t *draw_scene(int x16, int y16) { return draw_against(x16, y16, 205, 205); }
 
+/* The scene without the dark disc. */
+static void write_alone(const char *name, const uint8_t *scene)
+{
+    uint8_t *grey = allocate(SCENE_WIDTH, SCENE_HEIGHT);
+    int i;
+    for (i = 0; i < SCENE_WIDTH * SCENE_HEIGHT; i++) {
+        grey[i] = scene[i] < 120 ? 120 : scene[i];
+    }
+    write_grey(name, grey, SCENE_WIDTH, SCENE_HEIGHT);
+    free(grey);
+}
+
 static void write_scenes(void)
 {
     uint8_t *grey = draw_scene(16 * 161 + 4, 16 * 118 + 8);
     int i;
     write_grey("scene.png", grey, SCENE_WIDTH, SCENE_HEIGHT);
     write_large_scene("scene_large.png", grey);
+    write_alone("scene_alone.png", grey);
     write_as("scene_grey16.png", grey, SCENE_WIDTH, SCENE_HEIGHT, PNG_COLOR_TYPE_GRAY, 16, PNG_INTERLACE_NONE);
     write_as("scene_grey_alpha.png", grey, SCENE_WIDTH, SCENE_HEIGHT, PNG_COLOR_TYPE_GRAY_ALPHA, 8, PNG_INTERLACE_NONE);
     write_as("scene_rgb.png", grey, SCENE_WIDTH, SCENE_HEIGHT, PNG_COLOR_TYPE_RGB, 8, PNG_INTERLACE_ADAM7);

@@ -27,9 +27,9 @@ near "$(json alternative.position_m.2)" 3.5 0.005
 near "$(json alternative.axis.2)" 1 0.01
 near "$(json ambiguity)" 0.5 0.5
 near "$(json ellipse.angle_deg)" 0 90.001
-# Each real number has a decimal and no more digits than it needs; six are whole: region, arcs, cluster_members.
+# Each real number has a decimal and no more digits than it needs; seven are whole: region, outside, arcs, cluster_members.
 tr ',:[]{}' '\n\n\n\n\n\n' <out | grep -E '^-?[0-9]' >all_numbers
-same "$(grep -cE '^[0-9]+$' all_numbers)" 6
+same "$(grep -cE '^[0-9]+$' all_numbers)" 7
 grep -vE '^[0-9]+$' all_numbers >numbers
 same "$(grep -cE '^-?(0|[1-9][0-9]*)\.([0-9]|[0-9]{1,8}[1-9])(e[-+][0-9]{2})?$' numbers)" "$(wc -l <numbers | tr -d ' ')"
 # The covariance is symmetric, and its diagonal the square of what is stated beside it.
@@ -73,10 +73,41 @@ prints 'mixed'
 run 1 measure black.png $camera --json
 same "$(json status)" '"no_edges"'
 same "$(json second_look)" '"none"'
-for key in ellipse reliability cover arcs cluster_members polarity inner_centre position_m axis yaw_deg pitch_deg alternative orientation_resolved ambiguity doubt \
+for key in ellipse reliability cover outside arcs cluster_members polarity inner_centre position_m axis yaw_deg pitch_deg alternative orientation_resolved ambiguity doubt log_odds \
     covariance position_std_m axis_std_deg; do
     same "$(json $key)" null
 done
+
+# Log odds as drogue/search.h has them, of a disc of 39.77 px by 0.175 m of 0.35 and 0.02 behind 3.5, whose rays spread by less than
+# 0.13 px. What is not sure has them, too; of an outline without disc they are -3 and the cover; by a model without one, none.
+run 0 measure scene.png $camera $roi $model --json
+same "$(json outside)" 0
+near "$(json log_odds)" '(5 * (5 + 7.77 / 32) + 10 + 2) / 3 - 4 - 0.4' 0.4
+demo='--camera 1465.5,1465.5,403.5,143.5 --drogue 0.35,0.12,0.25 --json'
+# shellcheck disable=SC2086 # words of a command line
+run 1 measure "$root/vectors/frame/banded-rim-0.image.png" $demo
+same "$(json status)" '"unsure"'
+same "$(json position_m)" null
+near "$(json log_odds)" "-3 + $(json cover)" 0.00002
+run 0 measure scene_alone.png $camera $roi $model --json
+near "$(json log_odds)" "-3 + $(json cover)" 0.00002
+# shellcheck disable=SC2086
+run 1 measure "$root/vectors/frame/noisy-rim-0.image.png" $demo
+same "$(json status)" '"unsure"'
+same "$(json outside)" 7
+near "$(json log_odds)" 0 0.4999
+for unknown in '' --drogue=0.35; do
+    # shellcheck disable=SC2086 # none is no word
+    run 0 measure scene.png $camera $roi $unknown --json
+    same "$(json log_odds)" null
+    same "$(json outside)" 0
+done
+# shellcheck disable=SC2086
+run 1 measure "$root/vectors/frame/demo.png" $demo --min-reliability 1
+same "$(json status)" '"unreliable"'
+[ "$(json log_odds)" != null ] || fail 'an unreliable result has no log odds'
+run 0 track scene_alone.png $camera $roi $model --csv
+same "$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i } NR == 2 { print $at["raw.outside"], $at["raw.log_odds"] + 3 == $at["raw.cover"] }' out)" '0 1'
 
 # Without the inner part the orientation stays open; without --drogue lengths are rim radii.
 run 0 measure scene.png $camera $roi --drogue 0.35 --json

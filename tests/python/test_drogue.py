@@ -120,8 +120,22 @@ def test_same_as_the_program():
     r = drogue.measure(drogue.images.read(image), DEMO, MODEL, REGION, {'min_cover': 0.5})
     assert np.allclose(r.pose.position_m, out['position_m'], atol=1e-6, rtol=0)
     assert np.allclose(r.covariance, out['covariance'], rtol=1e-5)
-    assert (r.cover, r.cluster_members, list(r.region)) == (out['cover'], out['cluster_members'], out['region'])
+    assert (r.cover, r.outside, r.cluster_members, list(r.region)) == tuple(
+        out[name] for name in ('cover', 'outside', 'cluster_members', 'region'))
+    assert abs(r.log_odds - out['log_odds']) < 1e-6
     assert abs(r.pose.yaw_deg - out['yaw_deg']) < 1e-4
+
+
+def test_log_odds():
+    """Of what is not sure, too, and of a track; None without a pose or for a model without an inner part."""
+    image = drogue.images.read(VECTORS / 'frame/demo.png')
+    sure = drogue.measure(image, DEMO, MODEL, REGION).log_odds
+    assert sure > 5 and q(sure)
+    assert drogue.Tracker(DEMO, MODEL, REGION).frame(image).raw.log_odds == sure
+    assert drogue.measure(image, DEMO, drogue.Model(0.35), REGION).log_odds is None
+    assert drogue.measure(np.zeros_like(image), DEMO, MODEL).log_odds is None
+    unsure = drogue.measure(drogue.images.read(VECTORS / 'frame/banded-rim-0.image.png'), DEMO, MODEL)
+    assert unsure.status == 'unsure' and unsure.log_odds == unsure.cover - 3
 
 
 @pytest.mark.parametrize('fps', [7, 29.97, 60, 144, 240, 700000, 1e6, 0.0005])

@@ -118,6 +118,8 @@ class Result:
     ambiguity: float
     doubt: float  # share of the distance in doubt by the inner part's size and by edges outside, in the covariance;
     # 1/64 and more where the inner part contradicts the outline
+    log_odds: Optional[float]  # natural logarithm of the odds that the pose is right; 'unsure', too, has it. None without
+    # a pose or for a model without an inner part; -3 + cover where no inner part is weighed
     covariance: Optional[Vector]  # shape (5, 5): x, y, z in metres, yaw, pitch in radians
     position_std_m: Optional[Vector]  # shape (3,)
     axis_std_rad: Optional[float]
