@@ -5,8 +5,8 @@
 #ifndef DROGUE_HLS_WORDS_H
 #define DROGUE_HLS_WORDS_H
 
-#include "drogue/drogue.h"
 #include "drogue/inner.h"
+#include "drogue/measure.h"
 #include "drogue_hls.h"
 
 /* What both tops are told. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* One frame: what is tried, and what of that stands. */
-#include "drogue/drogue.h"
+#include "drogue/measure.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #ifndef DROGUE_LOOK_H
 #define DROGUE_LOOK_H
 
-#include "drogue/drogue.h"
+#include "drogue/measure.h"
 #include "drogue/outline.h"
 
 #define DROGUE_BY_RAYS (-1) /* in place of a threshold */

@@ -2,7 +2,7 @@
 /* A result before anything is known, and what must hold for one to be sought. */
 #include <string.h>
 
-#include "drogue/drogue.h"
+#include "drogue/measure.h"
 #include "drogue/undistort.h"
 
 void drogue_result_clear(drogue_result *out)

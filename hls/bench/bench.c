@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "drogue/drogue.h"
+#include "drogue/measure.h"
 
 enum { MOST_FAILURES = 100 }; /* an exit status holds 8 bits */
 

@@ -4,7 +4,7 @@
 #ifndef DROGUE_SYSTEM_ORDER_H
 #define DROGUE_SYSTEM_ORDER_H
 
-#include "drogue/drogue.h"
+#include "drogue/measure.h"
 
 enum { WIDEST = 256 };
 

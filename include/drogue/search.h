@@ -11,7 +11,7 @@
 #ifndef DROGUE_SEARCH_H
 #define DROGUE_SEARCH_H
 
-#include "drogue/drogue.h"
+#include "drogue/measure.h"
 #include "drogue/rim.h"
 
 #ifdef __cplusplus

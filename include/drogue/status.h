@@ -41,7 +41,7 @@ static inline int drogue_status_full(drogue_status status)
  */
 const char *drogue_status_name(drogue_status status);
 
-/* What became of the second look at an outline that the region's ring mask cuts (drogue.h). */
+/* What became of the second look at an outline that the region's ring mask cuts (measure.h). */
 typedef enum drogue_second_look {
     DROGUE_SECOND_NONE = 0, /* none was called for: the outline suits its region, or there is too little of it */
     DROGUE_SECOND_BETTER,   /* it found the same outline and no less of it: the result is its */

@@ -26,7 +26,7 @@
 #define DROGUE_TRACK_H
 
 #include "drogue/bank.h"
-#include "drogue/drogue.h"
+#include "drogue/measure.h"
 #include "drogue/search.h"
 
 #ifdef __cplusplus

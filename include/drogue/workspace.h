@@ -49,7 +49,7 @@ static inline void drogue_capacity_for_any(drogue_capacity *out, int32_t width_p
     ((size_t)(width_px) * (sizeof(drogue_merge) + 16u) + \
      DROGUE_HALF(width_px) * (5u * 2u + 3u * 4u + 4u * 4u + 32u + 4u) + 5u * 4u + 7u * 8u)
 #define DROGUE_SCRATCH_BYTES ((size_t)4608) /* that the outline, the candidates and the rays need at most */
-#define DROGUE_KEPT_BYTES ((size_t)480)     /* a result, wherever the memory begins: drogue.h checks that it fits */
+#define DROGUE_KEPT_BYTES ((size_t)480)     /* a result, wherever the memory begins: measure.h checks that it fits */
 
 /* Bytes of memory for a workspace: usable in a static array's size. */
 #define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                         \
@@ -64,7 +64,7 @@ static inline void drogue_capacity_for_any(drogue_capacity *out, int32_t width_p
 struct drogue_point;        /* constraints.h */
 struct drogue_outline_room; /* outline.h */
 struct drogue_ray;          /* rays.h */
-struct drogue_result;       /* drogue.h */
+struct drogue_result;       /* measure.h */
 
 /* Line buffers, tables and lists in the caller's memory; set by drogue_workspace_init(). After a frame
  * 'edges' and 'arcs' hold its edge points and arcs; everything else is scratch. */

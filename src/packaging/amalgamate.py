@@ -16,7 +16,7 @@ WORD = r'(?<![\w.>"/]){}\b'  # not a member, nor in the name of a header
 
 
 def version():
-    text = (ROOT / 'include/drogue/drogue.h').read_text()
+    text = (ROOT / 'include/drogue/version.h').read_text()
     return '.'.join(re.search(rf'DROGUE_VERSION_{part} (\d+)', text)[1] for part in ('MAJOR', 'MINOR', 'PATCH'))
 
 

@@ -86,12 +86,10 @@ two_files_digest() {
     local images=tests/embedded built=$work/embedded sources
     sources=("$images"/{measure,digest,counter}.c "$built/frames.c" "$work/two/drogue.c")
     . tests/matrix/machine.sh
-    mkdir -p "$work/shim/drogue"
-    echo '#include <drogue/drogue.h>' >"$work/shim/drogue/track.h" # it is all in one header
     DROGUE_EMBEDDED_DIR=build/packaging/embedded DROGUE_EMBEDDED_OPTIMISATION=-O1 $images/embedded.sh cortex-m7
-    gcc -std=c99 -O2 -I "$work/shim" -I "$work/two" -I $images "${sources[@]}" -o "$work/measure"
+    gcc -std=c99 -O2 -I "$work/two" -I $images "${sources[@]}" -o "$work/measure"
     "$work/measure" | grep -o 'frame [^:]*\|digest=.*' >"$work/digests"
-    arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -std=c99 -Os -I "$work/shim" -I "$work/two" -I $images "${sources[@]}" \
+    arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -std=c99 -Os -I "$work/two" -I $images "${sources[@]}" \
         tests/matrix/start_mps2.c --specs=rdimon.specs -nostartfiles -T tests/matrix/mps2.ld -o "$work/measure.elf"
     machine mps2-an500
     "${run[@]}" "$work/measure.elf" </dev/null | grep -o 'frame [^:]*\|digest=.*' >"$work/digests.m7"

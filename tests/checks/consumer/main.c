@@ -5,9 +5,6 @@
 #include <string.h>
 
 #include <drogue/drogue.h>
-#ifndef DROGUE_TRACK_H /* of two files the one header holds it */
-#include <drogue/track.h>
-#endif
 
 #define SIDE_PX 64
 
