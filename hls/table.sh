@@ -4,9 +4,11 @@
 # the checks of the check itself and of the scripts for the tools.
 # usage: table.sh FOLDER      of the simulations hls_NAME that CMake builds
 set -uo pipefail
-simulations=$(realpath "$1")
 cd "$(dirname "$0")/.." || exit
 . hls/tops.sh
+. hls/usage.sh
+[[ ${1:--} != -* ]] || usage
+simulations=$(cd "$OLDPWD" && realpath "$1")
 work=build/hls
 export DROGUE_CONFORMANCE_EMBED=$simulations/../tests/conformance/conformance_embed
 mkdir -p "$work"

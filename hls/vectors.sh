@@ -6,7 +6,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . hls/tops.sh
-name=$(tops "${1:?usage: vectors.sh NAME [STAGE | STAGE/CASE]...}")
+. hls/usage.sh
+[[ ${1:--} != -* ]] || usage
+name=$(tops "$1")
 top "$name"
 if [ $# -eq 1 ]; then
     read -ra chosen <<<"$cosimulated"

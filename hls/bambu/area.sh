@@ -11,7 +11,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . hls/tops.sh
-name=$(tops "${1:?usage: area.sh NAME}")
+. hls/usage.sh
+[[ ${1:--} != -* ]] || usage
+name=$(tops "$1")
 top "$name"
 cd "build/hls/bambu/$name"
 rm -rf area

@@ -9,8 +9,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . hls/tops.sh
+. hls/usage.sh
 root=$PWD
-name=$(tops "${1:?usage: bambu.sh NAME [--simulate] [--area] [FLAG...]}")
+[[ ${1:--} != -* ]] || usage
+name=$(tops "$1")
 top "$name"
 if ! command -v bambu >/dev/null; then
     echo 'SKIPPED: no bambu'

@@ -9,6 +9,7 @@ set -euo pipefail
 invoked_in=$PWD
 cd "$(dirname "$0")/../.."
 . hls/tops.sh
+. hls/usage.sh
 work=${DROGUE_HLS_CHECK_DIR:-build/hls/check}
 export PYTHONDONTWRITEBYTECODE=1 # findings.py imports ir.py: nothing is left beside them
 
@@ -57,6 +58,7 @@ examine() {
 
 case ${1:-} in
 --function)
+    [ $# -ge 3 ] || usage
     function=$2
     shift 2
     files=()
@@ -67,6 +69,7 @@ case ${1:-} in
     exit
     ;;
 --needed)
+    [ $# -eq 2 ] || usage
     chosen=$(tops "$2")
     top "$chosen"
     for file in $(core_files . '*.c'); do
@@ -77,6 +80,7 @@ case ${1:-} in
     python3 hls/check/findings.py --needed "$work/needed/linked.ll"
     exit
     ;;
+-*) usage ;;
 esac
 chosen=$(tops "$@")
 status=0

@@ -5,6 +5,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . src/sources.sh
+. hls/usage.sh
+[ $# -eq 0 ] || usage
 root=$PWD
 work=$root/build/dpi
 mkdir -p "$work/objects"

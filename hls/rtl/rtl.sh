@@ -5,7 +5,9 @@
 # usage: rtl.sh [WIDTH]      largest region, 256; 77 where clang, llvm or python3 are absent
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+. hls/usage.sh
 width=${1:-256}
+[[ $width =~ ^[1-9][0-9]*$ ]] || usage
 for tool in clang llvm-link opt python3 gcc; do
     command -v $tool >/dev/null || { echo "rtl: SKIPPED: no $tool" && exit 77; }
 done

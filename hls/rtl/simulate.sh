@@ -6,8 +6,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . src/sources.sh
+. hls/usage.sh
 root=$PWD
 width=${1:-256}
+[[ $width =~ ^[1-9][0-9]*$ ]] || usage
 for tool in verilator make g++; do
     command -v $tool >/dev/null || { echo "rtl simulation: SKIPPED: no $tool" && exit 77; }
 done

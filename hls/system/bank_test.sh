@@ -4,6 +4,8 @@
 # usage: bank_test.sh     77 where a tool is absent
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+. hls/usage.sh
+[ $# -eq 0 ] || usage
 for tool in verilator make gcc g++; do
     command -v "$tool" >/dev/null || { echo "bank: SKIPPED: no $tool" && exit 77; }
 done

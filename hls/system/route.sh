@@ -8,8 +8,9 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . hls/system/build.sh
-what=${1:?usage: route.sh system | frontend}
-[[ $what =~ ^(system|frontend)$ ]] || { echo "route: no $what" && exit 2; } # before tools: no skip of what is not there
+. hls/usage.sh
+what=${1:-}
+[[ $what =~ ^(system|frontend)$ ]] || usage # before tools: no skip of what is not there
 nextpnr=${DROGUE_NEXTPNR:-nextpnr-ecp5}
 for tool in yosys "$nextpnr"; do
     command -v "$tool" >/dev/null || { echo "route: SKIPPED: no $tool" && exit 77; }

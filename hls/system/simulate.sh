@@ -5,9 +5,11 @@
 # usage: simulate.sh RENDER [SIDE FRAMES]...     RENDER: hls_system_render of the build; 77 where a tool is absent
 # DROGUE_PROFILE=1: then the functions that take the soft core's clocks.
 set -euo pipefail
-render=$(realpath "${1:?usage: simulate.sh RENDER [SIDE FRAMES]...}")
 cd "$(dirname "$0")/../.."
 . hls/system/build.sh
+. hls/usage.sh
+[[ ${1:--} != -* && $(($# % 2)) -eq 1 ]] || usage
+render=$(cd "$OLDPWD" && realpath "$1")
 shift
 [ $# -gt 0 ] || set -- 128 12 256 3
 need system verilator make gcc g++ riscv64-unknown-elf-gcc

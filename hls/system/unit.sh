@@ -5,6 +5,8 @@
 # usage: unit.sh     77 where clang, llvm or python3 are absent
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+. hls/usage.sh
+[ $# -eq 0 ] || usage
 for tool in clang llvm-link opt python3; do
     command -v $tool >/dev/null || { echo "unit: SKIPPED: no $tool" && exit 77; }
 done

@@ -5,6 +5,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . src/sources.sh
+. hls/usage.sh
+[[ ${1:-1} =~ ^[1-9][0-9]*$ ]] || usage
 root=$PWD
 for tool in verilator make gcc g++; do
     command -v "$tool" >/dev/null || { echo "unit: SKIPPED: no $tool" && exit 77; }

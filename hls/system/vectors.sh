@@ -6,6 +6,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . hls/system/build.sh
+. hls/usage.sh
+[[ ${1:-} =~ ^(--few$|[^-]|$) ]] || usage
 need 'system vectors' verilator make gcc g++ riscv64-unknown-elf-gcc
 few=(scene-20m-{1,2} scene-25m-{1,2} far-region noise faint-noise all-black no-drogue square straight-edge outline-outside-ring
     region-{empty,too-large,too-far,beside-image,left-of-image} no-radius radius-negative no-focal-length one-row one-column)

@@ -6,6 +6,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . hls/tops.sh
+. hls/usage.sh
+[[ ${1:-} != -* ]] || usage
 part=${DROGUE_HLS_PART:-xc7z020clg484-1}
 clock_ns=${DROGUE_HLS_CLOCK_NS:-5}
 root=../../../..

@@ -6,7 +6,12 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . hls/tops.sh
-name=$(tops "${1:?usage: vitis.sh NAME [--csim] [--synthesis] [--cosim] [--package]}")
+. hls/usage.sh
+[[ ${1:--} != -* ]] || usage
+name=$(tops "$1")
+for step in "${@:2}"; do
+    [[ $step =~ ^--(csim|synthesis|cosim|package)$ ]] || usage
+done
 if ! command -v vitis-run >/dev/null || ! command -v v++ >/dev/null; then
     echo 'SKIPPED: no vitis-run'
     exit 77
