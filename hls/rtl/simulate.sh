@@ -35,3 +35,14 @@ if ! "$work/verilated/simulation" >"$work/simulation.log"; then
     exit 1
 fi
 tail -n 2 "$work/simulation.log"
+
+# What the page says of regions of 256 x 256
+says() { grep -qF -- "$1" hls/README.md || { echo "rtl simulation: hls/README.md does not say: $1" && exit 1; }; }
+if [ "$width" = 256 ]; then
+    cases=$(sed -nE 's/^frontend: cases=([0-9]+) .*/\1/p' "$work/simulation.log")
+    clocks=$(sed -nE 's/^rtl: .*: ([0-9]+) clocks, ([0-9]+) of them .*: ([0-9.]+) a pixel/\1 \2 \3/p' "$work/simulation.log")
+    read -r all before a_pixel <<<"$(sed -E 's/([0-9]+)([0-9]{3}) /\1,\2 /g' <<<"$clocks")"
+    says "front end, $cases cases of the vectors and 2,000 drawn images;"
+    says "| $all, lists included; $before until the last pixel's merges |"
+    says "$all clocks for 65,536 pixels, lists included: $a_pixel a pixel"
+fi
