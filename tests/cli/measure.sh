@@ -78,11 +78,11 @@ for key in ellipse reliability cover outside arcs cluster_members polarity inner
     same "$(json $key)" null
 done
 
-# Log odds as drogue/search.h has them, of a disc of 39.77 px by 0.175 m of 0.35 and 0.02 behind 3.5, whose rays spread by less than
-# 0.13 px. What is not sure has them, too; of an outline without disc they are -3 and the cover; by a model without one, none.
+# Log odds as drogue/search.h has them, of a disc of 39.77 px by 0.175 m of 0.35 and 0.02 behind 3.5, which most rays see and
+# spread by less than 0.13 px. What is not sure has them, too; of an outline without disc they are -3 and the cover; by a model without one, none.
 run 0 measure scene.png $camera $roi $model --json
 same "$(json outside)" 0
-near "$(json log_odds)" '(5 * (5 + 7.77 / 32) + 10 + 2) / 3 - 4 - 0.4' 0.4
+near "$(json log_odds)" "(5 * (5 + 7.77 / 32) + 9 + 10 - 7 * $(json ambiguity) + 3) / 4 - 5 - 0.25" 0.25
 demo='--camera 1465.5,1465.5,403.5,143.5 --drogue 0.35,0.12,0.25 --json'
 # shellcheck disable=SC2086 # words of a command line
 run 1 measure "$root/vectors/frame/banded-rim-0.image.png" $demo
@@ -95,7 +95,7 @@ near "$(json log_odds)" "-3 + $(json cover)" 0.00002
 run 1 measure "$root/vectors/frame/noisy-rim-0.image.png" $demo
 same "$(json status)" '"unsure"'
 same "$(json outside)" 7
-near "$(json log_odds)" 0 0.4999
+near "$(json log_odds)" -1.2 0.1
 for unknown in '' --drogue=0.35; do
     # shellcheck disable=SC2086 # none is no word
     run 0 measure scene.png $camera $roi $unknown --json
