@@ -34,6 +34,7 @@ static void forget(drogue_result *out)
 #define SHADE_Q16 DROGUE_Q16(20, 100)  /* by more than this it may be shade about the disc */
 #define WHOLE_Q16 DROGUE_Q16(7, 8)     /* least cover of an outline that stands whatever a disc says, */
 #define SHOWS_Q16 DROGUE_Q16(1, 4)     /* unless so much shows of one that the disc asks for */
+#define SOME_Q16 DROGUE_Q16(1, 5)      /* where less shows of an outline about it there is none about another size */
 #define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
 #define ALONE_Q16 DROGUE_Q16(7, 10)    /* least cover of an outline whose disc is not seen */
 #define STILL_Q16 (11 * DROGUE_CONTRADICTION_Q16 / 10) /* hardly more than a contradiction: of its size */
@@ -87,6 +88,7 @@ static void begin_try(drogue_frame *f)
     forget(f->out);
     f->doubt_q16 = DROGUE_Q16_MAX;
     f->larger_q16 = 0;
+    f->whole = 0;
 }
 
 /* From the outline that was tried to the pose. */
@@ -184,10 +186,11 @@ static drogue_q16 most_doubt(const best_try *best)
 }
 
 /* The disc itself, and an outline about it. That stands, whatever the best one's doubt, where it has little itself. */
-static void try_disc(best_try *best, drogue_frame *f, const drogue_region *region)
+static void try_disc(best_try *best, drogue_frame *f, const drogue_region *region, int32_t whole)
 {
     drogue_status status;
     begin_try(f);
+    f->whole = whole;
     status = drogue_frame_about_disc(f, region);
     if (status == DROGUE_OK) {
         status = judge(f, DROGUE_TRIED_DISC);
@@ -247,8 +250,9 @@ static void try_outer(best_try *best, drogue_frame *f)
 
 static int same_edges(const drogue_held *a, const drogue_held *b)
 {
-    return a->canny_high == b->canny_high && a->region.x_px == b->region.x_px && a->region.y_px == b->region.y_px &&
-           a->region.width_px == b->region.width_px && a->region.height_px == b->region.height_px;
+    return a->canny_high == b->canny_high && a->whole == b->whole && a->region.x_px == b->region.x_px &&
+           a->region.y_px == b->region.y_px && a->region.width_px == b->region.width_px &&
+           a->region.height_px == b->region.height_px;
 }
 
 /* What was best stands, and its edges are in the workspace again. Where there is no outline at all they are the
@@ -262,6 +266,7 @@ static void return_to(best_try *best, drogue_frame *f, const drogue_region *regi
     }
     if (!same_edges(wanted, &f->held)) {
         f->canny_high = wanted->canny_high;
+        f->whole = wanted->whole;
         (void)drogue_frame_edges(f, &wanted->region);
     }
     *f->out = *best->result;
@@ -303,6 +308,7 @@ static int is_another_edge(const best_try *best, const drogue_frame *f)
 static drogue_status measure(drogue_frame *f, const drogue_region *region)
 {
     best_try best;
+    int32_t all; /* of a region is looked at */
     drogue_status status = try_edges(f, region, f->setup->config->canny_high, DROGUE_TRIED_FOUND);
     if (!may_try_more(status)) {
         return status;
@@ -316,8 +322,8 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     if (best.least_q16 > SURE_Q16) {
         try_noise(&best, f, region);
     }
-    if (asks_disc(&best, f)) {
-        try_disc(&best, f, region);
+    for (all = 0; all <= 1 && asks_disc(&best, f) && f->ring_cover_q16 >= all * SOME_Q16; all++) {
+        try_disc(&best, f, region, all);
     }
     if (asks_beyond(&best)) {
         try_beyond(&best, f);

@@ -12,6 +12,9 @@
 #define AS_ALLOWED 16 /* of a disc's outline: the guess that was settled is good to some per cent of its size, */
 #define THERE 8       /* and to this part in its place */
 
+#define SIZES 3  /* so many sizes to either side of what a disc seems to be of, */
+#define PARTS 16 /* this part of it apart */
+
 #define OUTER_Q16 DROGUE_Q16(3, 4)  /* least cover of an outer edge of the rim, */
 #define OUTER_BAND DROGUE_Q16(1, 1) /* px: and half the width of the band about it that points along rays lie in */
 
@@ -50,7 +53,7 @@ static drogue_status run_frontend(drogue_frame *f)
     front.canny_low =
         config->canny_high > 0 ? (int32_t)((int64_t)f->canny_high * config->canny_low / config->canny_high) : 0;
     front.smooth = config->smooth;
-    front.use_ring = 1;
+    front.use_ring = !f->whole;
     front.ring = f->mask;
     front.min_arc_px = (uint32_t)drogue_shr_round_s64((int64_t)config->min_arc_share_q16 * f->mask.longest_px, 16);
     if (front.min_arc_px < config->min_arc_px) {
@@ -111,6 +114,7 @@ drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region)
     }
     f->held.region = *region;
     f->held.canny_high = f->canny_high;
+    f->held.whole = f->whole;
     return run_frontend(f);
 }
 
@@ -270,9 +274,9 @@ drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, c
     return DROGUE_OK;
 }
 
-/* Of the outlines that a disc allows the one that edge points cover best, if better than what there is. */
+/* Of the outlines that a disc of a size allows the one that edge points cover best, if better than what there is. */
 static void best_ring(drogue_ellipse *best, drogue_q16 *most_q16, const drogue_frame *f,
-                      const drogue_inner_sight *sight)
+                      const drogue_inner_sight *sight, int32_t weight)
 {
     const int32_t turns = DROGUE_INNER_TURNS;
     int32_t yaw;
@@ -287,7 +291,7 @@ static void best_ring(drogue_ellipse *best, drogue_q16 *most_q16, const drogue_f
             drogue_inner_rims(&rims, sight, yaw, pitch, f->setup, f->out->region.x_px, f->out->region.y_px);
             for (i = 0; i < rims.count; i++) {
                 const drogue_q16 cover =
-                    drogue_outline_covered(&rims.disc[i], f->workspace, &f->list, &f->mask, f->setup->config);
+                    weight * drogue_outline_covered(&rims.disc[i], f->workspace, &f->list, &f->mask, f->setup->config);
                 if (cover > *most_q16) {
                     *most_q16 = cover;
                     *best = rims.disc[i];
@@ -306,32 +310,30 @@ static int of_size(const drogue_ellipse *e, const drogue_mask *mask)
 }
 
 /* Look for the inner disc in a region, then for its edges in one that suits what outlines the disc allows, and choose
- * of those the one that edge points cover best: 'ring', in coordinates of that region, which becomes the result's.
- * DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked for. */
-static drogue_status find_ring(drogue_ellipse *ring, drogue_frame *f, const drogue_region *region)
+ * of those the one that edge points cover best: 'ring', in coordinates of that region, which becomes the result's, and
+ * how much they cover. DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked for. */
+static drogue_status find_ring(drogue_ellipse *ring, drogue_q16 *cover_q16, drogue_frame *f,
+                               const drogue_region *region)
 {
+    const int32_t sizes = f->whole ? SIZES : 0;
     drogue_result *out = f->out;
     drogue_region about = *region;
-    drogue_ellipse disc[2];
-    drogue_inner_sight sight[2];
+    drogue_ellipse disc;
+    drogue_inner_sight sight;
     drogue_inner_expected rims;
-    uint32_t count;
-    uint32_t i;
+    drogue_q16 seen_q16;
+    int32_t size;
     drogue_status status = place_view(f, region);
     f->second_look = DROGUE_SECOND_NONE;
-    f->ring_cover_q16 = 0;
     memset(ring, 0, sizeof *ring);
-    count = status == DROGUE_OK ? drogue_inner_seek(disc, f->workspace->rays, &f->view, &f->mask, f->setup) : 0;
-    for (i = 0; i < count; i++) {
-        drogue_frame_move(&disc[i], out->region.x_px, out->region.y_px);
-        if (!drogue_inner_sight_of(&sight[i], &disc[i], f->setup->camera)) {
-            count = i;
-        }
-    }
-    if (count == 0) {
+    if (status != DROGUE_OK || !drogue_inner_seek(&disc, f->workspace->rays, &f->view, &f->mask, f->setup)) {
         return DROGUE_E_NO_INNER_PART;
     }
-    drogue_inner_rims(&rims, &sight[count - 1], 0, 0, f->setup, out->region.x_px, out->region.y_px);
+    drogue_frame_move(&disc, out->region.x_px, out->region.y_px);
+    if (!drogue_inner_sight_of(&sight, &disc, f->setup->camera)) {
+        return DROGUE_E_NO_INNER_PART;
+    }
+    drogue_inner_rims(&rims, &sight, 0, 0, f->setup, out->region.x_px, out->region.y_px);
     if (rims.count > 0 && !of_size(&rims.disc[0], &f->mask)) {
         about = region_about(&rims.disc[0], &out->region);
     }
@@ -340,8 +342,10 @@ static drogue_status find_ring(drogue_ellipse *ring, drogue_frame *f, const drog
         return DROGUE_E_NO_ELLIPSE;
     }
     status = drogue_frame_edges(f, &about);
-    for (i = 0; i < count && status == DROGUE_OK; i++) {
-        best_ring(ring, &f->ring_cover_q16, f, &sight[i]);
+    seen_q16 = sight.radius_q16;
+    for (size = PARTS - sizes; size <= PARTS + sizes && status == DROGUE_OK; size++) { /* bound: 7 */
+        sight.radius_q16 = size * seen_q16 / PARTS;                                    /* below 2^21 */
+        best_ring(ring, cover_q16, f, &sight, size);
     }
     return status;
 }
@@ -349,11 +353,15 @@ static drogue_status find_ring(drogue_ellipse *ring, drogue_frame *f, const drog
 drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *region)
 {
     drogue_ellipse ring;
-    const drogue_status status = find_ring(&ring, f, region);
+    drogue_q16 cover_q16 = 0;
+    const drogue_status status = find_ring(&ring, &cover_q16, f, region);
+    if (!f->whole) {
+        f->ring_px_q16 = ring.a_px_q16;
+        f->ring_cover_q16 = cover_q16 / PARTS;
+    }
     if (status != DROGUE_OK) {
         return status;
     }
-    f->ring_px_q16 = ring.a_px_q16;
     return drogue_outline_settle(&f->outline, &ring, 0, f->workspace, &f->list, &f->mask, f->setup->config) &&
                    about_the_same(&f->outline.ellipse, &ring, 0, 0, THERE, AS_ALLOWED)
                ? DROGUE_OK

@@ -138,19 +138,19 @@ static inline void drogue_inner_testify(drogue_evidence *out, const drogue_inner
 }
 
 /* Look for the inner disc about a region's middle, where no outline says where it is and how large: a dark circle of
- * which 24 of 32 rays see the edge, from the place among 13 whose rays see the steepest one. Two where another lies
- * within it, as the disc does in a collar.
+ * which 24 of 32 rays see the edge, from the place among 13 whose rays see the steepest one: the disc's, or that of a
+ * collar about it.
  *
  *  out     region coordinates, semi-axes alike
  *  rays    work area; the workspace has one
  *  view    the region's pixels
  *  mask    of the region asked for, at most DROGUE_MAX_REGION a side, as if made for a drogue in its middle: 2.4 times
  *          the outline's semi-axis
- *  return  how many there are; none where the disc would be under 3 px, the model has none, or of 32 rays from the
+ *  return  1: there is one; none where the disc would be under 3 px, the model has none, or of 32 rays from the
  *          region's middle fewer than 3 see grey rise by twice the least contrast (of an outline up to 512 px)
  */
-uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
-                           const drogue_mask *mask, const drogue_setup *setup);
+int drogue_inner_seek(drogue_ellipse *out, drogue_ray rays[DROGUE_RAYS], const drogue_image *view,
+                      const drogue_mask *mask, const drogue_setup *setup);
 
 /* A disc as seen from the camera. */
 typedef struct drogue_inner_sight {

@@ -66,8 +66,8 @@ static int sees_edge(drogue_ray rays[RAYS], const drogue_image *view, const drog
     return seeing(rays) >= SOME;
 }
 
-uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[RAYS], const drogue_image *view,
-                           const drogue_mask *mask, const drogue_setup *setup)
+int drogue_inner_seek(drogue_ellipse *out, drogue_ray rays[RAYS], const drogue_image *view, const drogue_mask *mask,
+                      const drogue_setup *setup)
 {
     const drogue_q16 a = drogue_sat_s32((int64_t)mask->longest_px * DROGUE_Q16(5, 12)); /* 2.4 of it in the region */
     const drogue_q16 r =
@@ -98,21 +98,15 @@ uint32_t drogue_inner_seek(drogue_ellipse out[2], drogue_ray rays[RAYS], const d
             const int32_t slopes_q8 = settle(&e, rays, size * (r / 3), r / 4 * 3);
             if (slopes_q8 > steepest) {
                 steepest = slopes_q8;
-                out[0] = e;
+                *out = e;
             }
         }
     }
     if (steepest > 0) { /* once more from there, where all rays see it alike */
-        drogue_rays_cast(rays, view, &out[0], r / 4, PHASE, EVERY, least, DROGUE_RAY_RISES);
-        steepest = settle(&out[0], rays, 0, r / 4);
+        drogue_rays_cast(rays, view, out, r / 4, PHASE, EVERY, least, DROGUE_RAY_RISES);
+        steepest = settle(out, rays, 0, r / 4);
     }
-    if (steepest == 0) {
-        return 0;
-    }
-    out[1] = out[0];
-    drogue_rays_cast(rays, view, &out[1], out[0].a_px_q16 / 2, PHASE, EVERY, least, DROGUE_RAY_RISES);
-    drogue_rays_keep(rays, NULL, -DROGUE_Q16_MAX, -(out[0].a_px_q16 / 16));
-    return settle(&out[1], rays, -(out[0].a_px_q16 / 4), out[0].a_px_q16 / 4) > 0 ? 2 : 1;
+    return steepest > 0;
 }
 
 /* Tangents of a pixel's direction; 0 where that is more than 45 degrees off the axis, or beyond the lens model. */
