@@ -185,7 +185,8 @@ static drogue_q16 most_doubt(const best_try *best)
     return best->result->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE ? DISC_Q16 : DROGUE_CONTRADICTED_Q16;
 }
 
-/* The disc itself, and an outline about it. That stands, whatever the best one's doubt, where it has little itself. */
+/* The disc itself, and an outline about it; by all edges of the region it may be of another size. That stands, whatever
+ * the best one's doubt, where it has little itself. */
 static void try_disc(best_try *best, drogue_frame *f, const drogue_region *region, int32_t whole)
 {
     drogue_status status;
@@ -308,7 +309,6 @@ static int is_another_edge(const best_try *best, const drogue_frame *f)
 static drogue_status measure(drogue_frame *f, const drogue_region *region)
 {
     best_try best;
-    int32_t all; /* of a region is looked at */
     drogue_status status = try_edges(f, region, f->setup->config->canny_high, DROGUE_TRIED_FOUND);
     if (!may_try_more(status)) {
         return status;
@@ -322,8 +322,11 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     if (best.least_q16 > SURE_Q16) {
         try_noise(&best, f, region);
     }
-    for (all = 0; all <= 1 && asks_disc(&best, f) && f->ring_cover_q16 >= all * SOME_Q16; all++) {
-        try_disc(&best, f, region, all);
+    if (asks_disc(&best, f)) {
+        try_disc(&best, f, region, 0);
+    }
+    if (best.least_q16 >= DROGUE_Q16_ONE && f->ring_cover_q16 >= SOME_Q16) { /* a disc is there, and none is seen */
+        try_disc(&best, f, region, 1);
     }
     if (asks_beyond(&best)) {
         try_beyond(&best, f);
