@@ -63,7 +63,8 @@ struct Frame {
 };
 
 /* Run the front end on a region. */
-drogue_status see_edges(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region)
+drogue_status see_edges(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region,
+                        bool whole = false)
 {
     if (!place(out.region, f.mask, task.image, region)) {
         return DROGUE_E_REGION;
@@ -75,7 +76,7 @@ drogue_status see_edges(Result &out, Frame &f, const Task &task, const std::arra
     }
     capacity.width_px = static_cast<uint32_t>(out.region.width);
     f.view = task.image(out.region).clone();
-    f.front = run_front_end(f.view, f.mask, task.config, capacity);
+    f.front = run_front_end(f.view, f.mask, task.config, capacity, whole);
     return f.front->status;
 }
 
@@ -562,8 +563,9 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     return found;
 }
 
-/* An outline about the inner disc where no outline says where that is. */
-bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
+/* An outline about the inner disc where no outline says where that is; by all edges of the region of a disc that may be of
+ * another size than it seems. */
+bool about_disc(Result &out, Frame &f, const Task &task, bool follow, bool whole)
 {
     Seeker seeker(task, follow);
     std::array<int64_t, 4> region = task.region;
@@ -586,14 +588,18 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
         out.second_look = DROGUE_SECOND_TOO_WIDE;
         return false;
     }
-    out.status = see_edges(out, f, task, region);
+    out.status = see_edges(out, f, task, region, whole);
     if (out.status != DROGUE_OK) {
         return false;
     }
-    const drogue_ellipse ring = rounded_ellipse(seeker.best(f.ring_cover, *f.front, f.mask, out.region.tl()));
+    Real cover = 0;
+    const drogue_ellipse ring = rounded_ellipse(seeker.best(cover, *f.front, f.mask, out.region.tl(), whole ? 3 : 0));
     out.contradicted = seeker.contradicted();
     f.follow.library = follow ? &f.decided : nullptr;
-    f.ring = real(ring.a_px_q16);
+    if (!whole) {
+        f.ring = real(ring.a_px_q16);
+        f.ring_cover = cover;
+    }
     if (f.follow.library != nullptr) {
         (void)drogue_outline_settle(&f.decided, &ring, 0, &f.front->workspace, &f.front->list, &f.mask, &task.config);
     }
@@ -724,17 +730,21 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         }
     }
     bool contradicted = false;
-    if (least > 0.04L && task.model.inner_radius > 0) {
+    for (const bool whole : {false, true}) {
+        if (task.model.inner_radius <= 0 || least <= 0.04L || (whole && (least < 1 || f.ring_cover < 0.2L))) {
+            break;
+        }
         Result out;
         Features from = {};
         out.outline.arcs.fill(DROGUE_NO_ARC);
-        const Real doubt = about_disc(out, f, task, library != nullptr) ? judge(out, from, f, task, library) : DOUBTED;
+        const Real doubt =
+            about_disc(out, f, task, library != nullptr, whole) ? judge(out, from, f, task, library) : DOUBTED;
         if (room == DROGUE_SECOND_NONE) {
             room = is_full(out.status)                         ? DROGUE_SECOND_FULL
                    : out.second_look >= DROGUE_SECOND_TOO_WIDE ? out.second_look
                                                                : DROGUE_SECOND_NONE;
         }
-        contradicted = out.contradicted;
+        contradicted = contradicted || out.contradicted;
         const Real most = best.status == DROGUE_OK && least == 1 ? 0.04L : 1 / 64.0L;
         if (out.status == DROGUE_OK && out.has_inner && out.doubt < most) {
             keep(out, from, doubt);

@@ -474,7 +474,7 @@ void number(FrontEnd &front)
 }
 
 std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &mask, const drogue_config &config,
-                                        const drogue_capacity &capacity)
+                                        const drogue_capacity &capacity, bool whole)
 {
     auto out = std::make_unique<FrontEnd>();
     drogue_frontend frontend;
@@ -482,7 +482,7 @@ std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &
     front.canny_low = config.canny_low;
     front.canny_high = config.canny_high;
     front.smooth = config.smooth;
-    front.use_ring = 1;
+    front.use_ring = !whole;
     front.ring = mask;
     front.min_arc_px = std::max(
         config.min_arc_px, static_cast<uint32_t>(std::floor(real(config.min_arc_share_q16) * mask.longest_px + 0.5L)));

@@ -16,7 +16,8 @@ using reference::Real;
 
 inline Real real(int64_t q16) { return static_cast<Real>(q16) / 65536; }
 
-/* What the front end leaves: the library's own lists, and the same as numbers. */
+/* What the front end leaves: the library's own lists, and the same as numbers; 'whole': of all of a region, not of its
+ * ring alone. */
 struct FrontEnd {
     drogue_status status;
     std::vector<uint32_t> memory;
@@ -25,7 +26,7 @@ struct FrontEnd {
     std::vector<reference::Edge> edges;
 };
 std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &mask, const drogue_config &config,
-                                        const drogue_capacity &capacity);
+                                        const drogue_capacity &capacity, bool whole = false);
 
 /* The edge points along rays by drogue_inner_beyond(), beyond 0 by drogue_inner_along(), in place of what the front end
  * left: integers, as those are. */

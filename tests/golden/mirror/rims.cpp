@@ -70,7 +70,7 @@ std::vector<Ellipse> Seeker::rims(const Seen &seen, int yaw, int pitch, cv::Poin
 
 Ellipse Seeker::head_on(cv::Point origin)
 {
-    const std::vector<Ellipse> all = rims(seen_.back(), 0, 0, origin);
+    const std::vector<Ellipse> all = rims(seen_, 0, 0, origin);
     return all.empty() ? Ellipse{0, 0, 0, 0, 0, false} : all[0];
 }
 
@@ -85,18 +85,21 @@ Real Seeker::cover(const Ellipse &e, const FrontEnd &front, const drogue_mask &m
     return own;
 }
 
-Ellipse Seeker::best(Real &most, const FrontEnd &front, const drogue_mask &mask, cv::Point origin)
+Ellipse Seeker::best(Real &most, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, int sizes)
 {
     Ellipse out = {0, 0, 0, 0, 0, false};
     most = 0;
-    for (const Seen &seen : seen_) {
+    for (int size = 16 - sizes; size <= 16 + sizes; size++) {
+        Seen seen = seen_;
+        seen.library.radius_q16 = size * seen_.library.radius_q16 / 16;
+        seen.own.radius = follow_ ? real(seen.library.radius_q16) : size * seen_.own.radius / 16;
         for (int yaw = 0; yaw <= TURNS; yaw++) { /* what is turned the opposite way comes with it */
             for (int pitch = yaw == 0 ? 0 : -TURNS; pitch <= TURNS; pitch++) {
                 if (yaw * yaw + pitch * pitch > TURNS * TURNS) {
                     continue;
                 }
                 for (const Ellipse &e : rims(seen, yaw, pitch, origin)) {
-                    const Real share = cover(e, front, mask);
+                    const Real share = size * cover(e, front, mask) / 16;
                     if (share > most) {
                         most = share;
                         out = e;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace mirror {
 
@@ -53,16 +52,6 @@ public:
         return s.slopes;
     }
 
-    /* Of the edges only those by so much within the circle. */
-    void keep_within(Real by)
-    {
-        for (drogue_ray &r : rays_) {
-            const auto end = std::remove_if(r.edges, r.edges + r.count,
-                                            [&](const drogue_ray_edge &e) { return real(e.at_px_q16) >= -by; });
-            r.count = static_cast<uint32_t>(end - r.edges);
-        }
-    }
-
 private:
     drogue_image view_;
     int least_;
@@ -73,7 +62,6 @@ private:
 /* Rays begin at whole LSB. */
 Real down(Real v) { return std::floor(v / LSB) * LSB; }
 Ellipse to_lsb(const Ellipse &e) { return real_of(circle(e.xc, e.yc, e.a)); }
-bool equal(const Ellipse &e, const Ellipse &f) { return e.xc == f.xc && e.yc == f.yc && e.a == f.a; }
 
 constexpr int PLACES[13][2] = {{0, 0}, {1, 0},  {-1, 0}, {0, 1},  {0, -1}, {2, 0},  {-2, 0},
                                {0, 2}, {0, -2}, {1, 1},  {-1, 1}, {1, -1}, {-1, -1}};
@@ -99,46 +87,30 @@ Ellipse steepest(Circles &circles, const Ellipse &middle, Real a, Real r)
     return best;
 }
 
-/* The disc and one within it; of the library's discs those that are the same are taken. */
-std::vector<Ellipse> discs(const cv::Mat &view, const drogue_mask &mask, const Task &task, Real margin,
-                           const std::vector<Ellipse> &library)
+/* The disc, rounded to an LSB; not ok: none. */
+Ellipse disc_in(const cv::Mat &view, const drogue_mask &mask, const Task &task, Real margin)
 {
+    const Ellipse none = {0, 0, 0, 0, 0, false};
     const Real a = mask.longest_px * real(drogue_q16{DROGUE_Q16(5, 12)});
     const Real r = real(q16(real(q16(a * task.model.inner_radius)) / task.model.rim_radius));
     const Ellipse middle = {mask.centre2_x / 2.0L, mask.centre2_y / 2.0L, 3 * down(a / 5), 0, 0, true};
     Circles circles(view, task.config.min_inner_contrast, margin);
-    std::vector<Ellipse> found;
-    const auto take = [&](const Ellipse &e) {
-        const size_t k = found.size();
-        const bool known = k < library.size() && same(e, library[k], DISC);
-        found.push_back(known ? library[k] : e);
-    };
     if (r < 3 || r > a) {
-        return {};
+        return none;
     }
     if (a <= 512) { /* rays from the middle reach all of an outline */
         Circles steeper(view, 2 * task.config.min_inner_contrast, margin);
         const Rays &rays = steeper.cast(middle, middle.a);
         if (std::count_if(rays.begin(), rays.end(), [](const drogue_ray &ray) { return ray.count > 0; }) < 3) {
-            return {};
+            return none;
         }
     }
     Ellipse e = steepest(circles, middle, a, r);
     if (!e.ok) {
-        return {};
+        return none;
     }
     circles.cast(e = to_lsb(e), down(r / 4));
-    if (circles.settle(e, 0, down(r / 4)) == 0) {
-        return {};
-    }
-    take(to_lsb(e));
-    e = found[0];
-    circles.cast(e, down(e.a / 2));
-    circles.keep_within(e.a / 16);
-    if (circles.settle(e, -down(e.a / 4), down(e.a / 4)) > 0) {
-        take(to_lsb(e));
-    }
-    return found;
+    return circles.settle(e, 0, down(r / 4)) > 0 ? to_lsb(e) : none;
 }
 
 /* Tangents of the direction of a pixel; 'most' of all that were asked for. */
@@ -179,39 +151,35 @@ bool Seeker::look(const cv::Mat &view, const drogue_mask &mask, cv::Point origin
 {
     const drogue_image image = {view.data, view.cols, view.rows, static_cast<int32_t>(view.step)};
     const drogue_setup setup = {&task_.library_camera, &task_.library_model, &task_.config};
-    drogue_ellipse disc[2];
+    drogue_ellipse disc = {0, 0, 0, 0, 0};
     Rays rays;
-    std::vector<Ellipse> library, found;
-    const uint32_t count = follow_ ? drogue_inner_seek(disc, rays.data(), &image, &mask, &setup) : 0;
-    std::transform(disc, disc + count, std::back_inserter(library), real_of);
+    const bool there = follow_ && drogue_inner_seek(&disc, rays.data(), &image, &mask, &setup) != 0;
+    Ellipse found = {0, 0, 0, 0, 0, false};
     for (const Real margin : {Real(0), GATE, -GATE}) {
-        found = discs(view, mask, task_, margin, library);
-        contradicted_ = follow_ && !std::equal(found.begin(), found.end(), library.begin(), library.end(), equal);
+        found = disc_in(view, mask, task_, margin);
+        contradicted_ = follow_ && (found.ok != there || (there && !same(found, real_of(disc), DISC)));
         if (!contradicted_) {
             break;
         }
     }
-    for (const Ellipse &e : found) {
-        const Ellipse at = {e.xc + origin.x, e.yc + origin.y, e.a, e.b, 0, true};
-        const drogue_ellipse rounded = circle(at.xc, at.yc, at.a);
-        Seen seen = {};
-        Real most = 0;
-        bool good = sight_of(seen.own, most, at, task_.camera);
-        const bool known = follow_ && drogue_inner_sight_of(&seen.library, &rounded, setup.camera) != 0;
-        good = good && (follow_ && std::fabs(most - 1) < TANGENT ? known : most <= 1) && seen.own.radius > 0;
-        if (follow_) {
-            const Sight as = {real(seen.library.x_q16), real(seen.library.y_q16), real(seen.library.radius_q16)};
-            const bool alike = std::max({std::fabs(as.x - seen.own.x), std::fabs(as.y - seen.own.y),
-                                         std::fabs(as.radius - seen.own.radius)}) <= TANGENT;
-            contradicted_ = contradicted_ || known != good || (known && !alike);
-            seen.own = known && alike ? as : seen.own;
-        }
-        if (!good) {
-            break;
-        }
-        seen_.push_back(seen);
+    if (!found.ok) {
+        return false;
     }
-    return !seen_.empty();
+    found = follow_ && !contradicted_ ? real_of(disc) : found;
+    const Ellipse at = {found.xc + origin.x, found.yc + origin.y, found.a, found.b, 0, true};
+    const drogue_ellipse rounded = circle(at.xc, at.yc, at.a);
+    Real most = 0;
+    bool good = sight_of(seen_.own, most, at, task_.camera);
+    const bool known = follow_ && drogue_inner_sight_of(&seen_.library, &rounded, setup.camera) != 0;
+    good = good && (follow_ && std::fabs(most - 1) < TANGENT ? known : most <= 1) && seen_.own.radius > 0;
+    if (follow_) {
+        const Sight as = {real(seen_.library.x_q16), real(seen_.library.y_q16), real(seen_.library.radius_q16)};
+        const bool alike = std::max({std::fabs(as.x - seen_.own.x), std::fabs(as.y - seen_.own.y),
+                                     std::fabs(as.radius - seen_.own.radius)}) <= TANGENT;
+        contradicted_ = contradicted_ || known != good || (known && !alike);
+        seen_.own = known && alike ? as : seen_.own;
+    }
+    return good;
 }
 
 } // namespace mirror

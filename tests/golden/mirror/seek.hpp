@@ -29,11 +29,12 @@ public:
     /* Look for the disc about a region's middle, 'origin' its first pixel; false: there is none. */
     bool look(const cv::Mat &view, const drogue_mask &mask, cv::Point origin);
 
-    /* The first outline about the disc, or the one within it, in coordinates of a region; not ok: none. */
+    /* The first outline about the disc, in coordinates of a region; not ok: none. */
     reference::Ellipse head_on(cv::Point origin);
 
-    /* Of the outlines that the discs allow the first that edge points cover best, and by how much; not ok: they cover none. */
-    reference::Ellipse best(Real &most, const FrontEnd &front, const drogue_mask &mask, cv::Point origin);
+    /* Of the outlines that the disc allows the first that edge points cover best, and by how much; not ok: they cover none.
+     * Of a disc that may be larger or smaller by so many sixteenths, those that they cover the longest way. */
+    reference::Ellipse best(Real &most, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, int sizes);
 
     bool contradicted() const { return contradicted_; }
 
@@ -49,7 +50,7 @@ private:
 
     const Task &task_;
     bool follow_, contradicted_ = false;
-    std::vector<Seen> seen_;
+    Seen seen_ = {};
 };
 
 /* Is the ring of a mask made for an outline of that size: has it a twentieth to spare to either side? */

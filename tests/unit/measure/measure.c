@@ -579,6 +579,34 @@ START_TEST(edges_are_the_regions)
 }
 END_TEST
 
+/* What was tried in all of a region for a disc that its outline does not have leaves the edges of the ring. */
+START_TEST(edges_are_the_rings)
+{
+    static const drogue_region region = {15, 0, 290, 280};
+    test_workspace t = usual_workspace();
+    drogue_config config;
+    drogue_result r;
+    double shift;
+    uint32_t k;
+    drogue_config_default(&config);
+    for (shift = 0.04; shift < 0.14; shift += 0.01) {
+        scene s = usual;
+        s.canopy = 192; /* of too little contrast for the configured thresholds */
+        s.inner_shift[0] = shift;
+        draw(&s);
+        (void)measure(&r, &t, &config, &model, &region);
+        ck_assert_uint_gt(r.list.edge_count, 0);
+        for (k = 0; k < r.list.edge_count; k++) {
+            const double dx = t.workspace.edges[k].x_q5 / 32.0 - 0.5 * (r.region.width_px - 1);
+            const double dy = t.workspace.edges[k].y_q5 / 32.0 - 0.5 * (r.region.height_px - 1);
+            MUST(hypot(dx, dy) > 290 / 3.0 - 2, "%g m: a point at %g, %g, tried %d, %s", shift, dx, dy, (int)r.tried,
+                 drogue_status_name(r.status));
+        }
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
 START_TEST(geometry_out_of_range)
 {
     test_workspace t = usual_workspace();
@@ -965,7 +993,7 @@ SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline,
            a_canopy_so_narrow_that_its_inner_edge_is_found, without_inner_part, regions_of_one_image,
            ring_of_a_clipped_region, arguments, regions_that_miss, a_ring_about_the_rim, noise_about_the_rim,
            images_beyond_the_coordinates, full_tables, what_fills_a_table_is_thresholded,
-           what_own_thresholds_fill_is_told, nothing_to_measure, edges_are_the_regions, geometry_out_of_range,
-           inner_part_that_cannot_decide, inner_part_that_contradicts, covariance_of_the_result, off_centre_region,
-           second_look_that_fails, second_look_is_told, background_across_the_canopys_grey, outline_across_a_fold,
-           version_is_the_macros, capacity_by_macro_is_capacity_by_function)
+           what_own_thresholds_fill_is_told, nothing_to_measure, edges_are_the_regions, edges_are_the_rings,
+           geometry_out_of_range, inner_part_that_cannot_decide, inner_part_that_contradicts, covariance_of_the_result,
+           off_centre_region, second_look_that_fails, second_look_is_told, background_across_the_canopys_grey,
+           outline_across_a_fold, version_is_the_macros, capacity_by_macro_is_capacity_by_function)
