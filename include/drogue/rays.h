@@ -71,6 +71,10 @@ static inline void drogue_ray_read_as(int32_t *value_q8, const drogue_ray *ray, 
     }
 }
 
+/* Add that, 'sign' times, to as many sums; the samples themselves stay in 'value'. */
+void drogue_ray_add(int32_t *sum_q8, int32_t *value_q8, const drogue_ray *ray, const drogue_image *image,
+                    drogue_transfer transfer, drogue_q16 from_px_q16, int32_t count, int32_t sign);
+
 /* What is looked for along rays: where the grey rises outwards; where it rises or falls, whose slope is taken as
  * positive; and both from samples half as far apart, so that two edges 2 px apart are two. */
 typedef enum drogue_ray_look {

@@ -137,6 +137,8 @@ static void take(int32_t v[3], int64_t excess_q60, const int32_t u[3])
 static void straighten(int32_t v[3][3])
 {
     const int64_t one_q60 = INT64_C(1) << 60;
+    int i = 1;
+    int j = 2;
     int k;
     take(v[0], (dot_q60(v[0], v[0]) - one_q60) / 2, v[0]);
     take(v[1], dot_q60(v[0], v[1]), v[0]);
@@ -144,10 +146,10 @@ static void straighten(int32_t v[3][3])
     fix_sign(v[0]);
     fix_sign(v[1]);
     for (k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3;
-        const int j = (k + 2) % 3;
         v[2][k] =
             (int32_t)drogue_shr_round_s64(drogue_product(v[0][i], v[1][j]) - drogue_product(v[0][j], v[1][i]), 30);
+        i = j;
+        j = k;
     }
 }
 

@@ -68,9 +68,20 @@ uint32_t drogue_reciprocal_u32(uint32_t d)
 drogue_q16 drogue_q16_from_int(int32_t v) { return drogue_sat_s32((int64_t)v * DROGUE_Q16_ONE); }
 
 #if !DROGUE_SATURATING_INSTRUCTIONS
-drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b) { return drogue_sat_s32((int64_t)a + b); }
+/* A sum that wrapped, of whose numbers one has this sign. */
+static inline drogue_q16 saturated(drogue_q16 sign) { return (sign >> 31) ^ DROGUE_Q16_MAX; }
 
-drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b) { return drogue_sat_s32((int64_t)a - b); }
+drogue_q16 drogue_q16_add(drogue_q16 a, drogue_q16 b)
+{
+    const drogue_q16 sum = (drogue_q16)((uint32_t)a + (uint32_t)b);
+    return ((sum ^ a) & (sum ^ b)) < 0 ? saturated(a) : sum;
+}
+
+drogue_q16 drogue_q16_sub(drogue_q16 a, drogue_q16 b)
+{
+    const drogue_q16 difference = (drogue_q16)((uint32_t)a - (uint32_t)b);
+    return ((a ^ b) & (difference ^ a)) < 0 ? saturated(a) : difference;
+}
 #endif
 
 drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b)
@@ -80,13 +91,10 @@ drogue_q16 drogue_q16_mul(drogue_q16 a, drogue_q16 b)
 
 int64_t drogue_floor_div_s64(int64_t num, int64_t den)
 {
-    int64_t q;
-    if (num == (int32_t)num && den == (int32_t)den) { /* a 64-bit division is a long call on a 32-bit core */
-        q = (int32_t)num / (int32_t)den;
-    } else {
-        q = num / den;
-    }
-    return num - q * den < 0 ? q - 1 : q;
+    const int64_t sign = num >> 63; /* floor(-n / d) = -1 - floor((n - 1) / d) */
+    const int64_t size = num ^ sign;
+    const int narrow = size == (int32_t)size && den == (int32_t)den; /* 64 bits are a long call on a 32-bit core */
+    return (narrow ? (int32_t)size / (int32_t)den : size / den) ^ sign;
 }
 
 int64_t drogue_div_round_s64(int64_t num, int64_t den) { return drogue_floor_div_s64(2 * num + den, 2 * den); }

@@ -155,7 +155,8 @@ void drogue_real_root(drogue_real *out, const drogue_real *v)
     square = (uint64_t)v->mantissa << shift;
     root = drogue_isqrt_u64(square);
     out->exponent = (v->exponent - shift) / 2;
-    out->mantissa = (int32_t)(root + (square - drogue_product_u32(root, root) > root)); /* square > (root + 1/2)^2 */
+    /* what is left is below 2^32, as root is below 2^31; square > (root + 1/2)^2 */
+    out->mantissa = (int32_t)(root + ((uint32_t)square - root * root > root));
 }
 
 int64_t drogue_real_to_s64(drogue_real v, int frac_bits)

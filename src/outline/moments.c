@@ -27,12 +27,13 @@ static void s96_set_s64(s96 *out, int64_t v) { s96_set(out, v >> 32, (uint32_t)v
 /* to -= c from, modulo 2^96; |c| <= 2^30 */
 static void s96_subtract_multiple(s96 *to, const s96 *from, int32_t c)
 {
-    int64_t t = 0;
-    int k;
-    for (k = 0; k < 3; k++) {
-        t = (t >> 32) + to->word[k] - (int64_t)c * from->word[k];
-        to->word[k] = (uint32_t)t;
-    }
+    const int64_t low = (int64_t)c * from->word[0];
+    const int64_t carry = (int32_t)(low >> 32) + (int32_t)(to->word[0] < (uint32_t)low);
+    uint64_t upper = (uint64_t)to->word[2] << 32 | to->word[1];
+    upper -= (uint64_t)((int64_t)c * from->word[1]) + (uint64_t)carry;
+    to->word[0] -= (uint32_t)low;
+    to->word[1] = (uint32_t)upper;
+    to->word[2] = (uint32_t)(upper >> 32) - (uint32_t)c * from->word[2];
 }
 
 static void s96_copy(s96 *to, const s96 *from)
@@ -67,9 +68,11 @@ static void centre_along(s96 *s, int32_t c, int along_y)
     int i;
     for (fixed = 0; fixed <= 4; fixed++) { /* binomial shift: repeated s_i -= c s_(i-1) */
         for (pass = 1; pass <= 4 - fixed; pass++) {
+            s96 *to = &s[along_y ? moment(fixed, 4 - fixed) : moment(4 - fixed, fixed)];
             for (i = 4 - fixed; i >= pass; i--) {
-                s96_subtract_multiple(&s[along_y ? moment(fixed, i) : moment(i, fixed)],
-                                      &s[along_y ? moment(fixed, i - 1) : moment(i - 1, fixed)], c);
+                s96 *const from = to - (fixed + i + along_y); /* the moment of one less */
+                s96_subtract_multiple(to, from, c);
+                to = from;
             }
         }
     }
@@ -101,12 +104,16 @@ static const uint8_t power_y[6] = {0, 0, 1, 0, 1, 2};
 /* Take 'multiple' times monomial k < 3 from monomial i, in the exact sums: a congruence. */
 static void take(s96 s[21], int i, int k, int32_t multiple)
 {
+    s96 *to = &s[DROGUE_PACKED(i, 0)];
+    const s96 *from = &s[DROGUE_PACKED(k, 0)];
     int j;
     s96_subtract_multiple(&s[DROGUE_PACKED(i, i)], &s[DROGUE_PACKED(i, k)], multiple);
     for (j = 0; j < 6; j++) {
         if (j != i) {
-            s96_subtract_multiple(&s[DROGUE_PACKED(i, j)], &s[DROGUE_PACKED(k, j)], multiple);
+            s96_subtract_multiple(to, from, multiple);
         }
+        to += j < i ? 1 : j + 1; /* to (i, j + 1), packed */
+        from += j < k ? 1 : j + 1;
     }
     s96_subtract_multiple(&s[DROGUE_PACKED(i, i)], &s[DROGUE_PACKED(i, k)], multiple);
 }

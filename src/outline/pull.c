@@ -35,18 +35,14 @@ static int32_t add_grey(int32_t sum[], int32_t samples, int32_t middle, const dr
 {
     int32_t grey[DROGUE_SMEARED_SLOPES + 2];
     int32_t white = 0;
-    int32_t i;
     int32_t k;
     for (k = group * GROUP; k < (group + 1) * GROUP; k++) {
-        const int32_t bin = k * DROGUE_SUPPORT_BINS / DROGUE_RAYS;
+        const uint32_t bin = (uint32_t)k / (DROGUE_RAYS / DROGUE_SUPPORT_BINS);
         const uint32_t bright = support->bright_bins >> bin & 1u;
         if (support->bin[bin].count[bright] > 0) {
             const int32_t sign = bright ? 1 : -1;
             const drogue_q16 from = -(middle + 1) * rays[k].step_px_q16;
-            drogue_ray_read_as(grey, &rays[k], view, transfer, from, samples);
-            for (i = 0; i < samples; i++) { /* bound: DROGUE_SMEARED_SLOPES + 2 */
-                sum[i] += sign * grey[i];
-            }
+            drogue_ray_add(sum, grey, &rays[k], view, transfer, from, samples, sign);
             white += (grey[middle + 1 + BESIDE] >= WHITE_Q8) - (grey[middle + 1 - BESIDE] >= WHITE_Q8);
         }
     }

@@ -137,6 +137,16 @@ void drogue_ray_read_light(int32_t *light_q8, const drogue_ray *r, const drogue_
     }
 }
 
+void drogue_ray_add(int32_t *sum_q8, int32_t *value_q8, const drogue_ray *ray, const drogue_image *image,
+                    drogue_transfer transfer, drogue_q16 from_px_q16, int32_t count, int32_t sign)
+{
+    int32_t i;
+    drogue_ray_read_as(value_q8, ray, image, transfer, from_px_q16, count);
+    for (i = 0; i < count; i++) { /* bound: as above */
+        sum_q8[i] += sign * value_q8[i];
+    }
+}
+
 /* A sum of five samples. A derivative of Gaussian of two samples is the difference of two of them, REACH apart: its
  * taps are -2, -3, -4, -3, 0, 3, 4, 3, 2. */
 static inline int32_t sum_of(const int32_t grey[5])
@@ -212,39 +222,46 @@ static inline int32_t scaled(drogue_q16 length_px_q16, int32_t by_q30)
     return (int32_t)drogue_shr_round_s64(drogue_product(length_px_q16, by_q30), 30);
 }
 
+/* A ray and the one across, of an ellipse whose axis has this sine and cosine. */
+static inline void aim_at(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase, int32_t k,
+                          int32_t sin_q30, int32_t cos_q30)
+{
+    const int64_t turn_q29 = 52707179; /* 2 pi / 64 */
+    int32_t s_q30;
+    int32_t c_q30;
+    int32_t u; /* offset from the centre along the axes, px Q16, then the normal along them */
+    int32_t v;
+    int64_t at_px_q16[2];
+    int64_t normal_q14[2];
+    uint32_t length;
+    int shift;
+    int32_t inverse;
+    drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shr_round_s64((8 * k + phase) * turn_q29, 3));
+    u = scaled(e->a_px_q16, c_q30);
+    v = scaled(e->b_px_q16, s_q30);
+    drogue_rotate_q30(at_px_q16, u, v, cos_q30, sin_q30);
+    u = scaled(e->b_px_q16, c_q30);
+    v = scaled(e->a_px_q16, s_q30);
+    length = drogue_isqrt_u64(drogue_square_sum(u, v)) | 1u; /* below 2^31 */
+    shift = drogue_clz_u32(length) - 1;
+    inverse = (int32_t)(drogue_reciprocal_u32(length << shift) >> 1);                 /* 2^61 over it */
+    u = (int32_t)drogue_shr_round_s64(drogue_product(u * (1 << shift), inverse), 47); /* no longer than the length */
+    v = (int32_t)drogue_shr_round_s64(drogue_product(v * (1 << shift), inverse), 47);
+    drogue_rotate_q30(normal_q14, u, v, cos_q30, sin_q30);
+    place(&rays[k], e, at_px_q16, normal_q14, 1);
+    place(&rays[k + DROGUE_RAYS / 2], e, at_px_q16, normal_q14, -1);
+}
+
 /* Every so many-th ray from one on to before another, with the one across. */
 static void aim(drogue_ray rays[DROGUE_RAYS], const drogue_ellipse *e, int32_t phase, int32_t from, int32_t to,
                 int32_t every)
 {
-    const int64_t turn_q29 = 52707179; /* 2 pi / 64 */
     int32_t sin_q30;
     int32_t cos_q30;
     int32_t k;
     drogue_sincos_of_q16(&sin_q30, &cos_q30, e->angle_rad_q16);
     for (k = from; k < to; k += every) { /* bound: 32 */
-        int32_t s_q30;
-        int32_t c_q30;
-        int32_t u; /* offset from the centre along the axes, px Q16, then the normal along them */
-        int32_t v;
-        int64_t at_px_q16[2];
-        int64_t normal_q14[2];
-        uint32_t length;
-        int shift;
-        int32_t inverse;
-        drogue_sincos_q30(&s_q30, &c_q30, (int32_t)drogue_shr_round_s64((8 * k + phase) * turn_q29, 3));
-        u = scaled(e->a_px_q16, c_q30);
-        v = scaled(e->b_px_q16, s_q30);
-        drogue_rotate_q30(at_px_q16, u, v, cos_q30, sin_q30);
-        u = scaled(e->b_px_q16, c_q30);
-        v = scaled(e->a_px_q16, s_q30);
-        length = drogue_isqrt_u64(drogue_square_sum(u, v)) | 1u; /* below 2^31 */
-        shift = drogue_clz_u32(length) - 1;
-        inverse = (int32_t)(drogue_reciprocal_u32(length << shift) >> 1); /* 2^61 over it */
-        u = (int32_t)drogue_shr_round_s64(drogue_product(u, inverse), 47 - shift);
-        v = (int32_t)drogue_shr_round_s64(drogue_product(v, inverse), 47 - shift);
-        drogue_rotate_q30(normal_q14, u, v, cos_q30, sin_q30);
-        place(&rays[k], e, at_px_q16, normal_q14, 1);
-        place(&rays[k + DROGUE_RAYS / 2], e, at_px_q16, normal_q14, -1);
+        aim_at(rays, e, phase, k, sin_q30, cos_q30);
     }
 }
 
