@@ -105,7 +105,8 @@ int main(int argc, char **argv)
         second_looks += f.result.second_look != DROGUE_SECOND_NONE;
         printf("%5lu  %-9s %-14s %5lu %7lu %12lu %8lu %10lu %9lu  %s\n", frames, drogue_track_state_name(f.track.state),
                drogue_status_name(f.result.status), c.runs, c.capture, c.block, c.lists,
-               c.all - c.capture - c.block - c.lists, c.all, drogue_second_look_name(f.result.second_look));
+               c.all - c.block - c.lists, // it predicts while the camera writes
+               c.all, drogue_second_look_name(f.result.second_look));
         fflush(stdout);
         if (f.track.state == DROGUE_TRACKING && f.region.width_px > 0 && c.all > most.all) { // not one of a search
             most = c;

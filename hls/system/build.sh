@@ -51,9 +51,9 @@ print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
 firmware() {
     # what the soft core's clocks go into, and where reals stand where they are called; all else is small, so that it fits the RAM at
     # 256 px, and shares the code that saves registers
-    local hot=(src/arithmetic/{fixed,real}.c src/frontend/noise.c src/outline/rays.c
+    local hot=(src/arithmetic/{fixed,real}.c src/frontend/noise.c src/outline/{cluster,constraints,rays,slopes,support}.c
         src/pose/joint.c src/search/cells.c)
-    local reals=(src/arithmetic/cholesky.c src/outline/{constraints,moments}.c src/pose/joint_{model,weights}.c)
+    local reals=(src/arithmetic/{cholesky,eigen}.c src/track/kalman.c src/outline/{ellipse,moments}.c src/pose/joint_model.c)
     local flags=(-march=rv32im -mabi=ilp32 -std=c99 -Os -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
     rm -rf "$1/objects"
     mkdir -p "$1/objects"
@@ -63,7 +63,7 @@ firmware() {
             "${reals[@]/#/$root/}" -c)
     # what hls/system has by the units goes before the library's; what that calls stays strong, or no archive would give it
     local own
-    for own in fixed real near rays fit shade; do
+    for own in fixed real near rays fit shade track; do
         riscv64-unknown-elf-nm -g --defined-only --just-symbols "$1/objects/$own.o" >"$1/objects/$own.symbols"
         riscv64-unknown-elf-objcopy --weaken-symbols="$1/objects/$own.symbols" "$1/objects/$own.o"
     done
@@ -71,7 +71,7 @@ firmware() {
     riscv64-unknown-elf-ar rcs "$1/libdrogue.a" "$1"/objects/*.o
     riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -nostartfiles -Wl,--gc-sections,--no-warn-rwx-segments \
         -T hls/system/system.ld -O2 -fno-tree-loop-distribute-patterns hls/system/start.S "$2" \
-        hls/system/{fixed,real,near,rays,fit,shade,memory}.c hls/driver/{block,bank,block_frontend}.c "$1/libdrogue.a" -o "$1/firmware.elf"
+        hls/system/{fixed,real,near,rays,fit,shade,track,memory,block}.c hls/driver/block_frontend.c "$1/libdrogue.a" -o "$1/firmware.elf"
     riscv64-unknown-elf-objcopy -O verilog --verilog-data-width=4 "$1/firmware.elf" "$1/firmware.hex"
     riscv64-unknown-elf-size "$1/firmware.elf" |
         awk 'NR == 2 { print "system: firmware " $1 " bytes of code and constants, " $2 + $3 " of data" }'

@@ -12,7 +12,7 @@ int main(void)
     drogue_block_use(&bank);
     RESULT = (uint32_t)follow_begin(&f);
     for (;;) {
-        capture(SIDE * SIDE);
+        begin_capture(SIDE * SIDE); /* track.c waits for its end */
         follow_frame(&f, FRAME);
         RESULT = (uint32_t)drogue_block_last();
         send(&f.region, sizeof f.region);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* The square root of a whole number by the unit beside the soft core, in the place of the library's function, and what gcc calls
- * for a quotient of 64 bits. */
+/* The square root and the quotient of whole numbers by the unit beside the soft core, in the place of the library's functions, and
+ * what gcc calls for a quotient of 64 bits. */
 #include "drogue/fixed.h"
 
 #include "unit.h"
@@ -15,7 +15,7 @@ uint32_t drogue_isqrt_u64(uint64_t v)
     return root;
 }
 
-uint64_t __udivdi3(uint64_t a, uint64_t b)
+static inline uint64_t quotient(uint64_t a, uint64_t b)
 {
     uint32_t low;
     uint32_t high;
@@ -25,8 +25,27 @@ uint64_t __udivdi3(uint64_t a, uint64_t b)
     return (uint64_t)high << 32 | low;
 }
 
+uint64_t __udivdi3(uint64_t a, uint64_t b) { return quotient(a, b); }
+
 int64_t __divdi3(int64_t a, int64_t b)
 {
-    const uint64_t q = __udivdi3(drogue_abs_u64(a), drogue_abs_u64(b));
+    const uint64_t q = quotient(drogue_abs_u64(a), drogue_abs_u64(b));
     return (int64_t)((a ^ b) < 0 ? -q : q);
+}
+
+static inline int64_t floor_of(int64_t num, int64_t den)
+{
+    const int64_t sign = num >> 63;
+    return (int64_t)quotient((uint64_t)(num ^ sign), (uint64_t)den) ^ sign;
+}
+
+int64_t drogue_floor_div_s64(int64_t num, int64_t den) { return floor_of(num, den); }
+
+int64_t drogue_div_round_s64(int64_t num, int64_t den) { return floor_of(2 * num + den, 2 * den); }
+
+uint32_t drogue_reciprocal_u32(uint32_t d)
+{
+    const uint32_t seed = 2 * (uint32_t)quotient(UINT32_MAX, (d + (1u << 14)) >> 15) + 1;
+    const uint32_t error = ~(uint32_t)(drogue_product_u32(d, seed) >> 17);
+    return (uint32_t)(drogue_product_u32(seed, error) >> 17);
 }

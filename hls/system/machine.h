@@ -11,20 +11,39 @@
 #define CAPTURE (*(volatile uint32_t *)0x90000000)
 #define RESULT (*(volatile uint32_t *)0x90000004)
 
-/* A frame of so many pixels from the camera. What the camera writes, the data cache does not see: all of its lines are given up. */
-static inline void capture(uint32_t pixels)
+/* A frame of so many pixels from the camera is asked for. What the camera writes, the data cache does not see: all of its lines are
+ * given up. Until the frame is there none is read. */
+static inline void begin_capture(uint32_t pixels)
 {
     CAPTURE = pixels;
-    while (!CAPTURE) {}
     __asm__ volatile(".word 0x500F" : : : "memory");
+}
+
+static inline void end_capture(void)
+{
+    while (!CAPTURE) {}
+    __asm__ volatile("" : : : "memory");
+}
+
+static inline void capture(uint32_t pixels)
+{
+    begin_capture(pixels);
+    end_capture();
 }
 
 static inline void send(const void *words, size_t bytes)
 {
     const uint32_t *word = (const uint32_t *)words;
-    size_t i;
-    for (i = 0; i < bytes / 4; i++) {
-        RESULT = word[i];
+    const uint32_t *const end = word + bytes / 4;
+    for (; end - word >= 4; word += 4) {
+        const uint32_t next[4] = {word[0], word[1], word[2], word[3]};
+        RESULT = next[0];
+        RESULT = next[1];
+        RESULT = next[2];
+        RESULT = next[3];
+    }
+    for (; word < end; word++) {
+        RESULT = *word;
     }
 }
 

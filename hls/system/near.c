@@ -6,14 +6,20 @@
 
 #include "unit.h"
 
-static void tell(const points_asked *a)
+/* The words of points_asked up to the point. */
+static inline void tell(const drogue_ellipse_frame *frame, const drogue_band *band, band_reach reach,
+                        drogue_q16 most_px_q16)
 {
-    const uint32_t *word = (const uint32_t *)a;
+    const int32_t *word = (const int32_t *)frame;
     uint32_t none;
     int i;
-    for (i = 0; i < (POINTS_WORDS + 1) / 2; i++) {
-        UNIT(none, UNIT_TELL, 0, word[2 * i], word[2 * i + 1]);
+    for (i = 0; i + 1 < (int)(sizeof *frame / sizeof *word); i += 2) {
+        UNIT(none, UNIT_TELL, 0, word[i], word[i + 1]);
     }
+    UNIT(none, UNIT_TELL, 0, word[i], band->half_width_px_q16);
+    UNIT(none, UNIT_TELL, 0, band->width2_px2_q24, band->cos2_q10);
+    UNIT(none, UNIT_TELL, 0, reach.least_px_q16, reach.range_px_q16);
+    UNIT(none, UNIT_TELL, 0, most_px_q16, 0);
     (void)none;
 }
 
@@ -53,30 +59,38 @@ static void add_moments(drogue_moments *m)
 {
     int64_t *sum = (int64_t *)(void *)m;
     size_t i;
-    for (i = 0; i < sizeof *m / sizeof *sum; i++) {
+    for (i = 0; i < sizeof *m / sizeof *sum; i += 2) { /* an even number of them */
         uint32_t low;
         uint32_t high;
+        uint32_t next_low;
+        uint32_t next_high;
         UNIT(low, UNIT_MOMENTS, 0, 0, 0);
         UNIT(high, UNIT_MOMENTS, 0, 0, 0);
+        UNIT(next_low, UNIT_MOMENTS, 0, 0, 0);
+        UNIT(next_high, UNIT_MOMENTS, 0, 0, 0);
         sum[i] = (int64_t)((uint64_t)sum[i] + ((uint64_t)high << 32 | low));
+        sum[i + 1] = (int64_t)((uint64_t)sum[i + 1] + ((uint64_t)next_high << 32 | next_low));
     }
 }
 
 uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 threshold, const drogue_edge *edges,
                            uint32_t count)
 {
-    points_asked a = {.frame = *frame, .most_px_q16 = drogue_q16_mul(threshold, frame->b_px_q16)};
+    static const drogue_band no_band = {0, 0, 0};
+    static const band_reach no_reach = {0, 0};
     uint32_t near_count = 0;
-    uint32_t i;
     uint32_t said;
+    uint32_t i;
     if (count == 0) {
         return 0;
     }
-    tell(&a);
+    tell(frame, &no_band, no_reach, drogue_q16_mul(threshold, frame->b_px_q16));
     ask(&edges[0]);
     for (i = 1; i < count; i++) {
+        uint32_t word[2];
+        words_of(word, &edges[i]);
         UNIT(said, UNIT_SAID, 0, 0, 0);
-        ask(&edges[i]);
+        UNIT(word[0], UNIT_PLACE, 0, word[0], word[1]);
         near_count += said >> POINT_NEAR & 1u;
     }
     UNIT(said, UNIT_SAID, 0, 0, 0);
@@ -124,17 +138,24 @@ void drogue_collect_edges(drogue_moments *moments, drogue_support *support, cons
                           const drogue_band *band, const drogue_edge *edges, uint32_t count, uint32_t stride,
                           uint32_t counted)
 {
-    const points_asked a = {.frame = *frame, .band = *band, .reach = reach_of(frame, band)};
     uint32_t none;
     uint32_t i;
     uint32_t changed;
     if (count == 0) {
         return;
     }
-    tell(&a);
+    tell(frame, band, reach_of(frame, band), 0);
     clear();
     UNIT(none, UNIT_COUNT, 0, support->bright_bins, (uint32_t)moments->n | (counted ? COUNT_OUT : 0));
-    for (i = 0; i < count; i += stride) {
+    for (i = 0; i + stride < count; i += 2 * stride) {
+        uint32_t word[2];
+        uint32_t next[2];
+        words_of(word, &edges[i]);
+        words_of(next, &edges[i + stride]);
+        UNIT(none, UNIT_PLACE, 1, word[0], word[1]);
+        UNIT(none, UNIT_PLACE, 1, next[0], next[1]);
+    }
+    if (i < count) {
         uint32_t word[2];
         words_of(word, &edges[i]);
         UNIT(none, UNIT_PLACE, 1, word[0], word[1]);

@@ -116,6 +116,23 @@ FUNCTION void drogue_real_determinant(drogue_real *out, const drogue_real *a, co
 }
 
 #ifndef REAL_WHERE_CALLED
+
+void drogue_real_root(drogue_real *out, const drogue_real *v)
+{
+    const drogue_real words = loaded(v);
+    const uint32_t odd = (uint32_t)words.exponent & 1u;
+    const uint32_t low = (uint32_t)words.mantissa << (30 + odd);
+    uint32_t root;
+    if (words.mantissa <= 0) {
+        out->mantissa = 0;
+        out->exponent = 0;
+        return;
+    }
+    UNIT(root, UNIT_ROOT, 0, low, (uint32_t)words.mantissa >> (2 - odd));
+    out->mantissa = (int32_t)(root + (low - root * root > root));
+    out->exponent = (words.exponent - 30 - (int32_t)odd) >> 1;
+}
+
 int __clzsi2(unsigned v);
 
 /* What gcc calls for leading zeros, where the core has no instruction for them. */

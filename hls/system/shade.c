@@ -25,6 +25,14 @@ static int solve_by_unit(drogue_q16 v[3], drogue_real normal[6], drogue_ray_sums
     return drogue_ray_sums_solve(v, normal, s, size);
 }
 
+/* As drogue_ray_along(), where it is called. */
+static inline drogue_q16 along(const drogue_ray *r, const drogue_q16 v_px_q16[3])
+{
+    const int64_t shift = drogue_product(r->nx_q14, v_px_q16[0]) + drogue_product(r->ny_q14, v_px_q16[1]);
+    return drogue_clamp_2_30(v_px_q16[2] + drogue_shr_round_s64(shift, 14));
+}
+
+#define drogue_ray_along along
 #define drogue_ray_sums_add(s, r, weight, off_q16) add_by_unit(s, r, off_q16) /* they weigh 1 */
 #define drogue_ray_sums_solve solve_by_unit
 #include "../../src/inner/shade.c"
