@@ -104,13 +104,13 @@ static const uint8_t power_y[6] = {0, 0, 1, 0, 1, 2};
 /* Take 'multiple' times monomial k < 3 from monomial i, in the exact sums: a congruence. */
 static void take(s96 s[21], int i, int k, int32_t multiple)
 {
-    s96 *to = &s[DROGUE_PACKED(i, 0)];
-    const s96 *from = &s[DROGUE_PACKED(k, 0)];
+    int to = DROGUE_PACKED(i, 0);
+    int from = DROGUE_PACKED(k, 0);
     int j;
     s96_subtract_multiple(&s[DROGUE_PACKED(i, i)], &s[DROGUE_PACKED(i, k)], multiple);
     for (j = 0; j < 6; j++) {
         if (j != i) {
-            s96_subtract_multiple(to, from, multiple);
+            s96_subtract_multiple(&s[to], &s[from], multiple);
         }
         to += j < i ? 1 : j + 1; /* to (i, j + 1), packed */
         from += j < k ? 1 : j + 1;

@@ -40,11 +40,11 @@ static void normal_equations(drogue_real normal[CHI2 + 1], const drogue_joint_ro
         int64_t sum[FIT];
         int32_t exponent;
         for (i = 0; i < FIT; i++) {
-            const int32_t *weight = &w->weight[DROGUE_PACKED(i, 0)];
+            int at = DROGUE_PACKED(i, 0);
             sum[i] = 0;
             for (q = 0; q < FIT; q++) { /* the same bounds */
-                sum[i] += drogue_product(*weight, column->outline[q]);
-                weight += q < i ? 1 : q + 1; /* to (i, q + 1), packed */
+                sum[i] += drogue_product(w->weight[at], column->outline[q]);
+                at += q < i ? 1 : q + 1; /* to (i, q + 1), packed */
             }
         }
         exponent = drogue_joint_squeeze(weighted, sum, FIT) + w->weight_exponent + column->exponent;
