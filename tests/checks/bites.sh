@@ -36,6 +36,12 @@ refuses() {
     rm "$tree/$3"
 }
 
+cat >"$tree/include/drogue/drogue.h" <<'E'
+#ifndef DROGUE_H
+#define DROGUE_H
+#include "drogue/good.h"
+#endif
+E
 cat >"$tree/include/drogue/good.h" <<'E'
 #ifndef GOOD_H
 #define GOOD_H
@@ -162,8 +168,15 @@ static inline short drogue_bad(int a) { return a; }
 #endif
 E
 
+refuses headers 'drogue/drogue.h does not bring drogue/bad.h' include/drogue/bad.h <<'E'
+#ifndef BAD_H
+#define BAD_H
+void drogue_bad(void);
+#endif
+E
+
 mkdir "$tree/src/lower" "$tree/src/upper"
-printf '%s\n' 'good drogue/good.h good.c' 'lower lower/*' 'upper upper/*' >"$tree/rooms.txt"
+printf '%s\n' 'good drogue/good.h good.c' 'lower lower/*' 'upper upper/*' 'all drogue/drogue.h' >"$tree/rooms.txt"
 echo '#include "drogue/good.h"' >"$tree/src/upper/own.h"
 echo '#include "own.h"' >"$tree/src/upper/fine.c"
 run_check rooms || failed=1
