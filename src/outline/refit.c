@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define LOOKS 512 /* a candidate is scored by so many edge points at most, evenly taken */
+#define LOOKS 512 /* edge points that score a candidate */
 
 void drogue_refit_begin(drogue_refit_context *c, const drogue_workspace *workspace, const drogue_edge_list *list,
                         const drogue_mask *mask, const drogue_config *config)
@@ -15,6 +15,7 @@ void drogue_refit_begin(drogue_refit_context *c, const drogue_workspace *workspa
     c->list = list;
     c->mask = mask;
     c->config = config;
+    c->looks = LOOKS;
     drogue_collection_of_region(&c->room->sum);
 }
 
@@ -39,7 +40,7 @@ static drogue_band band_about(const drogue_ellipse *e, const drogue_refit_contex
                           config->refit_cos_q16);
 }
 
-uint32_t drogue_refit_stride(const drogue_refit_context *c) { return c->list->edge_count / LOOKS + 1; }
+uint32_t drogue_refit_stride(const drogue_refit_context *c) { return c->list->edge_count / c->looks + 1; }
 
 /* Collect the edge points that belong to an ellipse, every one or every so many of them: counts by bin, residuals, and
  * moments, where all count from those of the arcs. Bins have the given polarities until they are judged by the

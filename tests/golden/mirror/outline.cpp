@@ -81,7 +81,7 @@ public:
     drogue_status find(Outline &out);
     bool enlarge(Outline &out) const;
     bool settle(Outline &out, const Ellipse &ring, Real band);
-    Real covered(const Ellipse &e, bool follow) const;
+    Real covered(const Ellipse &e, bool follow, size_t looks) const;
 
 private:
     using Arcs = std::array<uint32_t, 4>;
@@ -408,7 +408,7 @@ bool Finder::settle(Outline &out, const Ellipse &ring, Real band)
     return true;
 }
 
-Real Finder::covered(const Ellipse &e, bool follow) const
+Real Finder::covered(const Ellipse &e, bool follow, size_t looks) const
 {
     if (!plausible(e)) {
         return 0;
@@ -417,7 +417,7 @@ Real Finder::covered(const Ellipse &e, bool follow) const
     const decisions_round library = {{q16(e.xc), q16(e.yc), q16(e.a), q16(e.b), q16(e.angle)},
                                      drogue_band_of(q16(band.width), config_.refit_cos_q16)};
     const std::vector<BandPoint> points = collect(e, band, front_, follow ? &library : nullptr);
-    const size_t stride = front_.edges.size() / 512 + 1;
+    const size_t stride = front_.edges.size() / looks + 1;
     Support s;
     for (size_t i = 0; i < points.size(); i += stride) {
         if (points[i].held) {
@@ -540,9 +540,10 @@ bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const
     return true;
 }
 
-Real covered(const Ellipse &e, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config, bool follow)
+Real covered(const Ellipse &e, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config, bool follow,
+             size_t looks)
 {
-    return Finder(front, mask, config, {nullptr}).covered(e, follow);
+    return Finder(front, mask, config, {nullptr}).covered(e, follow, looks);
 }
 
 bool settle(Outline &out, const drogue_ellipse &ring, drogue_q16 band_px_q16, const FrontEnd &front,

@@ -72,7 +72,7 @@ void number(FrontEnd &front);
 /* Share of an ellipse that edge points cover, as drogue_outline_covered(); 'follow': of a point nearer to a limit than the
  * library resolves that says whether it counts. */
 Real covered(const reference::Ellipse &e, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
-             bool follow);
+             bool follow, size_t looks);
 
 /* The outline about an ellipse, as drogue_outline_settle(); false: none. */
 bool settle(Outline &out, const drogue_ellipse &ring, drogue_q16 band_px_q16, const FrontEnd &front,

@@ -74,12 +74,12 @@ Ellipse Seeker::head_on(cv::Point origin)
     return all.empty() ? Ellipse{0, 0, 0, 0, 0, false} : all[0];
 }
 
-Real Seeker::cover(const Ellipse &e, const FrontEnd &front, const drogue_mask &mask)
+Real Seeker::cover(const Ellipse &e, const FrontEnd &front, const drogue_mask &mask, uint32_t looks)
 {
-    const Real own = covered(e, front, mask, task_.config, follow_);
+    const Real own = covered(e, front, mask, task_.config, follow_, looks);
     if (follow_) {
         const drogue_ellipse rim = {q16(e.xc), q16(e.yc), q16(e.a), q16(e.b), q16(e.angle)};
-        const Real as = real(drogue_outline_covered(&rim, &front.workspace, &front.list, &mask, &task_.config));
+        const Real as = real(drogue_outline_covered(&rim, &front.workspace, &front.list, &mask, &task_.config, looks));
         contradicted_ = contradicted_ || as != own;
     }
     return own;
@@ -99,7 +99,7 @@ Ellipse Seeker::best(Real &most, const FrontEnd &front, const drogue_mask &mask,
                     continue;
                 }
                 for (const Ellipse &e : rims(seen, yaw, pitch, origin)) {
-                    const Real share = size * cover(e, front, mask) / 16;
+                    const Real share = size * cover(e, front, mask, sizes > 0 ? 128 : 512) / 16;
                     if (share > most) {
                         most = share;
                         out = e;

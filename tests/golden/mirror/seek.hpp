@@ -46,7 +46,7 @@ private:
     };
 
     std::vector<reference::Ellipse> rims(const Seen &seen, int yaw, int pitch, cv::Point origin);
-    Real cover(const reference::Ellipse &e, const FrontEnd &front, const drogue_mask &mask);
+    Real cover(const reference::Ellipse &e, const FrontEnd &front, const drogue_mask &mask, uint32_t looks);
 
     const Task &task_;
     bool follow_, contradicted_ = false;
