@@ -15,8 +15,7 @@
 #define SIZES 3  /* so many sizes to either side of what a disc seems to be of, */
 #define PARTS 16 /* this part of it apart */
 
-#define RING_LOOKS 512  /* edge points that an outline about a disc is scored by; */
-#define WHOLE_LOOKS 128 /* or by so many, where there are as many more outlines */
+#define WHOLE_LOOKS (DROGUE_OUTLINE_LOOKS / 4) /* that score one, where there are as many more */
 
 #define OUTER_Q16 DROGUE_Q16(3, 4)  /* least cover of an outer edge of the rim, */
 #define OUTER_BAND DROGUE_Q16(1, 1) /* px: and half the width of the band about it that points along rays lie in */
@@ -295,7 +294,7 @@ static void best_ring(drogue_ellipse *best, drogue_q16 *most_q16, const drogue_f
             for (i = 0; i < rims.count; i++) {
                 const drogue_q16 cover =
                     weight * drogue_outline_covered(&rims.disc[i], f->workspace, &f->list, &f->mask, f->setup->config,
-                                                    f->whole ? WHOLE_LOOKS : RING_LOOKS);
+                                                    f->whole ? WHOLE_LOOKS : DROGUE_OUTLINE_LOOKS);
                 if (cover > *most_q16) {
                     *most_q16 = cover;
                     *best = rims.disc[i];

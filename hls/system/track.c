@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* The library's src/track/track.c, which predicts while the camera still writes the frame, and waits for it before it looks. */
 #pragma GCC optimize("Os")
-#include "drogue/drogue.h"
 #include "drogue/search.h"
 
 #include "machine.h"

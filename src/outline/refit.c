@@ -4,8 +4,6 @@
 
 #include <string.h>
 
-#define LOOKS 512 /* edge points that score a candidate */
-
 void drogue_refit_begin(drogue_refit_context *c, const drogue_workspace *workspace, const drogue_edge_list *list,
                         const drogue_mask *mask, const drogue_config *config)
 {
@@ -15,7 +13,7 @@ void drogue_refit_begin(drogue_refit_context *c, const drogue_workspace *workspa
     c->list = list;
     c->mask = mask;
     c->config = config;
-    c->looks = LOOKS;
+    c->looks = DROGUE_OUTLINE_LOOKS;
     drogue_collection_of_region(&c->room->sum);
 }
 
