@@ -34,20 +34,11 @@ static void forget(drogue_result *out)
 #define SHADE_Q16 DROGUE_Q16(20, 100)  /* by more than this it may be shade about the disc */
 #define WHOLE_Q16 DROGUE_Q16(7, 8)     /* least cover of an outline that stands whatever a disc says, */
 #define SHOWS_Q16 DROGUE_Q16(1, 4)     /* unless so much shows of one that the disc asks for */
-#define SOME_Q16 DROGUE_Q16(1, 5)      /* where less shows of an outline about it there is none about another size */
+#define ABOVE_Q16 DROGUE_Q16(5, 32)    /* edges are everywhere where one about it shows by less more than others */
 #define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
 #define ALONE_Q16 DROGUE_Q16(7, 10)    /* least cover of an outline whose disc is not seen */
 #define STILL_Q16 (11 * DROGUE_CONTRADICTION_Q16 / 10) /* hardly more than a contradiction: of its size */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256)                 /* a later try is better by more than this */
-
-/* What the best try so far gave. */
-typedef struct best_try {
-    drogue_q16 least_q16;  /* its doubt; DROGUE_Q16_MAX: it has no outline */
-    drogue_q16 larger_q16; /* as the frame's */
-    int smeared;           /* does motion blur its outline, or what is taken for that? */
-    drogue_held held;      /* the edges that it is of */
-    drogue_result *result; /* the workspace's, which leaves the stack free */
-} best_try;
 
 /* Is an edge of the frame's outline seen twice, by motion or by what looks like it? */
 static int seems_smeared(const drogue_frame *f)
@@ -55,19 +46,19 @@ static int seems_smeared(const drogue_frame *f)
     return drogue_support_smear(&f->outline.support) > DROGUE_SMEARED_Q16;
 }
 
-static void keep(best_try *best, const drogue_frame *f, drogue_status status)
+static void keep(drogue_best_try *best, const drogue_frame *f, drogue_status status)
 {
     best->least_q16 = f->doubt_q16;
     best->larger_q16 = f->larger_q16;
     best->smeared = seems_smeared(f);
     best->held = f->held;
-    *best->result = *f->out;
-    best->result->status = status;
-    best->result->second_look = f->second_look;
+    best->result = *f->out;
+    best->result.status = status;
+    best->result.second_look = f->second_look;
 }
 
 /* A try has ended. */
-static void end_try(best_try *best, drogue_frame *f, drogue_status status, int is_best)
+static void end_try(drogue_best_try *best, drogue_frame *f, drogue_status status, int is_best)
 {
     drogue_note_room(&f->room, status, f->second_look);
     if (is_best) {
@@ -76,10 +67,10 @@ static void end_try(best_try *best, drogue_frame *f, drogue_status status, int i
 }
 
 /* It is the best one where its doubt is clearly less, but never without a pose where that has one. */
-static void consider(best_try *best, drogue_frame *f, drogue_status status)
+static void consider(drogue_best_try *best, drogue_frame *f, drogue_status status)
 {
     end_try(best, f, status,
-            f->doubt_q16 < best->least_q16 - CLEARLY_Q16 && (status == DROGUE_OK || best->result->status != DROGUE_OK));
+            f->doubt_q16 < best->least_q16 - CLEARLY_Q16 && (status == DROGUE_OK || best->result.status != DROGUE_OK));
 }
 
 /* Before anything is tried: nothing is known of the inner disc. */
@@ -147,9 +138,9 @@ static int32_t own_threshold(const drogue_frame *f, int full)
 }
 
 /* The outline by edges above the region's own noise, further above it where they fill a table; and a larger one. */
-static void try_noise(best_try *best, drogue_frame *f, const drogue_region *region)
+static void try_noise(drogue_best_try *best, drogue_frame *f, const drogue_region *region)
 {
-    const int full = drogue_status_full(best->result->status);
+    const int full = drogue_status_full(best->result.status);
     int32_t high = own_threshold(f, full);
     int k;
     for (k = 0; k <= RAISES && is_other(high, f, full); k++) { /* bound: 3 */
@@ -166,7 +157,7 @@ static void try_noise(best_try *best, drogue_frame *f, const drogue_region *regi
 }
 
 /* Is the disc to be looked for without an outline? Where the ring has no edge, too: it may not suit the drogue. */
-static int asks_disc(const best_try *best, const drogue_frame *f)
+static int asks_disc(const drogue_best_try *best, const drogue_frame *f)
 {
     return best->least_q16 > DISC_Q16 && f->setup->model->inner_radius_m_q16 > 0;
 }
@@ -180,14 +171,14 @@ static int is_another_size(drogue_q16 a_px_q16, drogue_q16 of_px_q16)
 
 /* Most doubt of an outline about the disc: less than where they contradict each other; or, where the best outline has
  * no disc at all, than makes the disc be looked for. */
-static drogue_q16 most_doubt(const best_try *best)
+static drogue_q16 most_doubt(const drogue_best_try *best)
 {
-    return best->result->status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE ? DISC_Q16 : DROGUE_CONTRADICTED_Q16;
+    return best->result.status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE ? DISC_Q16 : DROGUE_CONTRADICTED_Q16;
 }
 
 /* The disc itself, and an outline about it; by all edges of the region it may be of another size. That stands, whatever
  * the best one's doubt, where it has little itself. */
-static void try_disc(best_try *best, drogue_frame *f, const drogue_region *region, int32_t whole)
+static void try_disc(drogue_best_try *best, drogue_frame *f, const drogue_region *region, int32_t whole)
 {
     drogue_status status;
     begin_try(f);
@@ -200,9 +191,9 @@ static void try_disc(best_try *best, drogue_frame *f, const drogue_region *regio
 }
 
 /* Is the inner disc too large for the best outline, by no more than one about it explains? */
-static int asks_beyond(const best_try *best)
+static int asks_beyond(const drogue_best_try *best)
 {
-    return best->result->status == DROGUE_OK && best->least_q16 > SURE_Q16 && best->larger_q16 > LEAST_Q16 &&
+    return best->result.status == DROGUE_OK && best->least_q16 > SURE_Q16 && best->larger_q16 > LEAST_Q16 &&
            best->larger_q16 <= BEYOND_Q16;
 }
 
@@ -218,9 +209,9 @@ static drogue_status judge_rays(drogue_frame *f, const drogue_result *was, drogu
 }
 
 /* The outline beyond the best one that the inner disc is of the size for. */
-static void try_beyond(best_try *best, drogue_frame *f)
+static void try_beyond(drogue_best_try *best, drogue_frame *f)
 {
-    const drogue_result *was = best->result;
+    const drogue_result *was = &best->result;
     begin_try(f);
     f->second_look = was->second_look;
     consider(best, f, judge_rays(f, was, drogue_frame_beyond(f, &best->held.region, &was->ellipse, best->larger_q16)));
@@ -228,18 +219,18 @@ static void try_beyond(best_try *best, drogue_frame *f)
 
 /* Does another edge show outside the best outline, which is not one beyond another already, nor one that does not stand
  * alone? */
-static int asks_outer(const best_try *best)
+static int asks_outer(const drogue_best_try *best)
 {
-    const drogue_result *was = best->result;
+    const drogue_result *was = &best->result;
     return was->status == DROGUE_OK && was->tried != DROGUE_TRIED_RAYS && was->outside > 0 &&
            (best->least_q16 != DROGUE_Q16_ONE || was->cover_q16 >= ALONE_Q16);
 }
 
 /* The rim's outer edge where the best outline is an inner one. It stands unless the disc was seen and no longer is, or
  * was exactly of its size and is so no longer, or motion shows one edge as two. */
-static void try_outer(best_try *best, drogue_frame *f)
+static void try_outer(drogue_best_try *best, drogue_frame *f)
 {
-    const drogue_result *was = best->result;
+    const drogue_result *was = &best->result;
     drogue_status status;
     begin_try(f);
     f->second_look = was->second_look;
@@ -258,10 +249,10 @@ static int same_edges(const drogue_held *a, const drogue_held *b)
 
 /* What was best stands, and its edges are in the workspace again. Where there is no outline at all they are the
  * region's by the thresholds tried last. */
-static void return_to(best_try *best, drogue_frame *f, const drogue_region *region)
+static void return_to(drogue_best_try *best, drogue_frame *f, const drogue_region *region)
 {
     drogue_held *wanted = &best->held;
-    if (best->result->ellipse.a_px_q16 <= 0) { /* an outline without a pose has its arcs in the list, too */
+    if (best->result.ellipse.a_px_q16 <= 0) { /* an outline without a pose has its arcs in the list, too */
         *wanted = f->held;
         wanted->region = *region;
     }
@@ -270,8 +261,8 @@ static void return_to(best_try *best, drogue_frame *f, const drogue_region *regi
         f->whole = wanted->whole;
         (void)drogue_frame_edges(f, &wanted->region);
     }
-    *f->out = *best->result;
-    f->second_look = best->result->second_look;
+    *f->out = best->result;
+    f->second_look = best->result.second_look;
 }
 
 /* Is all of an ellipse in the image? What is cut off shows nowhere. */
@@ -284,60 +275,59 @@ static int lies_within(const drogue_ellipse *e, const drogue_image *image)
 
 /* Is it nearly whole, without another edge outside, nor one that a disc asks for which is of quite another size? What
  * is dark is shade then, which hides the disc, and not the disc of a larger rim. */
-static int is_outermost(const best_try *best, const drogue_frame *f)
+static int is_outermost(const drogue_best_try *best, const drogue_frame *f)
 {
-    return best->result->cover_q16 >= WHOLE_Q16 && best->result->outside == 0 &&
+    return best->result.cover_q16 >= WHOLE_Q16 && best->result.outside == 0 &&
            (best->larger_q16 == 0 || best->larger_q16 > SHADE_Q16) &&
-           (f->ring_px_q16 <= best->result->ellipse.a_px_q16 || f->ring_cover_q16 < SHOWS_Q16);
+           (f->ring_px_q16 <= best->result.ellipse.a_px_q16 || f->ring_cover_q16 < SHOWS_Q16);
 }
 
 /* Is the best outline without a disc, and another edge? It is where too little of it shows to stand alone. Or a disc
  * says so: one that is seen, but too large for it, which then is an edge within the drogue, the canopy's or its wall's;
  * or one that was sought, whose rim is of quite another size. */
-static int is_another_edge(const best_try *best, const drogue_frame *f)
+static int is_another_edge(const drogue_best_try *best, const drogue_frame *f)
 {
-    if (best->result->status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE || is_outermost(best, f)) {
+    if (best->result.status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE || is_outermost(best, f)) {
         return 0;
     }
     return best->larger_q16 > 0 ||
-           (best->result->cover_q16 < ALONE_Q16 && lies_within(&best->result->ellipse, f->image)) ||
-           (f->ring_px_q16 > 0 && is_another_size(best->result->ellipse.a_px_q16, f->ring_px_q16));
+           (best->result.cover_q16 < ALONE_Q16 && lies_within(&best->result.ellipse, f->image)) ||
+           (f->ring_px_q16 > 0 && is_another_size(best->result.ellipse.a_px_q16, f->ring_px_q16));
 }
 
 /* Measure; while the inner disc is not seen or not of its size, try what else the outline may be. What has the disc
  * nearest to its size stands. */
 static drogue_status measure(drogue_frame *f, const drogue_region *region)
 {
-    best_try best;
+    drogue_best_try *const best = f->workspace->best;
     drogue_status status = try_edges(f, region, f->setup->config->canny_high, DROGUE_TRIED_FOUND);
     if (!may_try_more(status)) {
         return status;
     }
-    best.result = f->workspace->kept;
-    keep(&best, f, status);
+    keep(best, f, status);
     drogue_note_room(&f->room, status, f->second_look);
-    if (status == DROGUE_OK && best.least_q16 > SURE_Q16) {
-        consider(&best, f, try_larger(f, DROGUE_TRIED_LARGER));
+    if (status == DROGUE_OK && best->least_q16 > SURE_Q16) {
+        consider(best, f, try_larger(f, DROGUE_TRIED_LARGER));
     }
-    if (best.least_q16 > SURE_Q16) {
-        try_noise(&best, f, region);
+    if (best->least_q16 > SURE_Q16) {
+        try_noise(best, f, region);
     }
-    if (asks_disc(&best, f)) {
-        try_disc(&best, f, region, 0);
+    if (asks_disc(best, f)) {
+        try_disc(best, f, region, 0);
     }
-    if (best.least_q16 >= DROGUE_Q16_ONE && f->ring_cover_q16 >= SOME_Q16) { /* a disc is there, and none is seen */
-        try_disc(&best, f, region, 1);
+    if (best->least_q16 >= DROGUE_Q16_ONE && f->ring_above_q16 >= ABOVE_Q16) { /* a disc is there, and none is seen */
+        try_disc(best, f, region, 1);
     }
-    if (asks_beyond(&best)) {
-        try_beyond(&best, f);
+    if (asks_beyond(best)) {
+        try_beyond(best, f);
     }
-    if (asks_outer(&best)) {
-        return_to(&best, f, region);
-        try_outer(&best, f);
+    if (asks_outer(best)) {
+        return_to(best, f, region);
+        try_outer(best, f);
     }
-    return_to(&best, f, region);
-    status = best.result->status;
-    if (is_another_edge(&best, f)) {
+    return_to(best, f, region);
+    status = best->result.status;
+    if (is_another_edge(best, f)) {
         const int32_t tried = f->out->tried;
         forget(f->out);
         f->out->tried = tried;

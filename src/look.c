@@ -276,29 +276,67 @@ drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, c
     return DROGUE_OK;
 }
 
-/* Of the outlines that a disc of a size allows the one that edge points cover best, if better than what there is. */
-static void best_ring(drogue_ellipse *best, drogue_q16 *most_q16, const drogue_frame *f,
-                      const drogue_inner_sight *sight, int32_t weight)
+/* Of the outlines that a disc allows the one that edge points cover best, and what they cover of all. */
+typedef struct best_ring {
+    drogue_ellipse ring;
+    drogue_q16 most_q16; /* cover times the disc's size */
+    int32_t size;        /* of the disc, in parts of what it seems to be */
+    int32_t yaw;         /* by which the drogue is turned, steps */
+    int32_t pitch;
+    int32_t sum_q16; /* of the covers of as many outlines, below 2^10 */
+    int32_t count;
+} best_ring;
+
+/* Score the outlines about a disc of a size, of a drogue turned by so much and of one turned the opposite way. */
+static void score(best_ring *best, const drogue_frame *f, int32_t size, int32_t yaw, int32_t pitch)
+{
+    drogue_inner_sight sight = f->sought;
+    drogue_inner_expected rims;
+    uint32_t i;
+    if (yaw * yaw + pitch * pitch > DROGUE_INNER_TURNS * DROGUE_INNER_TURNS) {
+        return;
+    }
+    sight.radius_q16 = size * sight.radius_q16 / PARTS; /* below 2^21 */
+    drogue_inner_rims(&rims, &sight, yaw, pitch, f->setup, f->out->region.x_px, f->out->region.y_px);
+    for (i = 0; i < rims.count; i++) {
+        const drogue_q16 cover_q16 =
+            drogue_outline_covered(&rims.disc[i], f->workspace, &f->list, &f->mask, f->setup->config,
+                                   f->whole ? WHOLE_LOOKS : DROGUE_OUTLINE_LOOKS);
+        best->sum_q16 += cover_q16;
+        best->count++;
+        if (size * cover_q16 > best->most_q16) {
+            best->ring = rims.disc[i];
+            best->most_q16 = size * cover_q16;
+            best->size = size;
+            best->yaw = i == 0 ? yaw : -yaw;
+            best->pitch = i == 0 ? pitch : -pitch;
+        }
+    }
+}
+
+/* The best of every second turn, of one size those between the ones of the next, and of those beside it. */
+static void seek_ring(best_ring *best, const drogue_frame *f)
 {
     const int32_t turns = DROGUE_INNER_TURNS;
+    const int32_t sizes = f->whole ? SIZES : 0;
+    best_ring middle;
+    int32_t size;
     int32_t yaw;
     int32_t pitch;
-    uint32_t i;
-    for (yaw = 0; yaw <= turns; yaw++) { /* bound: 7; of 13. What is turned the opposite way comes with it */
-        for (pitch = yaw == 0 ? 0 : -turns; pitch <= turns; pitch++) {
-            drogue_inner_expected rims;
-            if (yaw * yaw + pitch * pitch > turns * turns) {
-                continue;
-            }
-            drogue_inner_rims(&rims, sight, yaw, pitch, f->setup, f->out->region.x_px, f->out->region.y_px);
-            for (i = 0; i < rims.count; i++) {
-                const drogue_q16 cover =
-                    weight * drogue_outline_covered(&rims.disc[i], f->workspace, &f->list, &f->mask, f->setup->config,
-                                                    f->whole ? WHOLE_LOOKS : DROGUE_OUTLINE_LOOKS);
-                if (cover > *most_q16) {
-                    *most_q16 = cover;
-                    *best = rims.disc[i];
+    for (size = PARTS - sizes; size <= PARTS + sizes; size++) { /* bound: 7 */
+        for (yaw = 0; yaw <= turns; yaw++) {                    /* bound: 7; the opposite ones come with them */
+            for (pitch = yaw == 0 ? 0 : -turns; pitch <= turns; pitch++) {
+                if ((yaw + pitch + size) % 2 == 0) {
+                    score(best, f, size, yaw, pitch);
                 }
+            }
+        }
+    }
+    middle = *best;
+    for (yaw = -1; yaw <= 1 && middle.size > 0; yaw++) {
+        for (pitch = -1; pitch <= 1; pitch++) {
+            if (yaw != 0 || pitch != 0) {
+                score(best, f, middle.size, middle.yaw + yaw, middle.pitch + pitch);
             }
         }
     }
@@ -312,31 +350,32 @@ static int of_size(const drogue_ellipse *e, const drogue_mask *mask)
     return 2 * (20 + 1) * (int64_t)e->a_px_q16 <= longest && 3 * (20 - 1) * (int64_t)e->b_px_q16 >= longest;
 }
 
-/* Look for the inner disc in a region, then for its edges in one that suits what outlines the disc allows, and choose
- * of those the one that edge points cover best: 'ring', in coordinates of that region, which becomes the result's, and
- * how much they cover. DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked for. */
-static drogue_status find_ring(drogue_ellipse *ring, drogue_q16 *cover_q16, drogue_frame *f,
-                               const drogue_region *region)
+/* Look for the inner disc in a region. */
+static int seek_disc(drogue_frame *f)
 {
-    const int32_t sizes = f->whole ? SIZES : 0;
+    drogue_ellipse disc;
+    if (!drogue_inner_seek(&disc, f->workspace->rays, &f->view, &f->mask, f->setup)) {
+        return 0;
+    }
+    drogue_frame_move(&disc, f->out->region.x_px, f->out->region.y_px);
+    return drogue_inner_sight_of(&f->sought, &disc, f->setup->camera);
+}
+
+/* Look for the inner disc in a region unless that was done, then for edges in one that suits what outlines the disc
+ * allows, which becomes the result's; choose of those outlines. DROGUE_E_NO_INNER_PART: there is no disc, and no edges
+ * were looked for. */
+static drogue_status find_ring(best_ring *best, drogue_frame *f, const drogue_region *region)
+{
     drogue_result *out = f->out;
     drogue_region about = *region;
-    drogue_ellipse disc;
-    drogue_inner_sight sight;
     drogue_inner_expected rims;
-    drogue_q16 seen_q16;
-    int32_t size;
     drogue_status status = place_view(f, region);
     f->second_look = DROGUE_SECOND_NONE;
-    memset(ring, 0, sizeof *ring);
-    if (status != DROGUE_OK || !drogue_inner_seek(&disc, f->workspace->rays, &f->view, &f->mask, f->setup)) {
+    memset(best, 0, sizeof *best);
+    if (status != DROGUE_OK || (!f->whole && !seek_disc(f))) {
         return DROGUE_E_NO_INNER_PART;
     }
-    drogue_frame_move(&disc, out->region.x_px, out->region.y_px);
-    if (!drogue_inner_sight_of(&sight, &disc, f->setup->camera)) {
-        return DROGUE_E_NO_INNER_PART;
-    }
-    drogue_inner_rims(&rims, &sight, 0, 0, f->setup, out->region.x_px, out->region.y_px);
+    drogue_inner_rims(&rims, &f->sought, 0, 0, f->setup, out->region.x_px, out->region.y_px);
     if (rims.count > 0 && !of_size(&rims.disc[0], &f->mask)) {
         about = region_about(&rims.disc[0], &out->region);
     }
@@ -345,28 +384,26 @@ static drogue_status find_ring(drogue_ellipse *ring, drogue_q16 *cover_q16, drog
         return DROGUE_E_NO_ELLIPSE;
     }
     status = drogue_frame_edges(f, &about);
-    seen_q16 = sight.radius_q16;
-    for (size = PARTS - sizes; size <= PARTS + sizes && status == DROGUE_OK; size++) { /* bound: 7 */
-        sight.radius_q16 = size * seen_q16 / PARTS;                                    /* below 2^21 */
-        best_ring(ring, cover_q16, f, &sight, size);
+    if (status == DROGUE_OK) {
+        seek_ring(best, f);
     }
     return status;
 }
 
 drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *region)
 {
-    drogue_ellipse ring;
-    drogue_q16 cover_q16 = 0;
-    const drogue_status status = find_ring(&ring, &cover_q16, f, region);
+    best_ring best;
+    const drogue_status status = find_ring(&best, f, region);
     if (!f->whole) {
-        f->ring_px_q16 = ring.a_px_q16;
-        f->ring_cover_q16 = cover_q16 / PARTS;
+        f->ring_px_q16 = best.ring.a_px_q16;
+        f->ring_cover_q16 = best.most_q16 / PARTS;
+        f->ring_above_q16 = best.count > 0 ? f->ring_cover_q16 - best.sum_q16 / best.count : 0;
     }
     if (status != DROGUE_OK) {
         return status;
     }
-    return drogue_outline_settle(&f->outline, &ring, 0, f->workspace, &f->list, &f->mask, f->setup->config) &&
-                   about_the_same(&f->outline.ellipse, &ring, 0, 0, THERE, AS_ALLOWED)
+    return drogue_outline_settle(&f->outline, &best.ring, 0, f->workspace, &f->list, &f->mask, f->setup->config) &&
+                   about_the_same(&f->outline.ellipse, &best.ring, 0, 0, THERE, AS_ALLOWED)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;
 }

@@ -3,6 +3,7 @@
 #ifndef DROGUE_LOOK_H
 #define DROGUE_LOOK_H
 
+#include "drogue/inner.h"
 #include "drogue/measure.h"
 #include "drogue/outline.h"
 
@@ -14,6 +15,17 @@ typedef struct drogue_held {
     int32_t canny_high;   /* by which upper threshold, or DROGUE_BY_RAYS */
     int32_t whole;        /* in all of it, not in its ring alone? */
 } drogue_held;
+
+/* What the best try so far gave. It lies in the workspace, which leaves the stack free. */
+typedef struct drogue_best_try {
+    drogue_q16 least_q16;  /* its doubt; DROGUE_Q16_MAX: it has no outline */
+    drogue_q16 larger_q16; /* as the frame's */
+    int32_t smeared;       /* does motion blur its outline, or what is taken for that? */
+    drogue_held held;      /* the edges that it is of */
+    drogue_result result;
+} drogue_best_try;
+
+typedef char drogue_assume_best_try_fits[sizeof(drogue_best_try) + 4 <= DROGUE_BEST_BYTES ? 1 : -1];
 
 typedef struct drogue_frame {
     drogue_result *out;
@@ -30,8 +42,10 @@ typedef struct drogue_frame {
     int32_t canny_high;      /* to look by; the lower threshold is in proportion, as the configured ones are */
     int32_t whole;           /* to look in all of a region? */
     drogue_q16 larger_q16;   /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
-    drogue_q16 ring_px_q16;  /* semi-axis of the outline that a disc allows which was sought; 0: there is none */
-    drogue_q16 ring_cover_q16; /* and how much of it edge points cover */
+    drogue_inner_sight sought; /* the inner disc, where it was found */
+    drogue_q16 ring_px_q16;    /* semi-axis of the outline that a disc allows which was sought; 0: there is none */
+    drogue_q16 ring_cover_q16; /* and how much of it edge points cover, */
+    drogue_q16 ring_above_q16; /* above what they cover on average of those that the disc allows */
     drogue_q16 doubt_q16;      /* in the inner disc's size, as in drogue_inner_evidence, a little more where disc and
                                outline contradict each other or it says that the outline is too far; 1: not seen, or
                                too large for the outline; more: no outline */
@@ -62,8 +76,9 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
 drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was);
 
 /* The outline about the inner disc, which is sought: of those that it allows the one that edge points cover best, whose
- * size and cover the frame has then, settled. Where the whole region is looked at the disc may be of another size than
- * it seems, by a collar or shade about it, and the longest cover is best; the frame's size and cover stay.
+ * size and cover the frame has then, settled. Where the whole region is looked at the disc is the one that was sought
+ * before in that region, and may be of another size than it seems, by a collar or shade about it; the longest cover is
+ * best, and the frame's size and cover stay.
  * DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked for. */
 drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *region);
 

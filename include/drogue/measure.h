@@ -69,8 +69,6 @@ typedef struct drogue_result {
     int64_t axis_std_rad_q32;      /* root mean square angle between measured and true axis, Q32 */
 } drogue_result;
 
-typedef char drogue_assume_result_fits[sizeof(drogue_result) + 4 <= DROGUE_KEPT_BYTES ? 1 : -1];
-
 /* No result yet: zero, without arcs, nothing decided. */
 void drogue_result_clear(drogue_result *out);
 

@@ -49,12 +49,12 @@ static inline void drogue_capacity_for_any(drogue_capacity *out, int32_t width_p
     ((size_t)(width_px) * (sizeof(drogue_merge) + 16u) + \
      DROGUE_HALF(width_px) * (5u * 2u + 3u * 4u + 4u * 4u + 32u + 4u) + 5u * 4u + 7u * 8u)
 #define DROGUE_SCRATCH_BYTES ((size_t)4608) /* that the outline, the candidates and the rays need at most */
-#define DROGUE_KEPT_BYTES ((size_t)480)     /* a result, wherever the memory begins: measure.h checks that it fits */
+#define DROGUE_BEST_BYTES ((size_t)520) /* the best of what is tried, wherever the memory begins: look.h checks it */
 
 /* Bytes of memory for a workspace: usable in a static array's size. */
 #define DROGUE_WORKSPACE_BYTES(width_px, edges, labels, arcs)                                                         \
     ((size_t)(edges) * sizeof(drogue_edge) + (size_t)(arcs) * sizeof(drogue_arc) + (size_t)(labels)*16u + 256u * 4u + \
-     DROGUE_KEPT_BYTES +                                                                                              \
+     DROGUE_BEST_BYTES +                                                                                              \
      (DROGUE_ROWS_BYTES(width_px) > DROGUE_SCRATCH_BYTES ? DROGUE_ROWS_BYTES(width_px) : DROGUE_SCRATCH_BYTES))
 
 /* The same for a region of the given longest side with the capacity that suits it. */
@@ -64,7 +64,7 @@ static inline void drogue_capacity_for_any(drogue_capacity *out, int32_t width_p
 struct drogue_point;        /* constraints.h */
 struct drogue_outline_room; /* outline.h */
 struct drogue_ray;          /* rays.h */
-struct drogue_result;       /* measure.h */
+struct drogue_best_try;     /* src/look.h */
 
 /* Line buffers, tables and lists in the caller's memory; set by drogue_workspace_init(). After a frame
  * 'edges' and 'arcs' hold its edge points and arcs; everything else is scratch. */
@@ -77,7 +77,7 @@ typedef struct drogue_workspace {
     uint32_t *arc_parent;                /* labels */
     uint32_t *arc_component;             /* labels */
     uint32_t *histogram;                 /* 256 */
-    struct drogue_result *kept;          /* of the best of what drogue_measure() tries; aligned for int64_t */
+    struct drogue_best_try *best;        /* of what drogue_measure() tries; aligned for int64_t */
     struct drogue_point *hull;           /* DROGUE_HULL_MAX, in the place of the rows below */
     struct drogue_outline_room *outline; /* in the place of the hull when that has served; aligned for int64_t */
     struct drogue_ray *rays;             /* DROGUE_RAYS, there when the outline has served */

@@ -54,8 +54,8 @@ drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, s
     at += labels * sizeof(uint32_t);
     workspace->histogram = (uint32_t *)(void *)at;
     at += 256 * sizeof(uint32_t);
-    workspace->kept = (struct drogue_result *)(void *)(at + ((uintptr_t)at & 4u));
-    at += DROGUE_KEPT_BYTES;
+    workspace->best = (struct drogue_best_try *)(void *)(at + ((uintptr_t)at & 4u));
+    at += DROGUE_BEST_BYTES;
     workspace->hull = (struct drogue_point *)(void *)at; /* the rows have served when it comes */
     workspace->outline = (struct drogue_outline_room *)(void *)(at + ((uintptr_t)at & 4u));
     workspace->rays = (struct drogue_ray *)(void *)at;

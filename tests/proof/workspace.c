@@ -42,9 +42,9 @@ void layout(void)
     at = after(at, w.arc_parent, capacity.labels, 4, 4);
     at = after(at, w.arc_component, capacity.labels, 4, 4);
     at = after(at, w.histogram, 256, 4, 4);
-    PROVE(place(w.kept) == at || place(w.kept) == at + 4);
-    PROVE(((uintptr_t)w.kept & 4u) == 0); /* the memory may lie at a multiple of 4 alone */
-    at += DROGUE_KEPT_BYTES;
+    PROVE(place(w.best) == at || place(w.best) == at + 4);
+    PROVE(((uintptr_t)w.best & 4u) == 0); /* the memory may lie at a multiple of 4 alone */
+    at += DROGUE_BEST_BYTES;
     rows = at;
     at = after(at, w.merges, capacity.width_px, sizeof(drogue_merge), 4);
     at = after(at, w.component_rows, 2 * (size_t)capacity.width_px, 4, 4);
@@ -64,7 +64,7 @@ void room(void)
 {
     const uint32_t width = any_unsigned(12);
     const size_t half = DROGUE_HALF(width);
-    const size_t bytes = DROGUE_WORKSPACE_BYTES(width, 0, 0, 0) - 256 * sizeof(uint32_t) - DROGUE_KEPT_BYTES;
+    const size_t bytes = DROGUE_WORKSPACE_BYTES(width, 0, 0, 0) - 256 * sizeof(uint32_t) - DROGUE_BEST_BYTES;
     ASSUME(width >= 1 && width <= DROGUE_MAX_SIDE);
     PROVE(width * sizeof(drogue_merge) + 4 * width * sizeof(uint32_t) + 5 * (2 * half + 4) + 7 * 4 * (half + 2) +
               4 * half * sizeof(drogue_slope) + 4 * half <=

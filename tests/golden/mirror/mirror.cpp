@@ -59,7 +59,7 @@ struct Frame {
     bool filled = false; /* thresholds of the noise filled a table */
     drogue_second_look second_look = DROGUE_SECOND_NONE;
     Real ring = 0; /* semi-axis of the outline that a disc allows which was sought, and how much of it shows */
-    Real ring_cover = 0;
+    Real ring_cover = 0, ring_above = 0;
 };
 
 /* Run the front end on a region. */
@@ -592,13 +592,15 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow, bool whole
     if (out.status != DROGUE_OK) {
         return false;
     }
-    Real cover = 0;
-    const drogue_ellipse ring = rounded_ellipse(seeker.best(cover, *f.front, f.mask, out.region.tl(), whole ? 3 : 0));
+    Real cover = 0, above = 0;
+    const drogue_ellipse ring =
+        rounded_ellipse(seeker.best(cover, above, *f.front, f.mask, out.region.tl(), whole ? 3 : 0));
     out.contradicted = seeker.contradicted();
     f.follow.library = follow ? &f.decided : nullptr;
     if (!whole) {
         f.ring = real(ring.a_px_q16);
         f.ring_cover = cover;
+        f.ring_above = above;
     }
     if (f.follow.library != nullptr) {
         (void)drogue_outline_settle(&f.decided, &ring, 0, &f.front->workspace, &f.front->list, &f.mask, &task.config);
@@ -731,7 +733,7 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
     }
     bool contradicted = false;
     for (const bool whole : {false, true}) {
-        if (task.model.inner_radius <= 0 || least <= 0.04L || (whole && (least < 1 || f.ring_cover < 0.2L))) {
+        if (task.model.inner_radius <= 0 || least <= 0.04L || (whole && (least < 1 || f.ring_above < 5 / 32.0L))) {
             break;
         }
         Result out;

@@ -297,14 +297,27 @@ Outline Finder::refine(const Candidate &candidate) const
     return o;
 }
 
+/* Bins about an ellipse as bins about one with another angle: a nearly round one may turn by any, as it settles. */
+void turn_bins(Support &s, Real from, Real to)
+{
+    const auto n = static_cast<long>(s.count.size());
+    const long turn = std::lround((to - from) * static_cast<Real>(n) / (2 * std::acos(Real(-1))));
+    const size_t by = static_cast<size_t>(((turn % n) + n) % n);
+    std::rotate(s.count.begin(), s.count.begin() + static_cast<long>(by), s.count.end());
+    std::rotate(s.sum.begin(), s.sum.begin() + static_cast<long>(by), s.sum.end());
+    s.bright = by == 0 ? s.bright : s.bright >> by | s.bright << (static_cast<size_t>(n) - by);
+}
+
 /* Collect and fit until it settles, with what the library decided where that is known. */
 void Finder::refit(Outline &o, const decisions_round *rounds, int known) const
 {
     reference::Band band = band_about(o.ellipse);
     bool done = false;
+    Real collected = o.ellipse.angle;
     for (int round = 0; round <= static_cast<int>(config_.refit_rounds) && !done; round++) {
         const decisions_round *library = round < known ? &rounds[round] : nullptr;
         const std::vector<BandPoint> points = collect(o.ellipse, band, front_, library);
+        collected = o.ellipse.angle;
         /* the first round takes the points that were looked at */
         const size_t stride = round == 0 && config_.refit_rounds > 0 ? front_.edges.size() / 512 + 1 : 1;
         std::vector<Point> members;
@@ -346,6 +359,7 @@ void Finder::refit(Outline &o, const decisions_round *rounds, int known) const
         o.ellipse = e;
         o.refit_points = static_cast<int64_t>(members.size());
     }
+    turn_bins(o.support, collected, o.ellipse.angle);
     o.cover = static_cast<Real>(o.support.covered) / reference::SUPPORT_BINS;
     o.polarity = o.support.bright == 0            ? DROGUE_POLARITY_DARK
                  : o.support.bright == UINT32_MAX ? DROGUE_POLARITY_BRIGHT

@@ -85,30 +85,53 @@ Real Seeker::cover(const Ellipse &e, const FrontEnd &front, const drogue_mask &m
     return own;
 }
 
-Ellipse Seeker::best(Real &most, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, int sizes)
+/* Outlines about a disc of a size, of a drogue turned so far and the opposite way. */
+void Seeker::score(Best &best, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, const Turn &turn,
+                   uint32_t looks)
 {
-    Ellipse out = {0, 0, 0, 0, 0, false};
-    most = 0;
+    if (turn.yaw * turn.yaw + turn.pitch * turn.pitch > TURNS * TURNS) {
+        return;
+    }
+    Seen seen = seen_;
+    seen.library.radius_q16 = turn.size * seen_.library.radius_q16 / 16;
+    seen.own.radius = follow_ ? real(seen.library.radius_q16) : turn.size * seen_.own.radius / 16;
+    int way = 1;
+    for (const Ellipse &e : rims(seen, turn.yaw, turn.pitch, origin)) {
+        const Real covered = cover(e, front, mask, looks), share = turn.size * covered / 16;
+        best.sum += covered;
+        best.count++;
+        if (share > best.most) {
+            best = {e, share, {turn.size, way * turn.yaw, way * turn.pitch}, best.sum, best.count};
+        }
+        way = -1;
+    }
+}
+
+Ellipse Seeker::best(Real &most, Real &above, const FrontEnd &front, const drogue_mask &mask, cv::Point origin,
+                     int sizes)
+{
+    const uint32_t looks = sizes > 0 ? 128 : 512;
+    Best best = {{0, 0, 0, 0, 0, false}, 0, {0, 0, 0}, 0, 0};
     for (int size = 16 - sizes; size <= 16 + sizes; size++) {
-        Seen seen = seen_;
-        seen.library.radius_q16 = size * seen_.library.radius_q16 / 16;
-        seen.own.radius = follow_ ? real(seen.library.radius_q16) : size * seen_.own.radius / 16;
         for (int yaw = 0; yaw <= TURNS; yaw++) { /* what is turned the opposite way comes with it */
             for (int pitch = yaw == 0 ? 0 : -TURNS; pitch <= TURNS; pitch++) {
-                if (yaw * yaw + pitch * pitch > TURNS * TURNS) {
-                    continue;
-                }
-                for (const Ellipse &e : rims(seen, yaw, pitch, origin)) {
-                    const Real share = size * cover(e, front, mask, sizes > 0 ? 128 : 512) / 16;
-                    if (share > most) {
-                        most = share;
-                        out = e;
-                    }
+                if ((yaw + pitch + size) % 2 == 0) {
+                    score(best, front, mask, origin, {size, yaw, pitch}, looks);
                 }
             }
         }
     }
-    return out;
+    const Turn middle = best.turn;
+    for (int yaw = -1; yaw <= 1 && best.ring.ok; yaw++) {
+        for (int pitch = -1; pitch <= 1; pitch++) {
+            if (yaw != 0 || pitch != 0) {
+                score(best, front, mask, origin, {middle.size, middle.yaw + yaw, middle.pitch + pitch}, looks);
+            }
+        }
+    }
+    most = best.most;
+    above = best.count > 0 ? best.most - best.sum / best.count : 0;
+    return best.ring;
 }
 
 bool of_size(const Ellipse &e, const drogue_mask &mask)
