@@ -236,6 +236,34 @@ def test_a_report_refuses_what_the_program_does(arguments, said, tmp_path, capsy
     assert not (tmp_path / 'page.html').exists()
 
 
+def test_a_report_takes_values_below_zero(tmp_path):
+    """Behind an option as well as joined to it, which is all that argparse takes."""
+    demo = VECTORS / 'frame/demo.png'
+    pages = []
+    for lens, region in ((['--distortion', '-0.1,0.01,0,0,0'], ['--roi', '-10,134,214,214']),
+                         (['--distortion=-0.1,0.01,0,0,0'], ['--roi=-10,134,214,214']),
+                         (['--dist', '-.1,0.01,0,0,0'], ['--roi', '-1e1,134,214,214'])):
+        parsed = __main__.parse(['report', str(demo), '-o', 'page.html', '--camera', '1,1,0,0', *lens, *region])
+        pages.append((parsed.distortion, parsed.roi, parsed.frames))
+    assert pages == 3 * [([-0.1, 0.01, 0, 0, 0], [-10, 134, 214, 214], [str(demo)])]
+    assert __main__.joined(['--version', '--', '--roi', '-1']) == ['--version', '--', '--roi', '-1']
+    assert page(demo, '-o', tmp_path / 'page.html', '--distortion', '-0.1,0.01,0,0,0', '--roi', '-10,134,514,214') == 0
+    assert (tmp_path / 'page.html').stat().st_size > 100000
+
+
+@pytest.mark.parametrize('arguments, said', [
+    (['--camera', '1,2,3,abc'], "argument --camera: 'abc' is not a decimal number"),
+    (['--camera', '1,2,3,nan'], "argument --camera: 'nan' is not a decimal number"),
+    (['--distortion', '-0.1;0'], 'argument --distortion: 5 numbers separated by commas are wanted, not 1'),
+    (['--drogue', '0.35,,0.25'], "argument --drogue: '' is not a decimal number"),
+    (['--roi', '1,2,x,4'], "argument --roi: 'x' is not a decimal number"),
+])
+def test_a_report_says_what_is_no_number(arguments, said, tmp_path, capsys):
+    with pytest.raises(SystemExit) as ended:
+        page(VECTORS / 'frame/demo.png', '-o', tmp_path / 'page.html', *arguments)
+    assert ended.value.code == 2 and said in capsys.readouterr().err
+
+
 @pytest.mark.parametrize('region', ['inf,1,2,3', '1,2,3.9,4', '1,2,nan,4', '1,2,3'])
 def test_a_report_takes_whole_numbers_for_a_region(region, tmp_path, capsys):
     with pytest.raises(SystemExit) as ended:

@@ -4,18 +4,27 @@ from __future__ import annotations
 
 import argparse
 import pathlib
+import re
 import sys
 from typing import Callable, List, Optional
 
 from . import Camera, Model, Tracker, __version__, images, report
 
 
+def number(text: str) -> float:
+    """As the program takes it: no spaces, no hexadecimal digits, no nan, no inf."""
+    if not re.fullmatch(r'[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?', text):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a decimal number")
+    return float(text)
+
+
 def numbers(*counts: int) -> Callable[[str], List[float]]:
     def parse_list(text: str) -> List[float]:
-        values = [float(item) for item in text.split(',')]
-        if len(values) not in counts:
-            raise argparse.ArgumentTypeError(f'{" or ".join(map(str, counts))} numbers separated by commas are wanted')
-        return values
+        items = text.split(',')
+        if len(items) not in counts:
+            raise argparse.ArgumentTypeError(f'{" or ".join(map(str, counts))} numbers separated by commas are wanted, '
+                                             f'not {len(items)}')
+        return [number(item) for item in items]
     return parse_list
 
 
@@ -24,6 +33,19 @@ def region(text: str) -> List[int]:
     if not all(value.is_integer() for value in values):
         raise argparse.ArgumentTypeError(f"'{text}' are not whole numbers")
     return [int(value) for value in values]
+
+
+def joined(arguments: List[str]) -> List[str]:
+    """A value that begins with a minus sign goes to its option, as --name=value: argparse takes it for an option."""
+    out: List[str] = []
+    for k, argument in enumerate(arguments):
+        if argument == '--':
+            return out + arguments[k:]
+        if out and re.match(r'--[^=]+$', out[-1]) and re.match(r'-\.?[0-9]', argument):
+            out[-1] += f'={argument}'
+        else:
+            out.append(argument)
+    return out
 
 
 def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
@@ -38,7 +60,7 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     page.add_argument('--drogue', type=numbers(1, 3), metavar='RADIUS[,INNER,DEPTH]')
     page.add_argument('--roi', type=region, metavar='X,Y,W,H')
     page.add_argument('--fps', type=float, default=30.0)
-    return parser.parse_args(arguments)
+    return parser.parse_args(joined(sys.argv[1:] if arguments is None else arguments))
 
 
 def model(lengths: List[float]) -> Model:
