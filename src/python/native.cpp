@@ -144,7 +144,10 @@ drogue_config to_config(const py::dict &changed)
         }
         const double value = to_number(item.second, name.c_str());
         const double kept = t->is_q16 ? std::floor(value * 65536.0 + 0.5) : value;
-        if (!(kept >= t->least && kept <= t->most) || (!t->is_q16 && kept != std::floor(kept))) {
+        if (!t->is_q16 && kept != std::floor(kept)) {
+            throw py::value_error(name + " must be a whole number");
+        }
+        if (!(kept >= t->least && kept <= t->most)) {
             throw py::value_error(name + " is outside its range");
         }
         const int32_t word = static_cast<int32_t>(kept);

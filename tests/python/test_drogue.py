@@ -264,6 +264,78 @@ def test_a_report_says_what_is_no_number(arguments, said, tmp_path, capsys):
     assert ended.value.code == 2 and said in capsys.readouterr().err
 
 
+@pytest.mark.parametrize('arguments, said', [
+    (['--set', 'min_cover'], "--set: 'min_cover' is not NAME=VALUE"),
+    (['--set', 'nonsense=1'], "--set: no threshold is named 'nonsense'"),
+    (['--set', 'min_cover=2'], "--set: min_cover: '2' is outside [0, 1]"),
+    (['--set', 'min_cover=-0.1'], "--set: min_cover: '-0.1' is outside [0, 1]"),
+    (['--set', 'min_cover=x'], "--set: min_cover: 'x' is not a decimal number"),
+    (['--max-missed', '-1'], "--max-missed: '-1' is outside [0, 1000000]"),
+    (['--max-missed', '1.5'], "--max-missed: '1.5' is not a whole number"),
+    (['--min-reliability', 'x'], "--min-reliability: 'x' is not a decimal number"),
+    (['--min-reliability', '1.5'], 'min_reliability is from 0 to 1'),
+    (['--set', 'smooth=0.5'], 'smooth must be a whole number'),
+    (['--set', 'canny_low=200'], 'thresholds contradict each other'),
+])
+def test_a_report_refuses_settings_as_the_program_does(arguments, said, tmp_path, capsys):
+    demo, camera = VECTORS / 'frame/demo.png', '1465.5,1465.5,403.5,143.5'
+    program('track', demo, '--camera', camera, *arguments, codes=(2,))
+    try:
+        code = page(demo, '-o', tmp_path / 'page.html', *arguments)
+    except SystemExit as ended:
+        code = ended.code
+    error = capsys.readouterr().err
+    assert code == 2 and said in error and not (tmp_path / 'page.html').exists(), error
+
+
+def rows_of(path):
+    return json.loads(re.search(r'const rows = (\[.*\])', path.read_text())[1])
+
+
+def test_a_report_takes_settings_as_the_program_does(tmp_path):
+    """Distance by another transfer; a track that survives no frame; a measurement that is not reliable enough."""
+    demo, camera, out = VECTORS / 'frame/demo.png', '1465.5,1465.5,403.5,143.5', tmp_path / 'page.html'
+    black = tmp_path / 'black.pgm'
+    black.write_bytes(b'P5 640 480 255 ' + bytes(640 * 480))
+    for given in ([], ['--set', 'transfer=1'], ['--set', 'transfer=1', '--set', 'transfer=0', '--set', 'min_cover=0.5'],
+                  ['--min-reliability', '1'], ['--max-missed', '0']):
+        lines = program('track', demo, black, '--camera', camera, *given, codes=(0, 1)).splitlines()
+        assert page(demo, black, '-o', out, *given) == 0
+        rows = rows_of(out)
+        assert [r['state'] for r in rows] == [json.loads(line)['state'] for line in lines]
+        for found, line in zip(rows, map(json.loads, lines)):
+            if line['filtered'] is not None:
+                assert np.allclose([found[k] for k in 'xyz'], line['filtered']['position_m'], atol=1e-5, rtol=0), given
+
+
+@pytest.mark.parametrize('bytes_of, reason', [
+    (lambda png: png[:2000], 'image file is truncated'),
+    (lambda png: png[:8], 'cannot be read as an image'),
+    (lambda png: png[:40] + b'\0' * 40 + png[80:], ''),
+    (lambda png: b'', 'cannot be read as an image'),
+    (lambda png: None, 'No such file or directory'),
+])
+def test_a_report_names_the_picture_that_it_cannot_read(bytes_of, reason, tmp_path, capsys):
+    broken, data = tmp_path / 'broken.png', bytes_of((VECTORS / 'frame/demo.png').read_bytes())
+    if data is not None:
+        broken.write_bytes(data)
+    assert page(VECTORS / 'frame/demo.png', broken, '-o', tmp_path / 'page.html') == 2
+    error = capsys.readouterr().err
+    assert error.startswith(f'drogue: {broken}: {reason}') and error.count('\n') == 1, error
+    assert len(error) > len(f'drogue: {broken}: \n')
+
+
+@pytest.mark.parametrize('output, said', [
+    ('nodir/page.html', 'there is no folder'),
+    ('.', 'is a folder'),
+])
+def test_a_report_that_cannot_be_written_computes_nothing(output, said, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(report, 'build', lambda *_: pytest.fail('computed'))
+    assert page(VECTORS / 'frame/demo.png', '-o', tmp_path / output) == 2
+    error = capsys.readouterr().err
+    assert error.startswith(f'drogue: {tmp_path / output}: {said}') and error.count('\n') == 1, error
+
+
 @pytest.mark.parametrize('region', ['inf,1,2,3', '1,2,3.9,4', '1,2,nan,4', '1,2,3'])
 def test_a_report_takes_whole_numbers_for_a_region(region, tmp_path, capsys):
     with pytest.raises(SystemExit) as ended:

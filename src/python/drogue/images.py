@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pathlib
-from typing import Iterable, Iterator, Tuple, Union
+from typing import Any, Iterable, Iterator, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -22,16 +22,27 @@ def to_grey(rgb: npt.NDArray[np.uint8]) -> Grey:
 
 def read(path: Path) -> Grey:
     """An image file as uint8 of shape (rows, columns): 16 bits are rounded to 8, alpha is ignored. Pillow cuts
-    16 bits of colour or with alpha down: those need OpenCV."""
+    16 bits of colour or with alpha down: those need OpenCV. OSError and ValueError name the file."""
     try:
-        from PIL import Image
+        from PIL import Image, UnidentifiedImageError
     except ImportError:
         return _read_by_opencv(path, 'images need Pillow or OpenCV: pip install pillow')
     try:
-        opened = Image.open(path)
-    except Image.DecompressionBombError as error:  # of no class that a caller expects of a file
-        raise ValueError(f'{path}: {error}') from None
-    with opened as image:
+        return _read_by_pillow(path, Image)
+    except UnidentifiedImageError:
+        raise OSError(f'{path}: cannot be read as an image') from None
+    except (ImportError, MemoryError):
+        raise
+    except OSError as error:
+        if error.filename is not None or str(error).startswith(f'{path}: '):
+            raise
+        raise OSError(f'{path}: {error}') from None
+    except Exception as error:  # Pillow raises whatever a broken file leads it to, of no class that a caller expects
+        raise ValueError(f'{path}: {str(error) or type(error).__name__}') from None
+
+
+def _read_by_pillow(path: Path, pillow: Any) -> Grey:
+    with pillow.open(path) as image:
         if image.mode in ('I', 'I;16', 'I;16B', 'I;16L'):
             wide = np.asarray(image, np.uint32)
             return ((wide * 255 + 32767) // 65535).astype(np.uint8)
