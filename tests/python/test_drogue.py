@@ -192,6 +192,34 @@ def test_sixteen_bits_are_those_of_the_program(channels, tmp_path):
     assert np.array_equal(drogue.canny(found, 40, 100), drogue.images.read(tmp_path / 'edges.png'))
 
 
+@pytest.mark.parametrize('kind', [5, 6])
+@pytest.mark.parametrize('most', [1, 100, 254, 255, 1000, 4095, 65535])
+def test_pnm_of_any_greatest_value_is_the_programs(kind, most, tmp_path):
+    samples = np.random.default_rng(most).integers(0, most + 1, (48, 60, 3 if kind == 6 else 1))
+    path = tmp_path / 'image.pnm'
+    path.write_bytes(b'P%d # of it\n60 48\n%d\n' % (kind, most) + samples.astype('>u2' if most > 255 else 'u1').tobytes())
+    found = drogue.images.read(path)
+    eight = ((samples * 510 + most) // (2 * most)).astype(np.uint8)
+    assert np.array_equal(found, eight[..., 0] if kind == 5 else drogue.images.to_grey(eight))
+    program('edges', path, tmp_path / 'edges.png', '--low', 40, '--high', 100)
+    assert np.array_equal(drogue.canny(found, 40, 100), drogue.images.read(tmp_path / 'edges.png'))
+
+
+@pytest.mark.parametrize('data, said', [
+    (b'P5 2 2 255 abc', 'the file ends early'),
+    (b'P5 2 2 100 abce', 'a sample is 101, more than the 100 that the header allows'),
+    (b'P6 2 2 0 abcd', 'no sound header'),
+    (b'P5 2 # no end', 'no sound header'),
+    (b'P5 99999 99999 255 ', 'are more than the 67108864 that are read'),
+])
+def test_pnm_is_refused_as_by_the_program(data, said, tmp_path):
+    path = tmp_path / 'image.pgm'
+    path.write_bytes(data)
+    with pytest.raises(ValueError, match=f'^{re.escape(str(path))}: .*{said}'):
+        drogue.images.read(path)
+    program('edges', path, tmp_path / 'edges.png', '--low', 40, '--high', 100, codes=(2,))
+
+
 def page(*arguments):
     return __main__.main(['report', '--camera', '1465.5,1465.5,403.5,143.5', *map(str, arguments)])
 
