@@ -27,6 +27,12 @@ def counts():
     yield 'README.md', r'in (\d+) builds for ten instruction sets', len(rows.splitlines())
     yield 'README.md', r'changes (\d+) single things', len(re.findall(r'^name: ', mutants, re.M))
     yield 'README.md', r'catch all but (\d+) \(', len(re.findall(r'^survives: ', mutants, re.M))
+    fuzzed = re.findall(r'^    \{"(\w+)", \{\{', text('tests/fuzz/stages.c'), re.M)
+    rest = re.search(r'Not fuzzed alone: the stages (.*?);', text('docs/security.md'), re.S)
+    yield 'docs/security.md', r"(\d+) of the vectors' \d+ stages", len(fuzzed)
+    yield 'docs/security.md', r"\d+ of the vectors' (\d+) stages", len(of)
+    if rest is None or set(re.findall(r'`(\w+)`', rest[1])) != set(of) - set(fuzzed):
+        yield 'docs/security.md', r'not fuzzed alone are .*', ' '.join(sorted(set(of) - set(fuzzed)))
     yield 'hls/filter/README.md', r'all (\d+) vectors', of['kalman']
 
 

@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Fuzzes the library and the program's readers by libFuzzer under the address and undefined-behaviour sanitizers, from the
-# corpus in this folder; then what was kept is run once under the memory sanitizer, but for the program, whose libpng is foreign. Exit status 77 without clang's runtime.
+# corpus in this folder; then what was kept is run once under the memory sanitizer, but for the program and its files, whose
+# libpng, libyaml and expat are foreign. Exit status 77 without clang's runtime.
 # usage: fuzz.sh [SECONDS [TARGET]...]    SECONDS in all, 120 unless given; what is found lies in build/fuzz
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . src/sources.sh
 seconds=${1:-120}
 targets=("${@:2}")
-[ ${#targets[@]} -gt 0 ] || targets=(measure track acquire stages program)
+[ ${#targets[@]} -gt 0 ] || targets=(measure track acquire stages program files)
 mkdir -p build/fuzz
 cd build/fuzz
 root=../..
@@ -34,15 +35,15 @@ library() {
 
 # target NAME FOLDER SANITIZERS: its executable in the folder
 target() {
-    local name=$1 folder=$2 sources=("$root/tests/fuzz/fuzz.c" "$root/tests/fuzz/$1.c") libraries=(-lm) png
+    local name=$1 folder=$2 sources=("$root/tests/fuzz/fuzz.c" "$root/tests/fuzz/$1.c") libraries=(-lm) readers
     case $name in
     stages) for f in "$root"/tests/conformance/stages*.c; do sources+=("$f"); done ;;
-    program)
+    program | files)
         for f in "$root"/src/cli/*.c; do
             [ "${f##*/}" = main.c ] || sources+=("$f")
         done
-        read -ra png <<<"$(pkg-config --cflags --libs libpng)"
-        libraries+=("${png[@]}" -lz)
+        read -ra readers <<<"$(pkg-config --cflags --libs libpng yaml-0.1 expat)"
+        libraries+=(-DHAVE_YAML -DHAVE_EXPAT "${readers[@]}" -lz)
         ;;
     esac
     "$clang" -std=gnu99 -g -O1 "-fsanitize=fuzzer,$3" -fno-sanitize-recover=all "${includes[@]}" "${sources[@]}" \
@@ -70,7 +71,7 @@ for name in "${targets[@]}"; do
     "address/$name" -max_total_time=$((seconds / ${#targets[@]})) -max_len=1024 -timeout=20 -print_final_stats=1 \
         -artifact_prefix="found/$name/" "corpus/$name" "$root/tests/fuzz/corpus/$name" >"$name.log" 2>&1 || got=$?
     verdict "$name" $got "$name.log"
-    if [ "$name" != program ]; then
+    if [ "$name" != program ] && [ "$name" != files ]; then
         target "$name" memory memory
         got=0
         "memory/$name" -runs=0 -max_len=1024 -timeout=60 -print_final_stats=1 -artifact_prefix="found/$name/" \
