@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "thresholds.h"
+
 #if defined(__has_feature)
 #if __has_feature(memory_sanitizer)
 #include <sanitizer/msan_interface.h>
@@ -110,23 +112,44 @@ void fuzz_scene_draw(fuzz_scene *s, fuzz_bytes *b)
     }
 }
 
+static int32_t *threshold_of(drogue_config *c, int which)
+{
+    return (int32_t *)(void *)((char *)c + thresholds[which].offset);
+}
+
+static void put_in_order(int32_t *least, int32_t *most)
+{
+    if (*least > *most) {
+        const int32_t other = *least;
+        *least = *most;
+        *most = other;
+    }
+}
+
+/* Some of the program's table of thresholds anywhere within their ranges; once in a while one beyond, which is refused. */
 static void change_config(drogue_config *c, fuzz_bytes *b)
 {
+    int k;
     drogue_config_default(c);
     if (fuzz_byte(b) % 3 == 0) {
-        c->canny_low = fuzz_range(b, 0, 2000);
-        c->canny_high = c->canny_low + fuzz_range(b, 0, 2000);
-        c->smooth = fuzz_range(b, 0, 1);
-        c->min_arc_px = (uint32_t)fuzz_range(b, 0, 60);
-        c->min_fit_ratio_q16 = fuzz_range(b, 0, 65536);
-        c->min_axis_ratio_q16 = fuzz_range(b, 0, 65536);
-        c->min_cover_q16 = fuzz_range(b, 0, 65536);
-        c->recentre_cover_q16 = fuzz_range(b, 0, 65536);
-        c->refit_rounds = (uint32_t)fuzz_range(b, 0, 16);
-        c->polarity = (drogue_polarity)fuzz_range(b, 0, 2);
-        c->max_chi2_q16 = fuzz_range(b, 0, INT32_MAX);
-        c->min_chi2_gap_q16 = fuzz_range(b, 0, INT32_MAX);
-        c->transfer = (drogue_transfer)fuzz_range(b, 0, 1);
+        return;
+    }
+    for (k = 0; k < threshold_count; k++) {
+        const uint8_t how = fuzz_byte(b);
+        const threshold *t = &thresholds[k];
+        if (how % 4 == 3) {
+            *threshold_of(c, k) = fuzz_range(b, t->least, t->most);
+        } else if (how % 8 == 6) { /* near the default */
+            const int64_t value = (int64_t)*threshold_of(c, k) * fuzz_range(b, 0, 255) / 64;
+            *threshold_of(c, k) = (int32_t)(value < t->least ? t->least : value > t->most ? t->most : value);
+        }
+    }
+    put_in_order(&c->canny_low, &c->canny_high);
+    c->canny_least = c->canny_least < c->canny_high ? c->canny_least : c->canny_high;
+    put_in_order(&c->min_size_q16, &c->max_size_q16);
+    FUZZ_MUST(drogue_config_valid(c));
+    if (fuzz_byte(b) % 16 == 15) {
+        *threshold_of(c, fuzz_byte(b) % threshold_count) = fuzz_any(b);
     }
 }
 

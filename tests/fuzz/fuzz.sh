@@ -46,6 +46,7 @@ target() {
         libraries+=(-DHAVE_YAML -DHAVE_EXPAT "${readers[@]}" -lz)
         ;;
     esac
+    [ -n "${readers+there}" ] || sources+=("$root/src/cli/thresholds.c")
     "$clang" -std=gnu99 -g -O1 "-fsanitize=fuzzer,$3" -fno-sanitize-recover=all "${includes[@]}" "${sources[@]}" \
         "$folder"/*.o "${libraries[@]}" -o "$folder/$name"
 }
