@@ -73,48 +73,55 @@ static conf_array input_of(const input *spec, int64_t *to, fuzz_bytes *b)
 /* Most of what any words make the adapters refuse, so seldom that these are left as they are. */
 static int left_as_it_is(fuzz_bytes *b) { return fuzz_byte(b) % 16 == 15; }
 
-/* Data of 'decide' that a frame could give: an outline, its support, two poses, a place of the inner part. */
+/* Data of 'decide' that a frame could give: an outline, its support, the two poses of it, a place of the inner part. */
 static void make_evidence(fuzz_bytes *b)
 {
     int32_t *e = (int32_t *)data[0], *camera = (int32_t *)data[1], *bins = (int32_t *)data[2], *p = (int32_t *)data[3];
+    const int32_t f = fuzz_range(b, 50, 4000), a = fuzz_range(b, 2, 1000), count = fuzz_range(b, 0, 60);
+    const int32_t rim = fuzz_range(b, 655, 1 << 20), spread = fuzz_range(b, 0, 65535), lens = fuzz_byte(b);
+    uint32_t seed = fuzz_byte(b);
     int k;
-    if (left_as_it_is(b)) {
-        return;
+    memset(camera, 0, 9 * sizeof *camera);
+    camera[0] = camera[1] = f * 65536;
+    for (k = 4; k < 9 && lens % 4 == 3; k++) {
+        camera[k] = fuzz_any(b) >> 8 >> lens / 16;
     }
-    e[2] = 65536 * fuzz_range(b, 1, 1023) + fuzz_byte(b);
-    e[3] = (int32_t)((int64_t)e[2] * fuzz_range(b, 1, 255) / 255);
-    e[3] = e[3] < 65536 ? 65536 : e[3];
+    e[0] = fuzz_range(b, -500 * 65536, 500 * 65536);
+    e[1] = fuzz_range(b, -500 * 65536, 500 * 65536);
+    e[2] = a * 65536;
+    e[3] = e[2] - (int32_t)((int64_t)(e[2] - 65536) * fuzz_byte(b) / 256);
     e[4] = fuzz_range(b, -102943, 102943);
-    for (k = 0; k < 9; k++) { /* any lens, or none */
-        camera[k] = k < 2 ? 65536 * fuzz_range(b, 1, 4000) : k < 4 ? camera[k] >> 4 : camera[k] >> 8;
-    }
     for (k = 0; k < 32; k++) {
-        bins[2 * k] = fuzz_range(b, 0, 99);
-        bins[2 * k + 1] = fuzz_range(b, -65536, 65536) * (bins[2 * k] > 0);
+        seed = seed * 1664525u + 1013904223u;
+        bins[2 * k] = count;
+        bins[2 * k + 1] = count > 0 ? (int32_t)(seed >> 8) % (spread + 1) - spread / 2 : 0;
     }
-    p[0] = fuzz_range(b, 655, 1 << 20);
-    p[1] = p[0] / 256 * fuzz_byte(b);
-    p[2] &= INT32_MAX;
-    for (k = 0; k < 2; k++) { /* the pose in front of the camera, its axis of length 1, angles of it */
+    memset(p, 0, 31 * sizeof *p);
+    p[0] = rim;
+    p[1] = (int32_t)((int64_t)rim * fuzz_byte(b) / 256);
+    p[2] = (int32_t)((int64_t)rim * fuzz_byte(b) / 128);
+    for (k = 0; k < 2; k++) { /* axis of length 1, angles of it; off what the outline says, at times */
+        const double distance = (double)rim * f / a, c = e[3] / (double)e[2], s = (k ? -1 : 1) * sqrt(1 - c * c);
         int32_t *pose = p + 3 + 8 * k;
-        const int32_t z = fuzz_range(b, 20000, 65536), x = (int32_t)sqrt(65536.0 * 65536.0 - (double)z * z);
-        pose[0] >>= 8;
-        pose[1] >>= 8;
-        pose[2] = fuzz_range(b, 1, 1 << 24);
-        pose[3] = k ? -x : x;
-        pose[4] = 0;
-        pose[5] = z;
-        pose[6] = (int32_t)(65536 * atan2(pose[3], z));
-        pose[7] = 0;
+        pose[2] = distance < 1 ? 1 : distance > 1e9 ? 1000000000 : (int32_t)distance;
+        pose[0] = (int32_t)(pose[2] / 65536.0 / f * e[0]);
+        pose[1] = (int32_t)(pose[2] / 65536.0 / f * e[1]);
+        pose[3] = (int32_t)(65536 * s);
+        pose[5] = (int32_t)(65536 * c);
+        pose[6] = (int32_t)(65536 * atan2(s, c));
     }
-    for (k = 22; k < 31; k++) {
-        p[k] &= INT32_MAX;
-    }
-    p[23] = fuzz_range(b, 1, 1024 << 16);
-    p[24] = fuzz_range(b, 0, 16 << 16);
+    p[19] = fuzz_range(b, 0, 1);
+    p[20] = e[0] + fuzz_range(b, -8 * 65536, 8 * 65536);
+    p[21] = e[1] + fuzz_range(b, -8 * 65536, 8 * 65536);
+    p[22] = fuzz_range(b, 1, 65536);
+    p[23] = fuzz_range(b, 1, 1024 * 65536);
+    p[24] = fuzz_range(b, 0, 16 * 65536);
+    p[25] = fuzz_range(b, 0, INT32_MAX);
+    p[26] = fuzz_range(b, 0, INT32_MAX);
     p[27] = fuzz_range(b, 0, 1 << 20);
-    p[28] %= 65536;
-    p[30] %= 9;
+    p[28] = fuzz_range(b, 0, 65535);
+    p[29] = fuzz_range(b, 0, 65535);
+    p[30] = fuzz_range(b, 0, 8);
 }
 
 static void make_disc(const conf_array *image, fuzz_bytes *b)
@@ -135,12 +142,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     conf_array in[CONF_MAX_INPUTS], out[CONF_MAX_OUTPUTS];
     const uint8_t first_byte = fuzz_byte(&b);
     const size_t which = first_byte < 195 ? first_byte % OLDER : OLDER + first_byte % (STAGES - OLDER);
-    int inputs, count, again, i;
+    fuzz_bytes none = {bytes, 0};
+    int inputs, count, again, made, i;
     size_t k, at = 0;
+    made = strcmp(stages[which].stage, "decide") == 0 && !left_as_it_is(&b);
     for (inputs = 0; inputs < CONF_MAX_INPUTS && stages[which].in[inputs].name != NULL; inputs++) {
-        in[inputs] = input_of(&stages[which].in[inputs], data[inputs], &b);
+        in[inputs] = input_of(&stages[which].in[inputs], data[inputs], made ? &none : &b);
     }
-    if (strcmp(stages[which].stage, "decide") == 0) {
+    if (made) {
         make_evidence(&b);
     } else if (strcmp(stages[which].stage, "rim") == 0) {
         make_disc(&in[0], &b);
