@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A pure C function as Verilog of several clocks: what verilog.py made of it, cut into stages.
 
-usage: verilog.py IR FUNCTION asked=in out=out | stages.py MODULE NANOSECONDS
+usage: verilog.py IR FUNCTION asked=in out=out | stages.py MODULE NANOSECONDS [EVERY FIXED LATE]
 
 The module's input is the struct 'asked', whose words must stay as they are until it is done, so that a value used in a later
 stage than its own needs one register, not one a stage. A stage takes as many operations one after another as fit the
@@ -9,6 +9,10 @@ nanoseconds by an estimate. 'step' counts clocks from 0 with the input there; in
 right. A product takes two stages, to one of a few multipliers, which others have in other stages, and through it, and stays in
 a register. One with a wide factor is the sum of products of the factors' halves, which have registers: the sum is made in the
 third stage, in whose clock alone it is right, and so is what is made of it there.
+
+With EVERY the next input may come as few clocks after the one before, at 'start', not at a step told: a value that is used later
+than that is handed on through registers, and stages farther apart share no multiplier. 'busy' is what is under way. The lowest
+FIXED bits of the input are taken as they are, from stage LATE on: they stay, or are the output of the one before.
 """
 import re
 import sys
@@ -18,6 +22,7 @@ NARROW, WIDE = 18, 33
 CHOICE = 4.0  # nanoseconds of a multiplier's choice of a factor
 HALF = 17  # bits of a wide factor's lower half, without a sign
 SUM = 7.0  # nanoseconds of the halves' products
+NEVER = 1 << 16  # clocks
 
 
 def delay(expression, bits):
@@ -64,12 +69,31 @@ def sum_of(terms, kind):
 
 def main():
     module, period = sys.argv[1], float(sys.argv[2])
+    every, fixed_bits, late = [int(n) for n in sys.argv[3:]] or (NEVER, 0, 0)
+    pipelined = every < NEVER
     text = sys.stdin.read()
     lines = re.findall(r"^    wire (?:\[(\d+):0\] )?(\w+) = (.*);$", text, re.M)
     given = {u: int(n) for u, n in re.findall(r"^    // (\w+): (\d+) bits$", text, re.M)}
-    width, made, stage, time, extended = dict(given), [], {u: 0 for u in given}, {u: 0.0 for u in given}, {}
-    kept, held, low, last, pools = {}, set(), {}, 0, {}
+    fixed = {u for u in given if int(u[len("asked_") :]) < fixed_bits}
+    width, made, extended, outs = dict(given), [], {}, []
+    stage, time = {u: late if u in fixed else 0 for u in given}, {u: 0.0 for u in given}
+    kept, held, low, last, pools = {}, set(given), {}, 0, {}  # kept: a register -> what it takes, the value, and when
     summed = {}  # a wide product, and what is made of it in its stage -> the step in which it is right
+
+    def now(at):
+        return f"step[{at}]" if pipelined else f"step == 8'd{at}"
+
+    def there(u, at):
+        """What has the value in that stage: its wire, until its input changes, or a register."""
+        name, end = u, stage[u] + (every if u in held else 1)
+        while at >= end and not (u in held and u in fixed):
+            taken = f"if ({now(end - 1)}) " if pipelined or u in summed else ""
+            kept[f"{name}_q"] = (name, u, taken)
+            if u in fixed:
+                return f"{name}_q"
+            name, end = f"{name}_q", end + every
+        return name
+
     for top, name, expression in lines:
         bits = width[name] = int(top or 0) + 1
         extension = re.fullmatch(r"\{\{(\d+)\{(?:(\w+)\[\d+\]|1'd0)\}\}, (\w+)\}", expression)
@@ -90,6 +114,11 @@ def main():
         if product:
             expression = f"{product[0][0]} * {product[1][0]}"
         used = [u for u in dict.fromkeys(re.findall(r"(?<!['\w])[a-z]\w*", expression)) if u != "signed"]
+        if name.startswith("out_"):
+            outs.append((name, bits, expression, used))
+            continue
+        if late == 0 and used and all(u in fixed for u in used):
+            fixed.add(name)
         at = max((stage[u] for u in used), default=0)
         if " / " in expression:
             sys.exit(f"stages.py: no divider for {expression}")
@@ -99,48 +128,59 @@ def main():
             at, before = at + 1, 0.0
         if product:
             kind = sum(n > NARROW for _, n, _ in product)
-            while len(pools.setdefault(kind, {}).setdefault(at, [])) == MULTIPLIERS:
-                at += 1
-        if name.startswith("out_") and any(u in summed for u in used):
-            at = max(at, last)
+            pool = pools.setdefault(kind, [])
+            while not (free := [k for k, uses in enumerate(pool) if all(0 < abs(at - other) < every for other in uses)]):
+                if sum(at - min(uses) < every for uses in pool) < MULTIPLIERS:
+                    pool.append({})
+                else:
+                    at += 1
+            which = free[0]
         for u in used:
-            if stage[u] < at and u not in given and u not in held:
-                kept[u] = None
-                expression = re.sub(rf"\b{u}\b", f"{u}_q", expression)
+            expression = re.sub(rf"\b{u}\b", there(u, at), expression)
         if product and kind:
-            made.append(f"    wire [{bits - 1}:0] {name} = product_{kind}_{len(pools[kind][at])};")
-            pools[kind][at].append(expression.split(" * "))
+            made.append(f"    wire [{bits - 1}:0] {name} = product_{kind}_{which};")
+            pool[which][at] = expression.split(" * ")
             summed[name] = at + 2
             at, before, own = at + 2, 0.0, SUM
         elif product:
-            made.append(f"    reg [{bits - 1}:0] {name};\n    always @(posedge clock) if (step == 8'd{at + 1}) "
-                        f"{name} <= product_{kind}_{len(pools[kind][at])};")
-            pools[kind][at].append(expression.split(" * "))
+            made.append(f"    reg [{bits - 1}:0] {name};\n    always @(posedge clock) if ({now(at + 1)}) "
+                        f"{name} <= product_{kind}_{which};")
+            pool[which][at] = expression.split(" * ")
             held.add(name)
             at, before, own = at + 2, 0.0, 0.0
         else:
             if any(u in summed and stage[u] == at for u in used):
                 summed[name] = at
-            what = f"assign out[{name[4:]} +: {bits}]" if name.startswith("out_") else f"wire [{bits - 1}:0] {name}"
-            made.append(f"    {what} = {expression};")
+            made.append(f"    wire [{bits - 1}:0] {name} = {expression};")
         stage[name], time[name], last = at, before + own, max(last, at)
-    size = {port: max(int(u[len(port) + 1 :]) + n for u, n in width.items() if u.startswith(port + "_"))
-            for port in ("asked", "out")}
+    for name, bits, expression, used in outs:
+        for u in used:
+            if pipelined or u in summed:
+                expression = re.sub(rf"\b{u}\b", there(u, last), expression)
+        made.append(f"    assign out[{name[4:]} +: {bits}] = {expression};")
+    if late and late + every <= last:
+        sys.exit(f"stages.py: {module}: what is late is not there {every} clocks after the one before: {last + 1} clocks")
+    size = {port: max(int(u.split("_")[1]) + n for u, n in ports)
+            for port, ports in (("asked", given.items()), ("out", [out[:2] for out in outs]))}
     print(f"// Made from C by hls/rtl/verilog.py and stages.py: {last + 1} clocks.")
-    print(f"module {module} (input wire clock, input wire [7:0] step, output wire done,")
+    steps = "input wire reset, input wire start, output wire busy" if pipelined else "input wire [7:0] step"
+    print(f"module {module} (input wire clock, {steps}, output wire done,")
     print(f"    input wire [{size['asked'] - 1}:0] asked, output wire [{size['out'] - 1}:0] out);")
-    print(f"    assign done = step == 8'd{last};")
+    if pipelined:
+        print(f"    reg [{last}:1] begun;\n    wire [{last}:0] step = {{begun, start}};\n    assign busy = |step;")
+        print(f"    always @(posedge clock) begun <= reset ? {last}'d0 : step[{last - 1}:0];")
+    print(f"    assign done = {now(last)};")
     print("\n".join(f"    wire [{n - 1}:0] {u} = asked[{u[6:]} +: {n}];" for u, n in given.items()))
-    print("\n".join(f"    reg [{width[n] - 1}:0] {n}_q;" for n in kept))
-    for kind, stages in pools.items():
-        for k in range(max(len(products) for products in stages.values())):
+    print("\n".join(f"    reg [{width[u] - 1}:0] {n};" for n, (_, u, _) in kept.items()))
+    for kind, pool in pools.items():
+        for k in range(len(pool)):
             print(f"    wire signed [{sum(sizes_of(kind)) - 1}:0] product_{kind}_{k};")
     print("\n".join(made))
-    for kind, stages in pools.items():
-        for k in range(max(len(products) for products in stages.values())):
+    for kind, pool in pools.items():
+        for k, uses in enumerate(pool):
             for side, n in enumerate(sizes_of(kind)):
-                *first, final = [(at, products[k][side]) for at, products in sorted(stages.items()) if len(products) > k]
-                choice = "".join(f"step == 8'd{at} ? {factor} : " for at, factor in first) + final[1]
+                *first, final = [(at, factors[side]) for at, factors in sorted(uses.items())]
+                choice = "".join(f"{now(at)} ? {factor} : " for at, factor in first) + final[1]
                 print(f"    reg signed [{n - 1}:0] factor_{kind}_{k}_{side};")
                 print(f"    always @(posedge clock) factor_{kind}_{k}_{side} <= {choice};")
             halves = [[f"factor_{kind}_{k}_{side}"] if n == NARROW else
@@ -154,7 +194,7 @@ def main():
                 print(f"    reg signed [{2 * NARROW - 1}:0] {part};\n    always @(posedge clock) {part} <= {a} * {b};")
             print(f"    assign product_{kind}_{k} = {sum_of(terms, kind)};")
     print("    always @(posedge clock) begin")
-    print("\n".join(f"        {f'if (step == 8{chr(39)}d{summed[n]}) ' if n in summed else ''}{n}_q <= {n};" for n in kept))
+    print("\n".join(f"        {taken}{n} <= {name};" for n, (name, _, taken) in kept.items()))
     print("    end\nendmodule")
 
 

@@ -29,12 +29,25 @@ static inline void words_of(uint32_t word[2], const drogue_edge *e)
     memcpy(word, __builtin_assume_aligned(&e->x_q5, 4), 8); /* two loads */
 }
 
-static inline void ask(const drogue_edge *e)
+/* Points, as UNIT_PLACE has them; 'what' is a part of the instruction. Two a turn: the unit takes one in eight clocks. */
+static inline __attribute__((always_inline)) void place(const drogue_edge *edges, uint32_t count, uint32_t stride,
+                                                        const int what)
 {
     uint32_t none;
-    uint32_t word[2];
-    words_of(word, e);
-    UNIT(none, UNIT_PLACE, 0, word[0], word[1]);
+    uint32_t i;
+    for (i = 0; i + stride < count; i += 2 * stride) {
+        uint32_t word[2];
+        uint32_t next[2];
+        words_of(word, &edges[i]);
+        words_of(next, &edges[i + stride]);
+        UNIT(none, UNIT_PLACE, what, word[0], word[1]);
+        UNIT(none, UNIT_PLACE, what, next[0], next[1]);
+    }
+    if (i < count) {
+        uint32_t word[2];
+        words_of(word, &edges[i]);
+        UNIT(none, UNIT_PLACE, what, word[0], word[1]);
+    }
     (void)none;
 }
 
@@ -78,23 +91,12 @@ uint32_t drogue_near_count(const drogue_ellipse_frame *frame, drogue_q16 thresho
 {
     static const drogue_band no_band = {0, 0, 0};
     static const band_reach no_reach = {0, 0};
-    uint32_t near_count = 0;
     uint32_t said;
-    uint32_t i;
-    if (count == 0) {
-        return 0;
-    }
     tell(frame, &no_band, no_reach, drogue_q16_mul(threshold, frame->b_px_q16));
-    ask(&edges[0]);
-    for (i = 1; i < count; i++) {
-        uint32_t word[2];
-        words_of(word, &edges[i]);
-        UNIT(said, UNIT_SAID, 0, 0, 0);
-        UNIT(word[0], UNIT_PLACE, 0, word[0], word[1]);
-        near_count += said >> POINT_NEAR & 1u;
-    }
-    UNIT(said, UNIT_SAID, 0, 0, 0);
-    return near_count + (said >> POINT_NEAR & 1u);
+    UNIT(said, UNIT_COUNT, 0, 0, 0);
+    place(edges, count, 1, 0);
+    UNIT(said, UNIT_COUNTED, COUNTED_NEAR, 0, 0);
+    return said;
 }
 
 void drogue_collect_arc(drogue_moments *moments, const drogue_edge *edges, uint32_t count)
@@ -139,7 +141,6 @@ void drogue_collect_edges(drogue_moments *moments, drogue_support *support, cons
                           uint32_t counted)
 {
     uint32_t none;
-    uint32_t i;
     uint32_t changed;
     if (count == 0) {
         return;
@@ -147,19 +148,7 @@ void drogue_collect_edges(drogue_moments *moments, drogue_support *support, cons
     tell(frame, band, reach_of(frame, band), 0);
     clear();
     UNIT(none, UNIT_COUNT, 0, support->bright_bins, (uint32_t)moments->n | (counted ? COUNT_OUT : 0));
-    for (i = 0; i + stride < count; i += 2 * stride) {
-        uint32_t word[2];
-        uint32_t next[2];
-        words_of(word, &edges[i]);
-        words_of(next, &edges[i + stride]);
-        UNIT(none, UNIT_PLACE, 1, word[0], word[1]);
-        UNIT(none, UNIT_PLACE, 1, next[0], next[1]);
-    }
-    if (i < count) {
-        uint32_t word[2];
-        words_of(word, &edges[i]);
-        UNIT(none, UNIT_PLACE, 1, word[0], word[1]);
-    }
+    place(edges, count, stride, 1);
     (void)none;
     add_counted(support);
     UNIT(changed, UNIT_COUNTED, COUNTED_MOMENTS, 0, 0);

@@ -23,6 +23,8 @@ void points_unit_place(const points_asked *restrict asked, points_said *restrict
                 ((uint32_t)q.offset_q16 & ((1u << POINT_BIN) - 1));
     }
     out->word = word;
+    out->place = a.place;
+    out->gradient = a.gradient;
 }
 
 void points_unit_count(const count_asked *restrict asked, count_said *restrict out)

@@ -26,8 +26,11 @@ enum {
     POINT_BIN = 24 /* five; below lies the offset */
 };
 
+/* And the point itself: the next ones were told meanwhile. */
 typedef struct points_said {
     uint32_t word;
+    uint32_t place;
+    uint32_t gradient;
 } points_said;
 
 void points_unit_place(const points_asked *restrict asked, points_said *restrict out);
@@ -61,7 +64,8 @@ enum {
     COUNTED_SUMS,    /* squares, gradient, points, word after word */
     COUNTED_COUNTS,  /* of the bin told, the second's in the upper half */
     COUNTED_OFFSETS, /* sum of the bin told */
-    COUNTED_MOMENTS  /* 1: they changed */
+    COUNTED_MOMENTS, /* 1: they changed */
+    COUNTED_NEAR     /* points that are near, of all that were placed */
 };
 
 /* Moments, and a point that they are to have once more, or, with 'out_of' 1, once less. */

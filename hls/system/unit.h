@@ -11,7 +11,7 @@ enum {
     UNIT_EXPONENT,
     UNIT_ZEROS,
     UNIT_TELL,  /* two words of points_asked */
-    UNIT_PLACE, /* what: 0, or 1 for a point that is to be counted */
+    UNIT_PLACE, /* what: 0, or 1 for a point that is to be counted; all alike until words are told anew */
     UNIT_SAID,
     UNIT_CLEAR, /* the moments */
     UNIT_ADD,

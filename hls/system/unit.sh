@@ -14,7 +14,7 @@ nanoseconds=13 # a stage, by stages.py's estimate
 work=build/hls/system/unit
 mkdir -p "$work"
 
-# part SOURCE FUNCTION: the module drogue_FUNCTION
+# part SOURCE FUNCTION [EVERY FIXED LATE]: the module drogue_FUNCTION; stages.py says what the others are
 part() {
     local straighten='loop-simplify,lcssa,loop-mssa(loop-rotate),loop(indvars,loop-unroll-full),sroa,' source bitcode=()
     for source in "hls/system/$1" src/arithmetic/fixed.c; do
@@ -26,14 +26,14 @@ part() {
     opt -passes="internalize,globaldce,cgscc(inline),function(${straighten}early-cse,simplifycfg,${straighten}instcombine,simplifycfg,early-cse,instcombine,adce),globaldce" \
         -internalize-public-api-list="$2" -inline-threshold=1000000 -unroll-threshold=1000000 -S "$work/$2.bc" -o "$work/$2.ll"
     python3 hls/rtl/verilog.py "$work/$2.ll" "$2" asked=in out=out >"$work/$2.wires"
-    python3 hls/rtl/stages.py "drogue_$2" "$nanoseconds" <"$work/$2.wires"
+    python3 hls/rtl/stages.py "drogue_$2" "$nanoseconds" "${@:3}" <"$work/$2.wires"
 }
 
 {
     part real_unit.c real_unit_linear
-    part points_unit.c points_unit_place
+    part points_unit.c points_unit_place 8 672 0 # what is told of the ellipse stays
     part points_unit.c points_unit_count
-    part points_unit.c points_unit_moments
+    part points_unit.c points_unit_moments 8 1280 4 # of the moments, the point before is there then
     part ray_unit.c ray_unit_place
     part ray_unit.c ray_unit_rows
     part ray_unit.c ray_unit_grey

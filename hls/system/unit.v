@@ -31,21 +31,23 @@ module drogue_unit (
         end
     endfunction
 
-    // Edge points: words of an ellipse, two at a time, then points. A point is asked for, and what is said of it fetched later.
+    // Edge points: words of an ellipse, two at a time, then points, one in eight clocks at most: of these so many are on their way,
+    // and so it is with moments. What is said of the last one is fetched later.
     reg [703:0] told;
     reg [63:0] point;
-    reg placing, adding, out_of;
-    reg [7:0] place_step, add_step;
-    reg [31:0] added;
+    reg place_starts, add_starts, out_of;
+    reg [2:0] place_waits, add_waits; // clocks until the next may start
+    wire placing, adding;
+    reg [31:0] added, near_points;
     reg [1279:0] moments;
     wire place_done, add_done;
-    wire [31:0] place_said;
+    wire [95:0] place_said;
     wire [1279:0] moments_next;
     reg [31:0] said;
     drogue_points_unit_place place (
-        .clock(clock), .step(place_step), .done(place_done), .asked({point, told[671:0]}), .out(place_said));
+        .clock(clock), .reset(reset), .start(place_starts), .busy(placing), .done(place_done), .asked({point, told[671:0]}), .out(place_said));
     drogue_points_unit_moments add (
-        .clock(clock), .step(add_step), .done(add_done), .asked({31'd0, out_of, added, moments}), .out(moments_next));
+        .clock(clock), .reset(reset), .start(add_starts), .busy(adding), .done(add_done), .asked({31'd0, out_of, added, moments}), .out(moments_next));
 
     // Points that are counted: one that is held in its bin and in a support's sums, and one whose place among the moments changes is
     // added to them or taken out, as drogue_collect_edges() does, while the next one's place is worked out.
@@ -142,8 +144,8 @@ module drogue_unit (
     wire second_bit = second_left >= second_by;
     wire [34:0] after = second_bit ? second_left - second_by : second_left;
 
-    // A quotient of whole numbers, rounded down, two bits a clock, sixteen that are 0 at once: the one that was told, then what is
-    // divided, whose place the quotient takes. That of reals has 31 bits and is rounded to nearest, by one bit more: it begins with the
+    // A quotient of whole numbers, rounded down, two bits a clock, four by a divisor of 32 bits, sixteen that are 0 at once: the one
+    // that was told, then what is divided, whose place the quotient takes. That of reals has 31 bits and is rounded to nearest, by one bit more: it begins with the
     // divided number's upper word already there.
     reg divides, rounds, negative, none; // of reals
     reg [63:0] divisor, dividend, remains;
@@ -154,11 +156,23 @@ module drogue_unit (
     wire below = dividend[31:0] < divisor[31:0];
     wire [31:0] rounded = {1'b0, dividend[31:1]} + {31'd0, dividend[0]};
     wire [1:0] divided = !less_2[66] ? {1'b1, !less_3[66]} : {1'b0, !less_1[66]};
+    wire narrow = divisor[63:32] == 32'd0;
+    wire [34:0] short = {1'b0, remains[31:0], dividend[63:62]};
+    wire [34:0] short_1 = short - {3'd0, divisor[31:0]}, short_2 = short - {2'd0, divisor[31:0], 1'b0}, short_3 = short - {1'b0, thrice[33:0]};
+    wire [1:0] upper = !short_2[34] ? {1'b1, !short_3[34]} : {1'b0, !short_1[34]};
+    wire [31:0] short_left = upper[1] ? upper[0] ? short_3[31:0] : short_2[31:0] : upper[0] ? short_1[31:0] : short[31:0];
+    wire [34:0] next = {1'b0, short_left, dividend[61:60]};
+    wire [34:0] next_1 = next - {3'd0, divisor[31:0]}, next_2 = next - {2'd0, divisor[31:0], 1'b0}, next_3 = next - {1'b0, thrice[33:0]};
+    wire [1:0] lower = !next_2[34] ? {1'b1, !next_3[34]} : {1'b0, !next_1[34]};
+    wire [31:0] next_left = lower[1] ? lower[0] ? next_3[31:0] : next_2[31:0] : lower[0] ? next_1[31:0] : next[31:0];
+    wire divide_last = narrow ? divide_step == 6'd2 : divide_step == 6'd1;
+    wire [63:0] quotient_next = narrow ? {dividend[59:0], upper, lower} : {dividend[61:0], divided};
     wire [66:0] remains_next = divided[1] ? divided[0] ? less_3 : less_2 : divided[0] ? less_1 : part;
 
     wire [6:0] unit = {2'd0, function_id[7:3]}; // there are thirty-two: the next are those again
-    assign ready = !busy && !kept && !(placing && (unit == 7'd4 || unit == 7'd5 || unit == 7'd6)) &&
-        !(adding && (unit == 7'd7 || unit == 7'd8 || unit == 7'd9)) && !(settling && unit[6:1] == 6'd13) && !(unit == 7'd14 && !there) &&
+    assign ready = !busy && !kept && !(placing && (unit == 7'd4 || unit == 7'd6)) &&
+        !(place_waits != 3'd0 && unit == 7'd5) && !(add_waits != 3'd0 && unit == 7'd8) &&
+        !(adding && (unit == 7'd7 || unit == 7'd9)) && !(settling && unit[6:1] == 6'd13) && !(unit == 7'd14 && !there) &&
         !(unit == 7'd23 && function_id[2:0] == 3'd0 && !peak && !sought) &&
         !(fitting && (unit == 7'd16 || unit == 7'd17 || unit == 7'd19 || unit == 7'd20 || unit == 7'd21));
     wire begins = asked && ready;
@@ -186,19 +200,23 @@ module drogue_unit (
             3'd2: at_once = {bin_counts[asked_count | 6'd1] & {16{counts_told[asked_count | 6'd1]}},
                 bin_counts[asked_count] & {16{counts_told[asked_count]}}};
             3'd3: at_once = bin_sums[first[4:0]];
-            default: at_once = {31'd0, moments_changed};
+            3'd4: at_once = {31'd0, moments_changed};
+            default: at_once = near_points;
         endcase
         default: at_once = 32'd0;
     endcase
     wire [31:0] worked_out = rounds ? none ? 32'd0 : negative ? -rounded : rounded :
-        root_step != 5'd0 ? root : divide_step != 6'd0 ? {dividend[29:0], divided} : linear_real[31:0];
+        root_step != 5'd0 ? root : divide_step != 6'd0 ? quotient_next[31:0] : linear_real[31:0];
 
     always @(posedge clock) begin
         if (busy || begins) answer <= busy ? worked_out : at_once;
-        step <= begins ? 8'd0 : step + 8'd1;
-        place_step <= place_step + 8'd1;
+        // What has no product (set, sum, difference) begins a clock later in the unit's schedule: it waits for no multiplier.
+        step <= begins ? {7'd0, function_id[2:0] < 3'd3} : step + 8'd1;
+        place_starts <= begins && unit == 7'd5;
+        if (place_waits != 3'd0) place_waits <= place_waits - 3'd1;
         count_step <= count_step + 8'd1;
-        add_step <= add_step + 8'd1;
+        add_starts <= begins && unit == 7'd8;
+        if (add_waits != 3'd0) add_waits <= add_waits - 3'd1;
         fit_step <= fit_step + 8'd1;
         if (taken) begin
             kept <= 1'b0;
@@ -226,15 +244,13 @@ module drogue_unit (
             7'd5: begin
                 point <= {second, first};
                 counts_it <= function_id[0];
-                place_step <= 8'd0;
-                placing <= 1'b1;
+                place_waits <= 3'd7;
             end
             7'd7: moments <= 1280'd0;
             7'd8: begin
                 added <= first;
                 out_of <= second[0];
-                add_step <= 8'd0;
-                adding <= 1'b1;
+                add_waits <= 3'd7;
             end
             7'd9: moments <= {moments[31:0], moments[1279:32]};
             7'd10: image <= {second, first};
@@ -278,7 +294,7 @@ module drogue_unit (
                 bright_bins <= first;
                 points_in <= {1'b0, second[30:0]};
                 counted_out <= second[31];
-                {support, counts_told, moments_changed} <= 225'd0;
+                {support, counts_told, moments_changed, near_points} <= 257'd0;
             end
             7'd27: if (function_id[2:0] == 3'd1) support <= {32'd0, support[159:32]};
             default: ;
@@ -288,10 +304,9 @@ module drogue_unit (
             exponent <= linear_real[63:32];
             answered <= 1'b1;
         end
-        if (placing && place_done) begin
-            placing <= 1'b0;
-            said <= place_said;
-            {its_gradient, its_place} <= point;
+        if (place_done) begin
+            {its_gradient, its_place, said} <= place_said;
+            near_points <= near_points + {31'd0, place_said[30]};
             judging <= counts_it;
         end
         if (judging) begin
@@ -312,21 +327,18 @@ module drogue_unit (
             counts_told <= counts_told | 64'd1 << its_count;
             own <= count_said[224];
         end
-        if (deciding) begin
+        if (deciding && add_waits == 3'd0) begin // before the next point's judging: one that is not held is not counted, and overtakes
             deciding <= 1'b0;
             if (own != counted_out && (!own || points_in < 32'd131072)) begin
                 points_in <= points_in + (own ? 32'd1 : 32'hFFFFFFFF);
                 moments_changed <= 1'b1;
                 added <= its_place;
                 out_of <= !own;
-                add_step <= 8'd0;
-                adding <= 1'b1;
+                add_starts <= 1'b1;
+                add_waits <= 3'd7;
             end
         end
-        if (adding && add_done) begin
-            adding <= 1'b0;
-            moments <= moments_next;
-        end
+        if (add_done) moments <= moments_next;
         if (fitting && fit_done) begin
             fitting <= 1'b0;
             sums <= sums_next;
@@ -402,13 +414,13 @@ module drogue_unit (
             dividend <= {dividend[47:0], 16'd0};
             divide_step <= divide_step - 6'd8;
         end else if (divide_step != 6'd0) begin
-            dividend <= {dividend[61:0], divided};
-            remains <= remains_next[63:0];
-            divide_step <= divide_step - 6'd1;
-            rounds <= divide_step == 6'd1 && divides;
-            if (divide_step == 6'd1 && !divides) begin
+            dividend <= quotient_next;
+            remains <= narrow ? {32'd0, next_left} : remains_next[63:0];
+            divide_step <= narrow ? {divide_step[5:1] - 5'd1, 1'b0} : divide_step - 6'd1; // narrow from the first one on, which is even
+            rounds <= divide_last && divides;
+            if (divide_last && !divides) begin
                 busy <= 1'b0;
-                exponent <= dividend[61:30];
+                exponent <= quotient_next[63:32];
                 answered <= 1'b1;
             end
         end
@@ -432,7 +444,8 @@ module drogue_unit (
             answered <= 1'b1;
         end
         if (reset) begin
-            {busy, answered, placing, adding, fitting, root_step, divide_step} <= 16'd0;
+            {busy, answered, place_starts, add_starts, fitting, root_step, divide_step} <= 16'd0;
+            {place_waits, add_waits} <= 6'd0;
             {kept, rounds, judging, counting, deciding} <= 5'd0;
             {placing_sample, rowing, mixing, there, fetch} <= 7'd0;
             {seeking, sloping, peak, sought} <= 4'd0;
