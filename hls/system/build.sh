@@ -52,14 +52,14 @@ firmware() {
     # what the soft core's clocks go into, and where reals stand where they are called; all else is small, so that it fits the RAM at
     # 256 px, and shares the code that saves registers
     local hot=(src/arithmetic/{fixed,real}.c src/frontend/noise.c src/outline/{cluster,constraints,rays,slopes,support}.c
-        src/pose/joint.c src/search/cells.c)
-    local reals=(src/arithmetic/{cholesky,eigen}.c src/track/kalman.c src/outline/{ellipse,moments}.c src/pose/joint_model.c)
-    local flags=(-march=rv32im -mabi=ilp32 -std=c99 -Os -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
+        src/search/cells.c)
+    local reals=(src/arithmetic/{cholesky,eigen}.c src/track/kalman.c src/outline/{ellipse,moments}.c src/pose/{joint,joint_model}.c)
+    local flags=(-mtune=size -march=rv32im -mabi=ilp32 -std=c99 -Os -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
     rm -rf "$1/objects"
     mkdir -p "$1/objects"
     (cd "$1/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -msave-restore -c &&
         riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 "${hot[@]/#/$root/}" -c &&
-        riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 -DREAL_WHERE_CALLED -include "$root/hls/system/real.c" \
+        riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 -mtune=rocket -DREAL_WHERE_CALLED -include "$root/hls/system/real.c" \
             "${reals[@]/#/$root/}" -c)
     # what hls/system has by the units goes before the library's; what that calls stays strong, or no archive would give it
     local own

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Least squares over rays by the unit beside the soft core, in the place of the library's function; that one does those
  * that are weighted. */
+#define REAL_WHERE_CALLED
+#include "real.c"
+
 #define drogue_ray_sums_add_edges add_edges_by_core
 #define drogue_ray_sums_settle settle_by_core /* left out by the linker */
 #include "../../src/inner/fit.c"
