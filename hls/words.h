@@ -64,7 +64,7 @@ typedef struct drogue_hls_parameters {
     R(MIN_COVER, drogue_q16, config.min_cover_q16)                 \
     R(RECENTRE_COVER, drogue_q16, config.recentre_cover_q16)       \
     R(OPTICS_BLUR, drogue_q16, config.optics_blur_px_q16)          \
-    R(MIN_DARK_AREA, uint32_t, config.min_inner_area_px)            \
+    R(MIN_INNER_AREA, uint32_t, config.min_inner_area_px)           \
     R(MIN_INNER_CONTRAST, int32_t, config.min_inner_contrast)      \
     R(INNER_GATE_PX, drogue_q16, config.inner_gate_px_q16)         \
     R(INNER_GATE, drogue_q16, config.inner_gate_q16)               \

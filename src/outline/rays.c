@@ -33,16 +33,17 @@ static inline int32_t between_q8(const uint8_t *at, int32_t right, int32_t strid
 }
 
 /* The same of light, which the levels are encoded from. */
+static inline int32_t light_row_q8(const uint8_t *at, int32_t right, int32_t part_q8)
+{
+    const uint16_t *light = drogue_srgb_light_q8;
+    return (light[at[0]] * (256 - part_q8) + light[at[right]] * part_q8 + 128) >> 8;
+}
+
 static inline int32_t light_between_q8(const uint8_t *at, int32_t right, int32_t stride, int32_t x_px_q16,
                                        int32_t y_px_q16)
 {
-    const uint16_t *light = drogue_srgb_light_q8;
-    const int32_t fx = (x_px_q16 >> 8) & 255;
-    const int32_t fy = (y_px_q16 >> 8) & 255;
-    const uint8_t *below = at + stride;
-    const int32_t upper = (light[at[0]] * (256 - fx) + light[at[right]] * fx + 128) >> 8;
-    const int32_t lower = (light[below[0]] * (256 - fx) + light[below[right]] * fx + 128) >> 8;
-    return mixed_q8(upper, lower, fy);
+    const int32_t fx = part_q8_of(x_px_q16);
+    return mixed_q8(light_row_q8(at, right, fx), light_row_q8(at + stride, right, fx), part_q8_of(y_px_q16));
 }
 
 static inline const uint8_t *pixel(const drogue_image *image, int32_t x_px_q16, int32_t y_px_q16)
