@@ -3,7 +3,8 @@
  *
  * Rows of pixels go in; block means of 2, 4, 8 ... 64 px a side come about in line buffers, one level for each octave
  * of the drogue's size. In each level a cell that is darker than a circle of eight cells about it, for one of three
- * radii (four in the first level), is a dark disc; rays from it look for the rim, and a circle through what they meet gives centre and size.
+ * radii (four in the first level), is a dark disc; rays from it look for the rim, and a circle through what they meet
+ * gives centre and size.
  * The inner part is darker than the canopy on every background, so neither the canopy's own grey nor the
  * background's matters. The best few are regions for drogue_measure(). Where the rim is half lit or as grey as what is
  * behind it, the inner part is still a round disc that is darker than all about it by most of its grey: the best few
