@@ -6,23 +6,27 @@
 
 const char *drogue_block_status_name(drogue_block_status status)
 {
-    static const char *const names[DROGUE_BLOCK_STATUSES] = {"ok",    "absent", "small",  "busy",
+    static const char *const names[DROGUE_BLOCK_STATUSES] = {"ok",    "absent", "small",  "large", "busy",
                                                              "early", "stuck",  "length", "list"};
     return (unsigned)status < DROGUE_BLOCK_STATUSES ? names[status] : "unknown";
 }
 
 drogue_block_status drogue_block_examine(const drogue_bank_of_registers *bank, const drogue_capacity *capacity)
 {
+    uint32_t edges; /* more than the workspace's; "negative": fewer */
+    uint32_t arcs;
+    uint32_t labels;
     if (drogue_bank_read(bank, DROGUE_BANK_IDENTITY) != DROGUE_BANK_IS) {
         return DROGUE_BLOCK_ABSENT;
     }
-    return drogue_bank_read(bank, DROGUE_BANK_WIDTH) < capacity->width_px ||
-                   drogue_bank_read(bank, DROGUE_BANK_EDGES) < capacity->edges ||
-                   drogue_bank_read(bank, DROGUE_BANK_ARCS) < capacity->arcs ||
-                   drogue_bank_read(bank, DROGUE_BANK_LABELS) < capacity->labels ||
-                   capacity->edges > DROGUE_BANK_LIST_WORDS
-               ? DROGUE_BLOCK_SMALL
-               : DROGUE_BLOCK_OK;
+    edges = drogue_bank_read(bank, DROGUE_BANK_EDGES) - capacity->edges;
+    arcs = drogue_bank_read(bank, DROGUE_BANK_ARCS) - capacity->arcs;
+    labels = drogue_bank_read(bank, DROGUE_BANK_LABELS) - capacity->labels;
+    if ((edges | arcs | labels) >> 31 || capacity->edges > DROGUE_BANK_LIST_WORDS ||
+        drogue_bank_read(bank, DROGUE_BANK_WIDTH) < capacity->width_px) {
+        return DROGUE_BLOCK_SMALL;
+    }
+    return edges | arcs | labels ? DROGUE_BLOCK_LARGE : DROGUE_BLOCK_OK;
 }
 
 drogue_block_status drogue_block_start(const drogue_bank_of_registers *bank, const drogue_block_frame *frame,

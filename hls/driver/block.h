@@ -18,6 +18,7 @@ typedef enum drogue_block_status {
     DROGUE_BLOCK_OK = 0,
     DROGUE_BLOCK_ABSENT, /* no front end at that address, or one of another kind */
     DROGUE_BLOCK_SMALL,  /* its tables are smaller than the workspace's: it could not do what the library does */
+    DROGUE_BLOCK_LARGE,  /* one is larger: it would not fill where the library's does */
     DROGUE_BLOCK_BUSY,   /* the frame before is still under way: nothing was started, or read */
     DROGUE_BLOCK_EARLY,  /* no frame has ended since the last start: nothing was read */
     DROGUE_BLOCK_STUCK,  /* the frame did not end in time; the block was reset */
@@ -51,7 +52,12 @@ typedef struct drogue_block_frame {
     uint32_t stride;
 } drogue_block_frame;
 
-/* Is there a block, and does it hold what the workspace holds?  OK, ABSENT, SMALL. */
+/* Is there a block, and does it hold what the workspace holds?  OK, ABSENT, SMALL, LARGE.
+ *
+ * It may take wider regions. Its tables of edge points, arcs and labels have as many entries as the workspace's and not
+ * one more: where a table fills, the library tries other thresholds and the result says so; a larger one fills later or
+ * not at all, and the bits would be others. So the workspace has DROGUE_CAPACITY_FOR(WIDTH) for a block of rtl.sh WIDTH;
+ * who wants a smaller workspace makes a smaller block. */
 drogue_block_status drogue_block_examine(const drogue_bank_of_registers *bank, const drogue_capacity *capacity);
 
 /* Start a frame and return at once.  interrupt  1: the block's line goes high at the end of this frame, until

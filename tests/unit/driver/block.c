@@ -8,14 +8,12 @@
 #include "drogue_hls.h"
 #include "frontend/frontend.h"
 
-enum { SIDE = 64, LABELS = 400, WORDS = 0x30000 / 4 };
+enum { SIDE = 64, WORDS = 0x30000 / 4, MAPPED = DROGUE_BANK_LIST_WORDS };
 
 /* What the bank does wrong, once. */
 typedef enum fault {
     NONE,
     OTHER_IDENTITY,
-    SMALL_TABLE,
-    FEW_LABELS,
     LARGE_TABLE,
     NEVER_ENDS,
     EDGES_TOO_MANY,
@@ -74,9 +72,9 @@ uint32_t drogue_bank_read(const drogue_bank_of_registers *of, uint32_t offset)
     switch (offset) {
     case DROGUE_BANK_IDENTITY: return DROGUE_BANK_IS + (wrong == OTHER_IDENTITY);
     case DROGUE_BANK_WIDTH: return SIDE;
-    case DROGUE_BANK_EDGES: return wrong == SMALL_TABLE ? 10 : wrong == LARGE_TABLE ? 10000 : DROGUE_HLS_EDGES;
+    case DROGUE_BANK_EDGES: return wrong == LARGE_TABLE ? MAPPED + 1 : DROGUE_HLS_EDGES;
     case DROGUE_BANK_ARCS: return DROGUE_HLS_ARCS;
-    case DROGUE_BANK_LABELS: return wrong == FEW_LABELS ? LABELS - 1 : DROGUE_HLS_LABELS;
+    case DROGUE_BANK_LABELS: return DROGUE_HLS_LABELS;
     case DROGUE_BANK_STATE:
         if (polls_left > 0 && wrong != NEVER_ENDS && --polls_left == 0) {
             run_block();
@@ -147,7 +145,7 @@ static test_workspace begin(fault f)
     memset(words, 0, sizeof words);
     draw_disc();
     drogue_block_use(&bank);
-    return test_workspace_of(SIDE, 400, LABELS, 20);
+    return test_workspace_of(SIDE, DROGUE_HLS_EDGES, DROGUE_HLS_LABELS, DROGUE_HLS_ARCS);
 }
 
 /* A frame from start to lists; returns what reading them gave. */
@@ -265,17 +263,33 @@ START_TEST(another_block)
     drogue_capacity wide = t.workspace.capacity;
     wide.width_px = SIDE + 1;
     ck_assert_int_eq(drogue_block_examine(&bank, &t.workspace.capacity), DROGUE_BLOCK_ABSENT);
-    wrong = SMALL_TABLE;
-    ck_assert_int_eq(drogue_block_examine(&bank, &t.workspace.capacity), DROGUE_BLOCK_SMALL);
-    wrong = FEW_LABELS;
-    ck_assert_int_eq(drogue_block_examine(&bank, &t.workspace.capacity), DROGUE_BLOCK_SMALL);
     wrong = NONE;
     ck_assert_int_eq(drogue_block_examine(&bank, &wide), DROGUE_BLOCK_SMALL);
+    wide.width_px = SIDE - 1; /* line buffers alone: no list differs */
+    ck_assert_int_eq(drogue_block_examine(&bank, &wide), DROGUE_BLOCK_OK);
     wrong = LARGE_TABLE; /* longer than the map */
-    t.workspace.capacity.edges = DROGUE_BANK_LIST_WORDS;
-    ck_assert_int_eq(drogue_block_examine(&bank, &t.workspace.capacity), DROGUE_BLOCK_OK);
-    t.workspace.capacity.edges++;
+    t.workspace.capacity.edges = MAPPED + 1;
     ck_assert_int_eq(drogue_block_examine(&bank, &t.workspace.capacity), DROGUE_BLOCK_SMALL);
+    test_workspace_free(&t);
+}
+END_TEST
+
+/* A table with an entry less or more than the workspace's is not the library's. */
+START_TEST(tables_of_other_sizes)
+{
+    static const size_t tables[] = {offsetof(drogue_capacity, edges), offsetof(drogue_capacity, arcs),
+                                    offsetof(drogue_capacity, labels)};
+    test_workspace t = begin(NONE);
+    size_t i;
+    for (i = 0; i < sizeof tables / sizeof tables[0]; i++) {
+        drogue_capacity capacity = t.workspace.capacity;
+        uint32_t *entries = (uint32_t *)(void *)((char *)&capacity + tables[i]);
+        ck_assert_int_eq(drogue_block_examine(&bank, &capacity), DROGUE_BLOCK_OK);
+        ++*entries;
+        ck_assert_int_eq(drogue_block_examine(&bank, &capacity), DROGUE_BLOCK_SMALL);
+        *entries -= 2;
+        ck_assert_int_eq(drogue_block_examine(&bank, &capacity), DROGUE_BLOCK_LARGE);
+    }
     test_workspace_free(&t);
 }
 END_TEST
@@ -352,13 +366,39 @@ START_TEST(a_full_table)
 }
 END_TEST
 
+/* In a workspace whose tables are smaller than the block's the library would say that one is full; the block, which has
+ * room for more, does not: it is refused, rather than its list. */
+START_TEST(a_table_that_the_block_would_not_fill)
+{
+    test_workspace t = begin(NONE);
+    const drogue_capacity all = t.workspace.capacity;
+    drogue_edge_list list;
+    uint32_t points;
+    ck_assert_int_eq(through_rows(&list, &t, memory, SIDE, SIDE), DROGUE_OK);
+    points = list.edge_count;
+    t.workspace.capacity.edges = points - 1; /* too many points for the workspace */
+    ck_assert_int_eq(through_rows(&list, &t, memory, SIDE, SIDE), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_block_last(), DROGUE_BLOCK_LARGE);
+    t.workspace.capacity.edges = points; /* and just room for them: weak points took some of it */
+    ck_assert_int_eq(through_rows(&list, &t, memory, SIDE, SIDE), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_block_last(), DROGUE_BLOCK_LARGE);
+    t.workspace.capacity = all;
+    ck_assert_int_eq(through_rows(&list, &t, memory, SIDE, SIDE), DROGUE_OK);
+    ck_assert_uint_eq(list.edge_count, points);
+    ck_assert_uint_eq(starts, 2);
+    test_workspace_free(&t);
+}
+END_TEST
+
 START_TEST(names)
 {
     ck_assert_str_eq(drogue_block_status_name(DROGUE_BLOCK_OK), "ok");
+    ck_assert_str_eq(drogue_block_status_name(DROGUE_BLOCK_LARGE), "large");
     ck_assert_str_eq(drogue_block_status_name(DROGUE_BLOCK_LIST), "list");
     ck_assert_str_eq(drogue_block_status_name(DROGUE_BLOCK_STATUSES), "unknown");
 }
 END_TEST
 
 SUITE_MAIN("block", a_frame, lists_that_cannot_be, too_early_and_too_late, an_interrupt_a_frame, another_block,
-           in_the_place_of_the_front_end, a_full_table, names)
+           tables_of_other_sizes, in_the_place_of_the_front_end, a_full_table, a_table_that_the_block_would_not_fill,
+           names)
