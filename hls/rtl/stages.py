@@ -11,7 +11,8 @@ a register. One with a wide factor is the sum of products of the factors' halves
 third stage, in whose clock alone it is right, and so is what is made of it there.
 
 With EVERY the next input may come as few clocks after the one before, at 'start', not at a step told: a value that is used later
-than that is handed on through registers, and stages farther apart share no multiplier. 'busy' is what is under way. The lowest
+than that is handed on through registers, and stages farther apart share no multiplier. 'more' is high where something is under
+way in the next clock. The lowest
 FIXED bits of the input are taken as they are, from stage LATE on: they stay, or are the output of the one before.
 """
 import re
@@ -163,11 +164,11 @@ def main():
     size = {port: max(int(u.split("_")[1]) + n for u, n in ports)
             for port, ports in (("asked", given.items()), ("out", [out[:2] for out in outs]))}
     print(f"// Made from C by hls/rtl/verilog.py and stages.py: {last + 1} clocks.")
-    steps = "input wire reset, input wire start, output wire busy" if pipelined else "input wire [7:0] step"
+    steps = "input wire reset, input wire start, output wire more" if pipelined else "input wire [7:0] step"
     print(f"module {module} (input wire clock, {steps}, output wire done,")
     print(f"    input wire [{size['asked'] - 1}:0] asked, output wire [{size['out'] - 1}:0] out);")
     if pipelined:
-        print(f"    reg [{last}:1] begun;\n    wire [{last}:0] step = {{begun, start}};\n    assign busy = |step;")
+        print(f"    reg [{last}:1] begun;\n    wire [{last}:0] step = {{begun, start}};\n    assign more = |step[{last - 1}:0];")
         print(f"    always @(posedge clock) begun <= reset ? {last}'d0 : step[{last - 1}:0];")
     print(f"    assign done = {now(last)};")
     print("\n".join(f"    wire [{n - 1}:0] {u} = asked[{u[6:]} +: {n}];" for u, n in given.items()))

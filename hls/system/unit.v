@@ -35,9 +35,9 @@ module drogue_unit (
     // and so it is with moments. What is said of the last one is fetched later.
     reg [703:0] told;
     reg [63:0] point;
-    reg place_starts, add_starts, out_of;
-    reg [2:0] place_waits, add_waits; // clocks until the next may start
-    wire placing, adding;
+    reg placing, adding, place_starts, add_starts, out_of;
+    reg [6:0] place_waits, add_waits; // as many bits as clocks until the next may start
+    wire place_more, add_more;
     reg [31:0] added, near_points;
     reg [1279:0] moments;
     wire place_done, add_done;
@@ -45,9 +45,11 @@ module drogue_unit (
     wire [1279:0] moments_next;
     reg [31:0] said;
     drogue_points_unit_place place (
-        .clock(clock), .reset(reset), .start(place_starts), .busy(placing), .done(place_done), .asked({point, told[671:0]}), .out(place_said));
+        .clock(clock), .reset(reset), .start(place_starts), .more(place_more), .done(place_done),
+        .asked({point, told[671:0]}), .out(place_said));
     drogue_points_unit_moments add (
-        .clock(clock), .reset(reset), .start(add_starts), .busy(adding), .done(add_done), .asked({31'd0, out_of, added, moments}), .out(moments_next));
+        .clock(clock), .reset(reset), .start(add_starts), .more(add_more), .done(add_done),
+        .asked({31'd0, out_of, added, moments}), .out(moments_next));
 
     // Points that are counted: one that is held in its bin and in a support's sums, and one whose place among the moments changes is
     // added to them or taken out, as drogue_collect_edges() does, while the next one's place is worked out.
@@ -145,8 +147,8 @@ module drogue_unit (
     wire [34:0] after = second_bit ? second_left - second_by : second_left;
 
     // A quotient of whole numbers, rounded down, two bits a clock, four by a divisor of 32 bits, sixteen that are 0 at once: the one
-    // that was told, then what is divided, whose place the quotient takes. That of reals has 31 bits and is rounded to nearest, by one bit more: it begins with the
-    // divided number's upper word already there.
+    // that was told, then what is divided, whose place the quotient takes. That of reals has 31 bits and is rounded to nearest, by one
+    // bit more: it begins with the divided number's upper word already there.
     reg divides, rounds, negative, none; // of reals
     reg [63:0] divisor, dividend, remains;
     reg [65:0] thrice;
@@ -158,11 +160,13 @@ module drogue_unit (
     wire [1:0] divided = !less_2[66] ? {1'b1, !less_3[66]} : {1'b0, !less_1[66]};
     wire narrow = divisor[63:32] == 32'd0;
     wire [34:0] short = {1'b0, remains[31:0], dividend[63:62]};
-    wire [34:0] short_1 = short - {3'd0, divisor[31:0]}, short_2 = short - {2'd0, divisor[31:0], 1'b0}, short_3 = short - {1'b0, thrice[33:0]};
+    wire [34:0] short_1 = short - {3'd0, divisor[31:0]}, short_2 = short - {2'd0, divisor[31:0], 1'b0},
+        short_3 = short - {1'b0, thrice[33:0]};
     wire [1:0] upper = !short_2[34] ? {1'b1, !short_3[34]} : {1'b0, !short_1[34]};
     wire [31:0] short_left = upper[1] ? upper[0] ? short_3[31:0] : short_2[31:0] : upper[0] ? short_1[31:0] : short[31:0];
     wire [34:0] next = {1'b0, short_left, dividend[61:60]};
-    wire [34:0] next_1 = next - {3'd0, divisor[31:0]}, next_2 = next - {2'd0, divisor[31:0], 1'b0}, next_3 = next - {1'b0, thrice[33:0]};
+    wire [34:0] next_1 = next - {3'd0, divisor[31:0]}, next_2 = next - {2'd0, divisor[31:0], 1'b0},
+        next_3 = next - {1'b0, thrice[33:0]};
     wire [1:0] lower = !next_2[34] ? {1'b1, !next_3[34]} : {1'b0, !next_1[34]};
     wire [31:0] next_left = lower[1] ? lower[0] ? next_3[31:0] : next_2[31:0] : lower[0] ? next_1[31:0] : next[31:0];
     wire divide_last = narrow ? divide_step == 6'd2 : divide_step == 6'd1;
@@ -171,7 +175,7 @@ module drogue_unit (
 
     wire [6:0] unit = {2'd0, function_id[7:3]}; // there are thirty-two: the next are those again
     assign ready = !busy && !kept && !(placing && (unit == 7'd4 || unit == 7'd6)) &&
-        !(place_waits != 3'd0 && unit == 7'd5) && !(add_waits != 3'd0 && unit == 7'd8) &&
+        !(place_waits[0] && unit == 7'd5) && !(add_waits[0] && unit == 7'd8) &&
         !(adding && (unit == 7'd7 || unit == 7'd9)) && !(settling && unit[6:1] == 6'd13) && !(unit == 7'd14 && !there) &&
         !(unit == 7'd23 && function_id[2:0] == 3'd0 && !peak && !sought) &&
         !(fitting && (unit == 7'd16 || unit == 7'd17 || unit == 7'd19 || unit == 7'd20 || unit == 7'd21));
@@ -213,10 +217,12 @@ module drogue_unit (
         // What has no product (set, sum, difference) begins a clock later in the unit's schedule: it waits for no multiplier.
         step <= begins ? {7'd0, function_id[2:0] < 3'd3} : step + 8'd1;
         place_starts <= begins && unit == 7'd5;
-        if (place_waits != 3'd0) place_waits <= place_waits - 3'd1;
+        placing <= place_more || (begins && unit == 7'd5);
+        place_waits <= place_waits >> 1;
         count_step <= count_step + 8'd1;
         add_starts <= begins && unit == 7'd8;
-        if (add_waits != 3'd0) add_waits <= add_waits - 3'd1;
+        adding <= add_more || (begins && unit == 7'd8);
+        add_waits <= add_waits >> 1;
         fit_step <= fit_step + 8'd1;
         if (taken) begin
             kept <= 1'b0;
@@ -244,13 +250,13 @@ module drogue_unit (
             7'd5: begin
                 point <= {second, first};
                 counts_it <= function_id[0];
-                place_waits <= 3'd7;
+                place_waits <= 7'h7F;
             end
             7'd7: moments <= 1280'd0;
             7'd8: begin
                 added <= first;
                 out_of <= second[0];
-                add_waits <= 3'd7;
+                add_waits <= 7'h7F;
             end
             7'd9: moments <= {moments[31:0], moments[1279:32]};
             7'd10: image <= {second, first};
@@ -327,15 +333,15 @@ module drogue_unit (
             counts_told <= counts_told | 64'd1 << its_count;
             own <= count_said[224];
         end
-        if (deciding && add_waits == 3'd0) begin // before the next point's judging: one that is not held is not counted, and overtakes
+        if (deciding && !add_waits[0]) begin // before the next point's judging: one that is not held is not counted, and overtakes
             deciding <= 1'b0;
             if (own != counted_out && (!own || points_in < 32'd131072)) begin
                 points_in <= points_in + (own ? 32'd1 : 32'hFFFFFFFF);
                 moments_changed <= 1'b1;
                 added <= its_place;
                 out_of <= !own;
-                add_starts <= 1'b1;
-                add_waits <= 3'd7;
+                {add_starts, adding} <= 2'd3;
+                add_waits <= 7'h7F;
             end
         end
         if (add_done) moments <= moments_next;
@@ -444,8 +450,8 @@ module drogue_unit (
             answered <= 1'b1;
         end
         if (reset) begin
-            {busy, answered, place_starts, add_starts, fitting, root_step, divide_step} <= 16'd0;
-            {place_waits, add_waits} <= 6'd0;
+            {busy, answered, placing, adding, place_starts, add_starts, fitting, root_step, divide_step} <= 18'd0;
+            {place_waits, add_waits} <= 14'd0;
             {kept, rounds, judging, counting, deciding} <= 5'd0;
             {placing_sample, rowing, mixing, there, fetch} <= 7'd0;
             {seeking, sloping, peak, sought} <= 4'd0;
