@@ -82,7 +82,7 @@ static int settle(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], const drogue_im
     drogue_ray_sums sums;
     v_px_q16[0] = v_px_q16[1] = v_px_q16[2] = 0;
     cast(rays, view, about, beyond_px_q16, 4, look, least);
-    return drogue_ray_sums_settle(&sums, v_px_q16, rays, reach_of(beyond_px_q16), WITHIN, 1, FEWEST) &&
+    return drogue_ray_sums_settle(&sums, v_px_q16, rays, reach_of(beyond_px_q16), WITHIN, 1) &&
            all_about(rays, v_px_q16, look == DROGUE_RAY_LINES ? ENOUGH_LINE : ENOUGH);
 }
 

@@ -43,8 +43,7 @@ static int prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], uint32_t l
     v[2] = 0;
     drogue_rays_keep(rays, v_px_q16, v_px_q16[2] > 0 ? DROGUE_Q16_MIN : APART,
                      v_px_q16[2] > 0 ? -APART : DROGUE_Q16_MAX);
-    if (!drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(drogue_q16_abs(v_px_q16[2]), DROGUE_Q16(1, 1)), APART, 0,
-                                FEWEST) ||
+    if (!drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(drogue_q16_abs(v_px_q16[2]), DROGUE_Q16(1, 1)), APART, 0) ||
         s.rays < least) {
         return 0;
     }
@@ -140,7 +139,7 @@ static int look_about(first_place *out, drogue_ray rays[RAYS], const drogue_imag
     memset(out, 0, sizeof *out);
     drogue_rays_cast(rays, image, e, reach, 4, EVERY, config->min_inner_contrast, DROGUE_RAY_RISES);
     if (!drogue_ray_sums_settle(&s, v, rays, drogue_q16_add(gate_px_q16, DROGUE_Q16(1, 1)),
-                                larger(DROGUE_Q16(3, 2), reach / 16), 1, FEWEST)) {
+                                larger(DROGUE_Q16(3, 2), reach / 16), 1)) {
         return 0;
     }
     out->slopes_q8 = s.slopes_q8;

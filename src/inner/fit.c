@@ -163,7 +163,7 @@ int drogue_ray_sums_place(drogue_q16 v_px_q16[3], drogue_q16 *std_px_q16, const 
 }
 
 int drogue_ray_sums_settle(drogue_ray_sums *s, drogue_q16 v_px_q16[3], const drogue_ray rays[RAYS],
-                           drogue_q16 gate_px_q16, drogue_q16 last_px_q16, int size, uint32_t fewest)
+                           drogue_q16 gate_px_q16, drogue_q16 last_px_q16, int size)
 {
     drogue_real normal[6];
     drogue_q16 within = gate_px_q16;
@@ -175,7 +175,7 @@ int drogue_ray_sums_settle(drogue_ray_sums *s, drogue_q16 v_px_q16[3], const dro
         const drogue_q16 before = within;
         memset(s, 0, sizeof *s);
         drogue_ray_sums_add_edges(s, NULL, rays, v_px_q16, within);
-        if (s->rays < fewest || !drogue_ray_sums_solve(v_px_q16, normal, s, size && round > 1)) {
+        if (!drogue_ray_sums_solve(v_px_q16, normal, s, size && round > 1)) {
             return 0;
         }
         within = larger(within / 4 * 3, last_px_q16);

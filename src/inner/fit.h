@@ -56,9 +56,9 @@ int drogue_ray_sums_place(drogue_q16 v_px_q16[3], drogue_q16 *std_px_q16, const 
                           const drogue_ray_bins *bins);
 
 /* From all edges within the gate to those about one place: place alone, then, where 'size' says so, with its size. 0
- * where fewer rays have one at any time, or fewer than FEWEST. */
+ * where too few are left. */
 int drogue_ray_sums_settle(drogue_ray_sums *s, drogue_q16 v_px_q16[3], const drogue_ray rays[RAYS],
-                           drogue_q16 gate_px_q16, drogue_q16 last_px_q16, int size, uint32_t fewest);
+                           drogue_q16 gate_px_q16, drogue_q16 last_px_q16, int size);
 
 /* Root mean square of the residuals. */
 drogue_q16 drogue_ray_sums_rms(const drogue_ray_sums *s);

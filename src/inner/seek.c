@@ -44,8 +44,8 @@ static int32_t settle(drogue_ellipse *e, const drogue_ray rays[RAYS], drogue_q16
     drogue_ray_sums s;
     v_px_q16[2] = larger_px_q16;
     if (seeing(rays) < ENOUGH ||
-        !drogue_ray_sums_settle(&s, v_px_q16, rays, gate_px_q16, larger(LAST_PX, e->a_px_q16 / 16), 1, ENOUGH) ||
-        drogue_q16_add(e->a_px_q16, v_px_q16[2]) < LEAST_PX) {
+        !drogue_ray_sums_settle(&s, v_px_q16, rays, gate_px_q16, larger(LAST_PX, e->a_px_q16 / 16), 1) ||
+        s.rays < ENOUGH || drogue_q16_add(e->a_px_q16, v_px_q16[2]) < LEAST_PX) {
         return 0;
     }
     e->xc_px_q16 = drogue_q16_add(e->xc_px_q16, v_px_q16[0]);

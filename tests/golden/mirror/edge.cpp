@@ -85,12 +85,12 @@ reference::Ellipse real_of(const drogue_ellipse &e)
     return {real(e.xc_px_q16), real(e.yc_px_q16), real(e.a_px_q16), real(e.b_px_q16), real(e.angle_rad_q16), true};
 }
 
-bool settle(Sums &s, Offset &v, const Rays &rays, Real within, Real last, bool size, int fewest)
+bool settle(Sums &s, Offset &v, const Rays &rays, Real within, Real last, bool size)
 {
     for (int round = 0; round < 10; round++) {
         s = Sums();
         add_rays(s, rays, v, within, false);
-        if (s.rays < fewest || !solve(v, s, size && round > 1)) {
+        if (!solve(v, s, size && round > 1)) {
             return false;
         }
         within = std::max(within * 3 / 4, last);

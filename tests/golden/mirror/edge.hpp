@@ -27,9 +27,8 @@ struct Sums {
     int rays = 0;
 };
 
-/* From all edges within a gate to those about one place, in the end within 'last' of it; false: fewer than so many, or
- * too few, at any time. */
-bool settle(Sums &s, Offset &v, const Rays &rays, Real within, Real last, bool size, int fewest = 0);
+/* From all edges within a gate to those about one place, in the end within 'last' of it; false: too few. */
+bool settle(Sums &s, Offset &v, const Rays &rays, Real within, Real last, bool size);
 
 /* As drogue_inner_edge, unrounded. */
 struct Disc {

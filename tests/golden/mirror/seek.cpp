@@ -44,9 +44,8 @@ public:
     {
         Offset v = {0, 0, larger};
         Sums s;
-        if (!mirror::settle(s, v, rays_, gate + margin_, std::max<Real>(1.5L, e.a / 16) + margin_, true,
-                            3 * DROGUE_RAYS / 8) ||
-            e.a + v[2] < 2) {
+        if (!mirror::settle(s, v, rays_, gate + margin_, std::max<Real>(1.5L, e.a / 16) + margin_, true) ||
+            4 * s.rays < 3 * DROGUE_RAYS / 2 || e.a + v[2] < 2) {
             return 0;
         }
         e = {e.xc + v[0], e.yc + v[1], e.a + v[2], e.a + v[2], 0, true};
