@@ -34,7 +34,7 @@ static void forget(drogue_result *out)
 #define SHADE_Q16 DROGUE_Q16(20, 100)  /* by more than this it may be shade about the disc */
 #define WHOLE_Q16 DROGUE_Q16(7, 8)     /* least cover of an outline that stands whatever a disc says, */
 #define SHOWS_Q16 DROGUE_Q16(1, 4)     /* unless so much shows of one that the disc asks for */
-#define ABOVE_Q16 DROGUE_Q16(5, 32)    /* edges are everywhere where one about it shows by less more than others */
+#define ABOVE_Q16 DROGUE_Q16(5, 32)    /* an outline about it shows by more above the average, or by chance */
 #define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
 #define ALONE_Q16 DROGUE_Q16(7, 10)    /* least cover of an outline whose disc is not seen */
 #define STILL_Q16 (11 * DROGUE_CONTRADICTION_Q16 / 10) /* hardly more than a contradiction: of its size */

@@ -33,7 +33,8 @@ public:
     reference::Ellipse head_on(cv::Point origin);
 
     /* Of the outlines that the disc allows the first that edge points cover best, by how much, and by how much more than
-     * on average, of every second turn and then of those beside the best; not ok: they cover none. Of a disc that may be larger or smaller by so many sixteenths, those that they cover the longest way. */
+     * on average, of every second turn and then of those beside the best; not ok: they cover none. Of a disc that may be
+     * larger or smaller by so many sixteenths, those that they cover the longest way. */
     reference::Ellipse best(Real &most, Real &above, const FrontEnd &front, const drogue_mask &mask, cv::Point origin,
                             int sizes);
 
