@@ -156,10 +156,13 @@ static void try_noise(drogue_best_try *best, drogue_frame *f, const drogue_regio
     }
 }
 
+/* Has no try an outline with a disc, for edges that are everywhere, which cover one by chance? */
+static int is_lost(const drogue_best_try *best) { return best->least_q16 >= DROGUE_Q16_ONE && best->crowded; }
+
 /* Is the disc to be looked for without an outline? Where the ring has no edge, too: it may not suit the drogue. */
 static int asks_disc(const drogue_best_try *best, const drogue_frame *f)
 {
-    return best->least_q16 > DISC_Q16 && f->setup->model->inner_radius_m_q16 > 0;
+    return best->least_q16 > DISC_Q16 && f->setup->model->inner_radius_m_q16 > 0 && !is_lost(best);
 }
 
 /* Is one semi-axis of another size than one? */
@@ -247,21 +250,18 @@ static int same_edges(const drogue_held *a, const drogue_held *b)
            a->region.height_px == b->region.height_px;
 }
 
-/* What was best stands, and its edges are in the workspace again. Where there is no outline at all they are the
- * region's by the thresholds tried last. */
-static void return_to(drogue_best_try *best, drogue_frame *f, const drogue_region *region)
+/* What was best stands, and its edges are in the workspace again. Where there is no outline at all they are those
+ * looked for last. An outline without a pose has its arcs in the list, too. */
+static void return_to(const drogue_best_try *best, drogue_frame *f)
 {
-    drogue_held *wanted = &best->held;
-    if (best->result.ellipse.a_px_q16 <= 0) { /* an outline without a pose has its arcs in the list, too */
-        *wanted = f->held;
-        wanted->region = *region;
-    }
+    const drogue_held *wanted = best->result.ellipse.a_px_q16 > 0 ? &best->held : &f->held;
     if (!same_edges(wanted, &f->held)) {
         f->canny_high = wanted->canny_high;
         f->whole = wanted->whole;
         (void)drogue_frame_edges(f, &wanted->region);
     }
     *f->out = best->result;
+    (void)drogue_frame_view(f, &wanted->region);
     f->second_look = best->result.second_look;
 }
 
@@ -295,15 +295,43 @@ static int is_another_edge(const drogue_best_try *best, const drogue_frame *f)
            (f->ring_px_q16 > 0 && is_another_size(best->result.ellipse.a_px_q16, f->ring_px_q16));
 }
 
+/* Has nothing been found that will stand, but not for edges that are everywhere? */
+static int asks_resized(const drogue_best_try *best, const drogue_frame *f)
+{
+    return !is_lost(best) && (best->result.status != DROGUE_OK || is_another_edge(best, f));
+}
+
+/* The outline in three or five quarters of a region, which may be too wide or too narrow for its ring mask. It stands
+ * where its disc is seen, or none is asked for. */
+static void try_resized(drogue_best_try *best, drogue_frame *f, const drogue_region *region, int32_t wider)
+{
+    const int32_t x_px = wider * (region->width_px / 8);
+    const int32_t y_px = wider * (region->height_px / 8);
+    drogue_region other = *region;
+    drogue_status status;
+    other.x_px -= x_px;
+    other.y_px -= y_px;
+    other.width_px += 2 * x_px;
+    other.height_px += 2 * y_px;
+    if (drogue_workspace_spans(f->workspace, &other, f->image)) {
+        status = try_edges(f, &other, f->setup->config->canny_high, DROGUE_TRIED_FOUND);
+        end_try(best, f, status, status == DROGUE_OK && f->doubt_q16 < DROGUE_Q16_ONE);
+    } else {
+        drogue_note_room(&f->room, DROGUE_OK, DROGUE_SECOND_TOO_WIDE);
+    }
+}
+
 /* Measure; while the inner disc is not seen or not of its size, try what else the outline may be. What has the disc
  * nearest to its size stands. */
 static drogue_status measure(drogue_frame *f, const drogue_region *region)
 {
     drogue_best_try *const best = f->workspace->best;
+    int32_t wider;
     drogue_status status = try_edges(f, region, f->setup->config->canny_high, DROGUE_TRIED_FOUND);
     if (!may_try_more(status)) {
         return status;
     }
+    best->crowded = f->crowded;
     keep(best, f, status);
     drogue_note_room(&f->room, status, f->second_look);
     if (status == DROGUE_OK && best->least_q16 > SURE_Q16) {
@@ -318,14 +346,17 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     if (best->least_q16 >= DROGUE_Q16_ONE && f->ring_above_q16 >= ABOVE_Q16) { /* a disc is there, and none is seen */
         try_disc(best, f, region, 1);
     }
+    for (wider = -1; wider <= 1 && asks_resized(best, f); wider += 2) { /* bound: 2 */
+        try_resized(best, f, region, wider);
+    }
     if (asks_beyond(best)) {
         try_beyond(best, f);
     }
     if (asks_outer(best)) {
-        return_to(best, f, region);
+        return_to(best, f);
         try_outer(best, f);
     }
-    return_to(best, f, region);
+    return_to(best, f);
     status = best->result.status;
     if (is_another_edge(best, f)) {
         const int32_t tried = f->out->tried;

@@ -95,7 +95,7 @@ static drogue_region region_about(const drogue_ellipse *e, const drogue_region *
     return r;
 }
 
-static drogue_status place_view(drogue_frame *f, const drogue_region *region)
+drogue_status drogue_frame_view(drogue_frame *f, const drogue_region *region)
 {
     drogue_result *out = f->out;
     drogue_status status = place_region(&out->region, &f->mask, f->image, region);
@@ -110,7 +110,7 @@ static drogue_status place_view(drogue_frame *f, const drogue_region *region)
 
 drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region)
 {
-    const drogue_status status = place_view(f, region);
+    const drogue_status status = drogue_frame_view(f, region);
     if (status != DROGUE_OK) {
         return status;
     }
@@ -118,6 +118,12 @@ drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region)
     f->held.canny_high = f->canny_high;
     f->held.whole = f->whole;
     return run_frontend(f);
+}
+
+/* Are edges everywhere, a quarter of the ring's pixels, 7/16 of a square region's? Outlines show in them by chance. */
+static int is_crowded(const drogue_frame *f)
+{
+    return 4 * 16 * (int64_t)f->list.edge_count > 7 * (int64_t)f->view.width_px * f->view.height_px;
 }
 
 static drogue_status find_outline(drogue_frame *f, const drogue_region *region)
@@ -168,6 +174,7 @@ drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region)
     const drogue_config *config = f->setup->config;
     const drogue_status first = find_outline(f, region);
     const drogue_outline found = f->outline;
+    f->crowded = is_crowded(f);
     f->second_look = DROGUE_SECOND_NONE;
     if ((first != DROGUE_OK && first != DROGUE_E_NO_ELLIPSE) ||
         found.cover_q16 < drogue_shr_round_s64(config->min_cover_q16, 1) ||
@@ -185,7 +192,7 @@ drogue_status drogue_frame_outline(drogue_frame *f, const drogue_region *region)
     if (first == DROGUE_OK) {
         return drogue_frame_edges(f, region);
     }
-    (void)place_view(f, region);
+    (void)drogue_frame_view(f, region);
     return first;
 }
 
@@ -199,7 +206,7 @@ void drogue_frame_move(drogue_ellipse *e, int32_t x_px, int32_t y_px)
 static drogue_ellipse view_again(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was)
 {
     drogue_ellipse here = *was;
-    (void)place_view(f, region);
+    (void)drogue_frame_view(f, region);
     drogue_outline_clear(&f->outline);
     drogue_frame_move(&here, -f->out->region.x_px, -f->out->region.y_px);
     return here;
@@ -369,7 +376,7 @@ static drogue_status find_ring(best_ring *best, drogue_frame *f, const drogue_re
     drogue_result *out = f->out;
     drogue_region about = *region;
     drogue_inner_expected rims;
-    drogue_status status = place_view(f, region);
+    drogue_status status = drogue_frame_view(f, region);
     f->second_look = DROGUE_SECOND_NONE;
     memset(best, 0, sizeof *best);
     if (status != DROGUE_OK || (!f->whole && !seek_disc(f))) {

@@ -21,6 +21,7 @@ typedef struct drogue_best_try {
     drogue_q16 least_q16;  /* its doubt; DROGUE_Q16_MAX: it has no outline */
     drogue_q16 larger_q16; /* as the frame's */
     int32_t smeared;       /* does motion blur its outline, or what is taken for that? */
+    int32_t crowded;       /* were edges everywhere where an outline was looked for first? */
     drogue_held held;      /* the edges that it is of */
     drogue_result result;
 } drogue_best_try;
@@ -41,6 +42,7 @@ typedef struct drogue_frame {
     drogue_second_look room; /* TOO_WIDE or FULL: what a try had too little room in; else NONE */
     int32_t canny_high;      /* to look by; the lower threshold is in proportion, as the configured ones are */
     int32_t whole;           /* to look in all of a region? */
+    int32_t crowded;         /* were edges everywhere in the region that the outline was looked for in first? */
     drogue_q16 larger_q16;   /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
     drogue_inner_sight sought; /* the inner disc, where it was found */
     drogue_q16 ring_px_q16;    /* semi-axis of the outline that a disc allows which was sought; 0: there is none */
@@ -57,6 +59,9 @@ typedef struct drogue_frame {
 
 /* Move an ellipse. */
 void drogue_frame_move(drogue_ellipse *e, int32_t x_px, int32_t y_px);
+
+/* The view becomes a region's pixels, and that the result's region. */
+drogue_status drogue_frame_view(drogue_frame *f, const drogue_region *region);
 
 /* Find the edges of a region by the frame's thresholds; the view becomes the region's pixels. */
 drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region);

@@ -13,6 +13,7 @@ made=$root/build/hls/system
 # What waited for the longest ways does so no more: the registers are read as an instruction is decoded, not ahead of that, behind the
 # instruction cache and what holds decoding up; branches compare registers, not what is chosen for other instructions in their place;
 # the bus has no errors; whether the program counter goes on is but a gate behind what says whether fetch takes an instruction.
+# An instruction for a unit waits for no store before it: none is taken back, as a load is that misses.
 need() {
     local tool who=$1
     for tool in "${@:2}"; do
@@ -30,6 +31,7 @@ print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
         -e '/_zz_execute_BRANCH_COND_RESULT = /s/execute_SRC_LESS/branch_less/' \
         -e '/^  assign execute_BranchPlugin_eq/i wire branch_less = {execute_RS1[31] ^ !execute_INSTRUCTION[13], execute_RS1[30:0]} <\
             {execute_RS2[31] ^ !execute_INSTRUCTION[13], execute_RS2[30:0]};' \
+        -e '/execute_to_memory_HAS_SIDE_EFFECT <=/s/;/ \&\& !(execute_MEMORY_ENABLE \&\& execute_MEMORY_WR);/' \
         -e 's/\(stageB_tagsReadRsp_0_error <=\).*/\1 1'\''b0;/' \
         -e 's/\(IBusCachedPlugin_fetchPc_output_fire_1 =\).*/\1 1'\''b1;/; s/\(when_Fetcher_l134_1 =\).*/\1 1'\''b0;/' \
         -e 's/\(IBusCachedPlugin_fetchPc_inc <=\) 1.*1;/\1 IBusCachedPlugin_fetchPc_pcRegPropagate ?\
@@ -51,13 +53,14 @@ print(v.data_location + "/VexRiscv_FullCfu.v")' 2>/dev/null || true)}
 firmware() {
     # what the soft core's clocks go into, and where reals stand where they are called; all else is small, so that it fits the RAM at
     # 256 px, and shares the code that saves registers
-    local hot=(src/arithmetic/{fixed,real}.c src/frontend/noise.c src/outline/{cluster,constraints,rays,slopes,support}.c
+    local hot=(src/arithmetic/{fixed,real}.c src/outline/{cluster,constraints,rays,slopes,support}.c
         src/search/cells.c)
-    local reals=(src/arithmetic/{cholesky,eigen}.c src/track/kalman.c src/outline/{ellipse,moments}.c src/pose/{joint,joint_model}.c)
+    local reals=(src/arithmetic/{cholesky,eigen}.c src/track/kalman.c src/outline/{ellipse,moments,quality}.c src/pose/{joint,joint_model}.c)
     local flags=(-mtune=size -march=rv32im -mabi=ilp32 -std=c99 -Os -ffunction-sections -fdata-sections "-I$root/include" "-I$root/hls" "${@:3}")
     rm -rf "$1/objects"
     mkdir -p "$1/objects"
     (cd "$1/objects" && core_files "$root" '*.c' | xargs riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -msave-restore -c &&
+        riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -msave-restore "$root/hls/system/look.c" -c &&
         riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 "${hot[@]/#/$root/}" -c &&
         riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -O2 -mtune=rocket -DREAL_WHERE_CALLED -include "$root/hls/system/real.c" \
             "${reals[@]/#/$root/}" -c)
@@ -71,7 +74,7 @@ firmware() {
     riscv64-unknown-elf-ar rcs "$1/libdrogue.a" "$1"/objects/*.o
     riscv64-unknown-elf-gcc --specs=picolibc.specs "${flags[@]}" -nostartfiles -Wl,--gc-sections,--no-warn-rwx-segments \
         -T hls/system/system.ld -O2 -fno-tree-loop-distribute-patterns hls/system/start.S "$2" \
-        hls/system/{fixed,real,near,rays,fit,shade,track,memory,block}.c hls/driver/block_frontend.c "$1/libdrogue.a" -o "$1/firmware.elf"
+        hls/system/{fixed,real,near,rays,fit,shade,track,memory,block}.c "$1/libdrogue.a" -o "$1/firmware.elf"
     riscv64-unknown-elf-objcopy -O verilog --verilog-data-width=4 "$1/firmware.elf" "$1/firmware.hex"
     riscv64-unknown-elf-size "$1/firmware.elf" |
         awk 'NR == 2 { print "system: firmware " $1 " bytes of code and constants, " $2 + $3 " of data" }'

@@ -33,19 +33,20 @@ static inline void words_of(uint32_t word[2], const drogue_edge *e)
 static inline __attribute__((always_inline)) void place(const drogue_edge *edges, uint32_t count, uint32_t stride,
                                                         const int what)
 {
+    int32_t left = (int32_t)count;
     uint32_t none;
-    uint32_t i;
-    for (i = 0; i + stride < count; i += 2 * stride) {
+    for (; left > (int32_t)stride; left -= 2 * (int32_t)stride) {
         uint32_t word[2];
         uint32_t next[2];
-        words_of(word, &edges[i]);
-        words_of(next, &edges[i + stride]);
+        words_of(word, edges);
+        words_of(next, edges + stride);
+        edges += 2 * stride;
         UNIT(none, UNIT_PLACE, what, word[0], word[1]);
         UNIT(none, UNIT_PLACE, what, next[0], next[1]);
     }
-    if (i < count) {
+    if (left > 0) {
         uint32_t word[2];
-        words_of(word, &edges[i]);
+        words_of(word, edges);
         UNIT(none, UNIT_PLACE, what, word[0], word[1]);
     }
     (void)none;
@@ -114,7 +115,6 @@ static void add_counted(drogue_support *support)
 {
     uint32_t word[5];
     uint32_t bins;
-    drogue_support_bin *bin = support->bin;
     uint32_t k;
     UNIT(bins, UNIT_COUNTED, COUNTED_BINS, 0, 0);
     for (k = 0; k < 5; k++) {
@@ -123,16 +123,20 @@ static void add_counted(drogue_support *support)
     support->squares_q32 = (int64_t)((uint64_t)support->squares_q32 + ((uint64_t)word[1] << 32 | word[0]));
     support->gradient += (uint64_t)word[3] << 32 | word[2];
     support->points += word[4];
-    for (k = 0; bins != 0; k++, bin++, bins >>= 1) {
-        if (bins & 1u) {
-            uint32_t counts;
-            int32_t offsets_q16;
-            UNIT(counts, UNIT_COUNTED, COUNTED_COUNTS, k, 0);
-            UNIT(offsets_q16, UNIT_COUNTED, COUNTED_OFFSETS, k, 0);
-            bin->count[0] += counts & 0xFFFFu;
-            bin->count[1] += counts >> 16;
-            bin->sum_q16 += offsets_q16;
-        }
+    while (bins != 0) {
+        drogue_support_bin *bin;
+        uint32_t zeros;
+        uint32_t counts;
+        int32_t offsets_q16;
+        UNIT(zeros, UNIT_ZEROS, 0, bins, 0);
+        k = 31 - zeros;
+        bins ^= 1u << k;
+        bin = &support->bin[k];
+        UNIT(counts, UNIT_COUNTED, COUNTED_COUNTS, k, 0);
+        UNIT(offsets_q16, UNIT_COUNTED, COUNTED_OFFSETS, k, 0);
+        bin->count[0] += counts & 0xFFFFu;
+        bin->count[1] += counts >> 16;
+        bin->sum_q16 += offsets_q16;
     }
 }
 

@@ -6,6 +6,8 @@
 #define drogue_ray_add ray_add_by_core
 #include "drogue/rays.h"
 
+#include "unit.h"
+
 /* Called from two places: one of it, for size. */
 static void keep_peak(drogue_ray *, int32_t, int32_t, int32_t, int32_t, int32_t) __attribute__((noinline));
 
@@ -19,14 +21,51 @@ void drogue_rays_cast(drogue_ray *, const drogue_image *, const drogue_ellipse *
 void drogue_ray_add(int32_t *, int32_t *, const drogue_ray *, const drogue_image *, drogue_transfer, drogue_q16,
                     int32_t, int32_t) __attribute__((cold));
 
+/* Sines and cosines of rays in the phases that most are cast in, 2, 4 and 6, are worked out once. */
+static void sincos_of_ray(int32_t *sin_q30, int32_t *cos_q30, int32_t angle_rad_q29, int32_t phase, int32_t k)
+{
+    static int32_t known_q30[3][DROGUE_RAYS / 2][2]; /* of a half turn */
+    int32_t *known;
+    if ((phase & 1) != 0 || phase == 0) {
+        drogue_sincos_q30(sin_q30, cos_q30, angle_rad_q29);
+        return;
+    }
+    known = known_q30[((uint32_t)phase >> 1) - 1][k]; /* no division, which -Os would make of another */
+    if (known[0] == 0) {                              /* not yet: none of those rays lies along the axis */
+        drogue_sincos_q30(&known[0], &known[1], angle_rad_q29);
+    }
+    *sin_q30 = known[0];
+    *cos_q30 = known[1];
+}
+
+/* By the unit where they are called. */
+static inline uint32_t root_of(uint64_t v)
+{
+    uint32_t root;
+    UNIT(root, UNIT_ROOT, 0, (uint32_t)v, (uint32_t)(v >> 32));
+    return root;
+}
+
+static inline int zeros_of(uint32_t v)
+{
+    int zeros;
+    UNIT(zeros, UNIT_ZEROS, 0, v, 0);
+    return zeros;
+}
+
+#define drogue_isqrt_u64 root_of
+#define drogue_clz_u32 zeros_of
+#define drogue_sincos_q30(sin_q30, cos_q30, angle_rad_q29) sincos_of_ray(sin_q30, cos_q30, angle_rad_q29, phase, k)
 #include "../../src/outline/rays.c"
+#undef drogue_sincos_q30
+#undef drogue_isqrt_u64
+#undef drogue_clz_u32
 #undef drogue_ray_read
 #undef drogue_rays_cast
 #undef drogue_ray_add
 
 #include "machine.h"
 #include "ray_unit.h"
-#include "unit.h"
 
 static inline uint32_t first_of(const drogue_image *image) { return (uint32_t)(image->data - FRAME); }
 
@@ -54,10 +93,15 @@ void drogue_ray_read(int32_t *grey_q8_out, const drogue_ray *r, const drogue_ima
     }
     BEGIN(RAY_GREY, r, image, from_px_q16);
     for (; end - grey_q8_out >= 4; grey_q8_out += 4) {
-        UNIT(grey_q8_out[0], UNIT_RAY_GREY, 0, 0, 0);
-        UNIT(grey_q8_out[1], UNIT_RAY_GREY, 0, 0, 0);
-        UNIT(grey_q8_out[2], UNIT_RAY_GREY, 0, 0, 0);
-        UNIT(grey_q8_out[3], UNIT_RAY_GREY, 0, 0, 0);
+        int32_t grey_q8[4];
+        UNIT(grey_q8[0], UNIT_RAY_GREY, 0, 0, 0);
+        UNIT(grey_q8[1], UNIT_RAY_GREY, 0, 0, 0);
+        UNIT(grey_q8[2], UNIT_RAY_GREY, 0, 0, 0);
+        UNIT(grey_q8[3], UNIT_RAY_GREY, 0, 0, 0);
+        grey_q8_out[0] = grey_q8[0];
+        grey_q8_out[1] = grey_q8[1];
+        grey_q8_out[2] = grey_q8[2];
+        grey_q8_out[3] = grey_q8[3];
     }
     for (; grey_q8_out < end; grey_q8_out++) {
         UNIT(*grey_q8_out, UNIT_RAY_GREY, 0, 0, 0);

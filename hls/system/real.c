@@ -133,6 +133,25 @@ void drogue_real_root(drogue_real *out, const drogue_real *v)
     out->exponent = (words.exponent - 30 - (int32_t)odd) >> 1;
 }
 
+/* A whole number. */
+static inline drogue_real whole(int64_t v)
+{
+    const drogue_real words = {(int32_t)((uint64_t)v >> 32), (int32_t)(uint32_t)v};
+    const drogue_real by = {0, 0};
+    drogue_real out;
+    push(words);
+    RESULT_OF(&out, REAL_SET, by);
+    return out;
+}
+
+void drogue_real_ratio(drogue_real *out, int64_t a, int64_t b)
+{
+    const drogue_real divisor = whole(b);
+    const drogue_real dividend = whole(a);
+    push(dividend);
+    RESULT_OF(out, REAL_QUOTIENT, divisor);
+}
+
 int __clzsi2(unsigned v);
 
 /* What gcc calls for leading zeros, where the core has no instruction for them. */

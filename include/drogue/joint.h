@@ -17,10 +17,9 @@ extern "C" {
 /* The outline as a measurement. A neighbouring ellipse lies off it by
  * r(t) = m0 + m1 cos t + m2 sin t + m3 cos 2t + m4 sin 2t in units of the semi-axes, t the eccentric angle. */
 typedef struct drogue_joint_outline {
-    drogue_ellipse ellipse;                    /* undistorted, px of the whole image */
-    drogue_real covariance[DROGUE_PACKED_MAX]; /* of m0 .. m4, packed */
-    int32_t weight[DROGUE_PACKED_MAX];         /* its inverse in units of 2^weight_exponent */
-    int32_t weight_exponent;                   /* of the weights */
+    drogue_ellipse ellipse;            /* undistorted, px of the whole image */
+    int32_t weight[DROGUE_PACKED_MAX]; /* inverse covariance of m0 .. m4, packed, in units of 2^weight_exponent */
+    int32_t weight_exponent;           /* of the weights */
 } drogue_joint_outline;
 
 /* The inner part as a measurement. */
@@ -38,25 +37,28 @@ typedef struct drogue_joint {
 } drogue_joint;
 
 /* Covariance of an outline's parameters from the residuals of its bins, whose scatter about the ellipse measures noise
- * and shape together however far they are correlated along the edge. drogue_joint_outline_weigh() comes after it:
- * until then there are no weights.
+ * and shape together however far they are correlated along the edge.
  *
- *  support  of the last fit, its bins from any axis
- *  shading  what the residuals cannot show, as light that changes along the outline, moves an edge by this over its
- *           gradient (|gx| + |gy|, grey levels * 8): px times that unit, standard deviation in every parameter
- *  blur     standard deviation of half the variance of the optics' blur, px^2 Q16: moves the whole outline in or out.
- *           What the pixels' grid does, 0.3 px^2 over the semi-axis, is in every parameter
- *  return   DROGUE_OK; DROGUE_E_DEGENERATE when too few bins hold points
- *  source   the fit's normal equations; (50) of the paper in closed form
+ *  covariance  of m0 .. m4 (drogue_joint_outline), packed; undefined on failure
+ *  ellipse     the outline, undistorted
+ *  support     of the last fit, its bins from any axis
+ *  shading     what the residuals cannot show, as light that changes along the outline, moves an edge by this over its
+ *              gradient (|gx| + |gy|, grey levels * 8): px times that unit, standard deviation in every parameter
+ *  blur        standard deviation of half the variance of the optics' blur, px^2 Q16: moves the whole outline in or
+ *              out. What the pixels' grid does, 0.3 px^2 over the semi-axis, is in every parameter
+ *  return      DROGUE_OK; DROGUE_E_DEGENERATE when too few bins hold points
+ *  source      the fit's normal equations; (50) of the paper in closed form
  */
-drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
-                                              drogue_q16 shading_q16, drogue_q16 blur_px2_q16);
+drogue_status drogue_joint_outline_covariance(drogue_real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *ellipse,
+                                              const drogue_support *support, drogue_q16 shading_q16,
+                                              drogue_q16 blur_px2_q16);
 
-/* An outline's weights from its covariance: every solution uses them.
+/* An outline weighed by its covariance: what every solution starts from.
  *
  *  return  DROGUE_OK; DROGUE_E_DEGENERATE when the covariance is not positive definite
  */
-drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline);
+drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline, const drogue_ellipse *ellipse,
+                                         const drogue_real covariance[DROGUE_PACKED_MAX]);
 
 /* Solve for the pose.
  *

@@ -39,7 +39,8 @@ typedef struct drogue_result {
     drogue_status status;           /* what drogue_measure() returned */
     drogue_second_look second_look; /* from TOO_WIDE on, of any try, a larger workspace may give another result */
     drogue_region region;           /* the region used: the one asked for, that of a better second look, or with
-                                 DROGUE_TRIED_DISC one that suits the disc; clipped to the image */
+                                 DROGUE_TRIED_DISC one that suits the disc; where no try gave an outline the last
+                                 one in which edges were looked for; clipped to the image */
     drogue_edge_list list;    /* edges and arcs in the workspace, in coordinates of the region; where no try gave an
                                  outline those of the last one; empty where drogue_track_frame() has looked elsewhere
                                  since */
@@ -89,7 +90,12 @@ int drogue_input_valid(const drogue_image *image, const drogue_setup *setup);
  *  image      the caller's, of any size; not written
  *  region     where to look, drogue about its middle, longest side 2 to 3 major semi-axes; may reach past the
  *             image, then the part inside is used and the masks stay where they were. In a region of another size the
- *             rim is cut or not in the ring, and what stands may be another edge, its covariance that edge's
+ *             rim is cut or not in the ring, and what stands may be another edge, its covariance that edge's. Where
+ *             nothing is found that stands, nor are more than a quarter of the ring's pixels edges, three quarters of
+ *             the region's sides and five quarters, by whole eighths rounded down, are tried by the configured
+ *             thresholds, with which rims in regions of 1.7 to 3.5 semi-axes lie in a ring mask; what is found there
+ *             stands where its inner part is seen, or none is known. The workspace has to hold the wider one's width;
+ *             second_look says where it does not
  *  return     DROGUE_OK, or why there is no pose: DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE,
  *             DROGUE_E_LABELS_FULL, DROGUE_E_EDGES_FULL, DROGUE_E_ARCS_FULL, DROGUE_E_NO_EDGES, DROGUE_E_NO_ARCS,
  *             DROGUE_E_NO_ELLIPSE, DROGUE_E_DOMAIN. Where the model has an inner part, an ellipse in which none is

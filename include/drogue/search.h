@@ -103,8 +103,7 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
  *  - the sightings in order of score, until one is sure whose inner part decides the orientation and agrees with the
  *    outline; after that only what has 9/8 to 2 times the radius about the same middle;
  *  - where nothing is sure yet, one after another until something is: the drogue that the model puts about each dark
- *    disc; the first two sightings in regions a quarter larger, as far as the workspace is wide enough, since what was
- *    sighted may be an edge within the drogue; the part itself where it has at most 512 px a side.
+ *    disc; the part itself where it has at most 512 px a side.
  *    Without an inner part in the model only the last, of any size.
  *
  * The result is the one of the largest log odds; for a model without an inner part that of most cover among those that

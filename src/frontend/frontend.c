@@ -35,7 +35,7 @@ drogue_status drogue_frontend_begin(drogue_frontend *frontend, drogue_workspace 
     frontend->slope_count[1] = 0;
     drogue_labels_reset(&frontend->components, workspace->component_parent, workspace->capacity.labels);
     drogue_labels_reset(&frontend->arc_labels, workspace->arc_parent, workspace->capacity.labels);
-    memset(workspace->component_strong, 0, workspace->capacity.labels * sizeof(uint32_t));
+    workspace->component_strong[0] = 0; /* of what is refused; the others as they are given */
     memset(workspace->code_rows, 0, 4 * (size_t)drogue_row_half(frontend));
     drogue_rows_begin(frontend);
     return DROGUE_OK;
@@ -125,9 +125,10 @@ static void canny_step(drogue_frontend *f, int32_t y)
         const drogue_slope *end = point + drogue_rows_maxima(f, y, part);
         for (; point < end; point++) {
             const int32_t x = point->x;
+            const uint32_t next = f->components.count;
             const uint32_t component = drogue_label_pixel(&components, &f->components, code, code_above, x);
             uint32_t arc;
-            strong[component] |= code[x] & DROGUE_CODE_STRONG;
+            strong[component] = (component == next ? 0 : strong[component]) | (code[x] & DROGUE_CODE_STRONG);
             if (component == 0) { /* refused: it belongs to no arc, so that an arc's points share one component */
                 code[x] &= (uint8_t)~DROGUE_CODE_CLASS_MASK;
                 continue;

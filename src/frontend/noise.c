@@ -19,27 +19,29 @@ static inline int32_t column(const uint8_t *const row[3], int32_t x) { return ro
 /* Count the second differences of boxes of 3 x 3 px along a row, by blocks. Returns the number of blocks. */
 static uint32_t count_row(uint32_t histogram[BINS], const uint8_t *const row[3], int32_t width_px)
 {
-    uint32_t blocks = 0;
-    int32_t sum = 0;
-    int32_t bend = 0;
-    int32_t left = BLOCK;
-    int32_t x;
-    for (x = 0; x <= 2 * REACH; x++) { /* bound: 9 */
-        bend += x / 3 == 1 ? -2 * column(row, x) : column(row, x);
+    const int32_t blocks = (width_px - 2 * REACH) / BLOCK;
+    int32_t at[2 * REACH + BLOCK]; /* columns from the left of a block's first boxes to the right of its last */
+    int32_t block;
+    int32_t k;
+    for (k = 0; k < 2 * REACH; k++) {
+        at[BLOCK + k] = column(row, k);
     }
-    for (x = REACH; x + REACH < width_px; x++) { /* bound: 2044 */
-        sum += drogue_abs_s32(bend);
-        if (--left == 0) {
-            histogram[sum >> SHIFT < BINS ? sum >> SHIFT : BINS - 1]++;
-            blocks++;
-            sum = 0;
-            left = BLOCK;
+    for (block = 0; block < blocks; block++) { /* bound: 226 */
+        const int32_t next = block * BLOCK + 2 * REACH;
+        int32_t sum = 0;
+        for (k = 0; k < 2 * REACH; k++) {
+            at[k] = at[BLOCK + k];
         }
-        if (x + REACH + 1 < width_px) { /* the boxes move on by a column */
-            bend += column(row, x + 5) - column(row, x - 4) + 3 * (column(row, x - 1) - column(row, x + 2));
+        for (k = 0; k < BLOCK; k++) {
+            at[2 * REACH + k] = column(row, next + k);
         }
+        for (k = 0; k < BLOCK; k++) {
+            const int32_t *c = &at[k];
+            sum += drogue_abs_s32(c[0] + c[1] + c[2] - 2 * (c[3] + c[4] + c[5]) + c[6] + c[7] + c[8]);
+        }
+        histogram[sum >> SHIFT < BINS ? sum >> SHIFT : BINS - 1]++;
     }
-    return blocks;
+    return (uint32_t)blocks;
 }
 
 int32_t drogue_noise_threshold(uint32_t *histogram, const drogue_image *image)

@@ -71,6 +71,13 @@ void drogue_ray_sums_add(drogue_ray_sums *s, const drogue_ray *r, int32_t weight
     s->rays++;
 }
 
+/* A slope above 0 over DROGUE_RAY_WEIGHT 256: by a product, exact below 2^21, and more than 254 beyond that. */
+static inline int32_t grey_of(int32_t slope_q8)
+{
+    const int32_t part_q32 = (int32_t)((INT64_C(1) << 32) / (DROGUE_RAY_WEIGHT * 256)) + 1;
+    return (int32_t)(drogue_product(slope_q8, part_q32) >> 32);
+}
+
 void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const drogue_ray rays[RAYS],
                                const drogue_q16 v_px_q16[3], drogue_q16 within_px_q16)
 {
@@ -87,7 +94,7 @@ void drogue_ray_sums_add_edges(drogue_ray_sums *s, drogue_ray_bins *bins, const 
             s->levels_q8 += e->level_q8;
             if (bins != NULL) {
                 const int32_t bin = k / (RAYS / BINS);
-                const int32_t grey = drogue_clamp_s32(e->slope_q8 / (DROGUE_RAY_WEIGHT * 256), 0, 254) + 1;
+                const int32_t grey = drogue_clamp_s32(grey_of(e->slope_q8), 0, 254) + 1;
                 weight = grey * grey;
                 bins->off_q16[bin] += drogue_product(weight, off_q16);
                 bins->weight[bin] += weight;
@@ -178,7 +185,7 @@ int drogue_ray_sums_settle(drogue_ray_sums *s, drogue_q16 v_px_q16[3], const dro
         if (!drogue_ray_sums_solve(v_px_q16, normal, s, size && round > 1)) {
             return 0;
         }
-        within = larger(within / 4 * 3, last_px_q16);
+        within = larger((within >> 2) * 3, last_px_q16); /* none is below 0 */
         if (round > 1 && within == before && v_px_q16[0] == x && v_px_q16[1] == y && v_px_q16[2] == grown) {
             break; /* and so it stays */
         }

@@ -36,6 +36,25 @@ static int32_t seeing(const drogue_ray rays[RAYS])
     return seen;
 }
 
+/* The sum of the slopes of the rays that agree is no more than that of the steepest of all; 0 when too few see an edge
+ * for enough to agree. */
+static int32_t most_slopes_q8(const drogue_ray rays[RAYS])
+{
+    int32_t sum_q8 = 0;
+    int32_t seen = 0;
+    int32_t k;
+    for (k = 0; k < RAYS; k++) {
+        int32_t most_q8 = 0;
+        uint32_t i;
+        for (i = 0; i < rays[k].count; i++) { /* bound: DROGUE_RAY_EDGES */
+            most_q8 = larger(rays[k].edges[i].slope_q8, most_q8);
+        }
+        sum_q8 += most_q8;
+        seen += most_q8 > 0;
+    }
+    return seen < ENOUGH ? 0 : sum_q8;
+}
+
 /* Settle the rays' edges on a circle, which is larger by so much at first; the sum of the slopes of the rays that
  * agree, 0 when too few do. */
 static int32_t settle(drogue_ellipse *e, const drogue_ray rays[RAYS], drogue_q16 larger_px_q16, drogue_q16 gate_px_q16)
@@ -43,8 +62,7 @@ static int32_t settle(drogue_ellipse *e, const drogue_ray rays[RAYS], drogue_q16
     drogue_q16 v_px_q16[3] = {0, 0, 0};
     drogue_ray_sums s;
     v_px_q16[2] = larger_px_q16;
-    if (seeing(rays) < ENOUGH ||
-        !drogue_ray_sums_settle(&s, v_px_q16, rays, gate_px_q16, larger(LAST_PX, e->a_px_q16 / 16), 1) ||
+    if (!drogue_ray_sums_settle(&s, v_px_q16, rays, gate_px_q16, larger(LAST_PX, e->a_px_q16 / 16), 1) ||
         s.rays < ENOUGH || drogue_q16_add(e->a_px_q16, v_px_q16[2]) < LEAST_PX) {
         return 0;
     }
@@ -87,13 +105,15 @@ int drogue_inner_seek(drogue_ellipse *out, drogue_ray rays[RAYS], const drogue_i
     }
     for (k = 0; k < PLACES; k++) {
         drogue_ellipse place = middle;
+        int32_t most;
         int32_t size;
         place.xc_px_q16 = drogue_q16_add(middle.xc_px_q16, places[k][0] * (a / 6));
         place.yc_px_q16 = drogue_q16_add(middle.yc_px_q16, places[k][1] * (a / 6));
         place.a_px_q16 = r;
         place.b_px_q16 = r;
         drogue_rays_cast(rays, view, &place, r / 4 * 3, PHASE, EVERY, least, DROGUE_RAY_RISES);
-        for (size = -1; size <= 1; size++) { /* a collar's edge beside the disc's: each by itself */
+        most = most_slopes_q8(rays);
+        for (size = -1; size <= 1 && most > steepest; size++) { /* a collar's edge beside the disc's: each by itself */
             drogue_ellipse e = place;
             const int32_t slopes_q8 = settle(&e, rays, size * (r / 3), r / 4 * 3);
             if (slopes_q8 > steepest) {
@@ -104,7 +124,7 @@ int drogue_inner_seek(drogue_ellipse *out, drogue_ray rays[RAYS], const drogue_i
     }
     if (steepest > 0) { /* once more from there, where all rays see it alike */
         drogue_rays_cast(rays, view, out, r / 4, PHASE, EVERY, least, DROGUE_RAY_RISES);
-        steepest = settle(out, rays, 0, r / 4);
+        steepest = settle(out, rays, 0, r / 4); /* 0, too, when too few see an edge */
     }
     return steepest > 0;
 }

@@ -17,9 +17,9 @@
 #define SIGNIFICANT 50           /* variances of a change of grey across the disc; */
 #define STEP 3                   /* and so many times as many of the step at its edge: less is found in noise */
 
-/* Where a profile about an edge begins: at a multiple of the distance of its samples, so that it does not tremble with
- * the edge's last bits. */
-static drogue_q16 begin_of(drogue_q16 at_px_q16) { return drogue_q16_add(at_px_q16, FROM) & ~(DROGUE_Q16_ONE / 2 - 1); }
+/* Where a profile about an edge, within 2^30, begins: at a multiple of the distance of its samples, so that it does not
+ * tremble with the edge's last bits. */
+static drogue_q16 begin_of(drogue_q16 at_px_q16) { return (at_px_q16 + FROM) & ~(DROGUE_Q16_ONE / 2 - 1); }
 
 /* Grey between two samples, Q16; 'part' Q15. */
 static int32_t between_q16(int32_t a_q8, int32_t b_q8, int32_t part_q15)
@@ -27,18 +27,33 @@ static int32_t between_q16(int32_t a_q8, int32_t b_q8, int32_t part_q15)
     return a_q8 * 256 + (int32_t)drogue_shr_round_s64((int64_t)(b_q8 - a_q8) * part_q15, 7);
 }
 
-static int32_t median_of(int32_t *v, uint32_t count)
+/* By Hoare's FIND: what lies before the middle is no larger, what lies behind it no smaller. */
+static int32_t median_of(int32_t *v, int32_t count)
 {
-    uint32_t i;
-    for (i = 1; i < count; i++) {
-        const int32_t moved = v[i];
-        uint32_t at = i;
-        for (; at > 0 && v[at - 1] > moved; at--) {
-            v[at] = v[at - 1];
+    const int32_t middle = count / 2;
+    int32_t first = 0;
+    int32_t last = count - 1;
+    while (first < last) { /* bound: RAYS, a value less each time */
+        const int32_t by = v[middle];
+        int32_t i = first;
+        int32_t j = last;
+        while (i <= j) {        /* bound: RAYS */
+            while (v[i] < by) { /* bound: RAYS, there is one no smaller */
+                i++;
+            }
+            while (v[j] > by) { /* bound: RAYS */
+                j--;
+            }
+            if (i <= j) {
+                const int32_t moved = v[i];
+                v[i++] = v[j];
+                v[j--] = moved;
+            }
         }
-        v[at] = moved;
+        first = j < middle ? i : first;
+        last = i > middle ? j : last;
     }
-    return v[count / 2];
+    return v[middle];
 }
 
 /* Grey of the disc along its edge as a plane, of the rays that fit it; a change across it must stand out of the
@@ -88,17 +103,18 @@ int drogue_inner_shade_find(drogue_inner_shade *out, const drogue_ray rays[RAYS]
     int32_t beyond_q16[RAYS];
     int64_t noise2_q16;
     int32_t step_q16;
-    uint32_t count = 0;
+    int32_t count = 0;
     int32_t k;
     for (k = 0; k < RAYS; k++) {
         const drogue_q16 at = rays[k].count > 0 ? drogue_ray_along(&rays[k], v_px_q16) : 0;
         dark_q16[k] = -1;
         if (drogue_ray_chosen(&rays[k], at, within_px_q16) >= 0) {
-            const int32_t part_q15 = drogue_q16_sub(drogue_q16_add(at, FROM), begin_of(at));
+            const int32_t part_q15 = at + FROM - begin_of(at);
             int32_t grey_q8[PROFILE];
             int32_t i;
             drogue_ray_read_as(grey_q8, &rays[k], image, transfer, begin_of(at), PROFILE);
-            dark_q16[k] = between_q16(grey_q8[0], grey_q8[DARK], part_q15) / DARK;
+            dark_q16[k] =
+                (int32_t)((uint32_t)between_q16(grey_q8[0], grey_q8[DARK], part_q15) / DARK); /* no grey is below 0 */
             for (i = 1; i < DARK; i++) {
                 dark_q16[k] += grey_q8[i] * (256 / DARK);
             }
@@ -136,7 +152,7 @@ void drogue_inner_shade_cross(drogue_ray rays[RAYS], const drogue_image *image, 
                 drogue_ray_edge *e = &r->edges[r->count++];
                 const int32_t step_q8 = grey_q8[i + 1] - grey_q8[i];
                 const int32_t part_q16 = (int32_t)drogue_div_round_s64((int64_t)below_q16 * 128, step_q8);
-                e->at_px_q16 = drogue_q16_add(drogue_q16_add(from, 32768 * i), part_q16);
+                e->at_px_q16 = from + 32768 * i + part_q16; /* within 2^30 + 2^20: no part is above 2^15 */
                 e->slope_q8 = DROGUE_RAY_WEIGHT * 2 * step_q8;
                 e->level_q8 = grey_q8[i];
             }

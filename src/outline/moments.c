@@ -97,25 +97,26 @@ static void spread_moments(s96 *s, const drogue_moments *m)
     s96_set(&s[14], m->m04.high, m->m04.low);
 }
 
-/* Monomials in the order of elimination: 1, x, y, then x^2, xy, y^2. */
-static const uint8_t power_x[6] = {0, 1, 0, 2, 1, 0};
-static const uint8_t power_y[6] = {0, 0, 1, 0, 1, 2};
+/* The moment of each product of two monomials, packed, in the order of elimination: 1, x, y, then x^2, xy, y^2; then
+ * the same with x and y exchanged. */
+static const uint8_t moment_of[2][21] = {
+    {0, 1, 3, 2, 4, 5, 3, 6, 7, 10, 4, 7, 8, 11, 12, 5, 8, 9, 12, 13, 14},
+    {0, 2, 5, 1, 4, 3, 5, 9, 8, 14, 4, 8, 7, 13, 12, 3, 7, 6, 12, 11, 10},
+};
 
-/* Take 'multiple' times monomial k < 3 from monomial i, in the exact sums: a congruence. */
+/* Take 'multiple' times monomial k < 3 from monomial i >= 3, in the exact sums: a congruence. */
 static void take(s96 s[21], int i, int k, int32_t multiple)
 {
-    int to = DROGUE_PACKED(i, 0);
-    int from = DROGUE_PACKED(k, 0);
+    s96 *to = &s[DROGUE_PACKED(i, 0)];
+    const s96 *from = &s[DROGUE_PACKED(k, 0)];
     int j;
     s96_subtract_multiple(&s[DROGUE_PACKED(i, i)], &s[DROGUE_PACKED(i, k)], multiple);
-    for (j = 0; j < 6; j++) {
-        if (j != i) {
-            s96_subtract_multiple(&s[to], &s[from], multiple);
-        }
-        to += j < i ? 1 : j + 1; /* to (i, j + 1), packed */
-        from += j < k ? 1 : j + 1;
+    s96_subtract_multiple(to, from, multiple);
+    for (j = 1; j < 6; j++) {
+        to += j <= i ? 1 : j; /* to (i, j), packed */
+        from += j <= k ? 1 : j;
+        s96_subtract_multiple(to, from, multiple);
     }
-    s96_subtract_multiple(&s[DROGUE_PACKED(i, i)], &s[DROGUE_PACKED(i, k)], multiple);
 }
 
 /* round(num / den), within what sums allow */
@@ -167,7 +168,6 @@ int drogue_moments_scatter(drogue_scatter *out, const drogue_moments *m)
     drogue_real yy;
     int swap;
     int i;
-    int j;
     out->centre[0] = (int32_t)drogue_div_round_s64(m->m10, m->n);
     out->centre[1] = (int32_t)drogue_div_round_s64(m->m01, m->n);
     spread_moments(about, m);
@@ -176,12 +176,8 @@ int drogue_moments_scatter(drogue_scatter *out, const drogue_moments *m)
     s96_to_real(&xx, &about[moment(2, 0)]);
     s96_to_real(&yy, &about[moment(0, 2)]);
     swap = drogue_real_order(&xx, &yy) < 0;
-    for (i = 0; i < 6; i++) {
-        for (j = 0; j <= i; j++) {
-            const int p = power_x[i] + power_x[j];
-            const int q = power_y[i] + power_y[j];
-            s96_copy(&s[DROGUE_PACKED(i, j)], &about[swap ? moment(q, p) : moment(p, q)]);
-        }
+    for (i = 0; i < 21; i++) {
+        s96_copy(&s[i], &about[moment_of[swap][i]]);
     }
     explain(s, out->taken);
     for (i = 0; i < 21; i++) {

@@ -207,8 +207,8 @@ static void find_edges(drogue_ray *r, const drogue_image *image, int32_t out, in
 }
 
 /* A ray at an offset from the centre of an ellipse and along a normal, or with both reversed; sign is 1 or -1. */
-static void place(drogue_ray *r, const drogue_ellipse *e, const int64_t at_px_q16[2], const int64_t normal_q14[2],
-                  int32_t sign)
+static inline void place(drogue_ray *r, const drogue_ellipse *e, const int64_t at_px_q16[2],
+                         const int64_t normal_q14[2], int32_t sign)
 {
     r->x_px_q16 = drogue_clamp_2_30(e->xc_px_q16 + sign * at_px_q16[0]); /* beyond 2^14 px every image has ended */
     r->y_px_q16 = drogue_clamp_2_30(e->yc_px_q16 + sign * at_px_q16[1]);

@@ -99,12 +99,12 @@ int drogue_refit_covers(const drogue_ellipse *ring, drogue_refit_context *c)
     return c->looked_as == bright_bins || drogue_refit_look(c, ring, bright_bins) == DROGUE_OK;
 }
 
-/* Give an outline the points about it: those looked at, or all, collected anew. */
+/* Give an outline the points about it: those looked at already, or every stride-th, collected anew. */
 static drogue_status take_points(drogue_outline *outline, drogue_refit_context *c, const drogue_band *band,
-                                 int looked_at)
+                                 uint32_t stride, int looked_at)
 {
     const drogue_status status =
-        looked_at ? DROGUE_OK : collect(c, &outline->ellipse, band, outline->support.bright_bins, 1);
+        looked_at ? DROGUE_OK : collect(c, &outline->ellipse, band, outline->support.bright_bins, stride);
     if (status == DROGUE_OK) {
         outline->support = c->room->support;
         outline->band_px_q16 = band->half_width_px_q16;
@@ -128,6 +128,16 @@ static int fit_once(drogue_outline *outline, drogue_refit_context *c, drogue_ban
     return settled && all && band->half_width_px_q16 == outline->band_px_q16;
 }
 
+#define MANY 8 /* times as many points as score an outline: of fewer another fit takes more than it saves */
+
+/* Every how many-th point a round takes: those that scored it, of many also to bring the outline to its place; the last
+ * two fits are to all. */
+static uint32_t stride_of(const drogue_refit_context *c, uint32_t round)
+{
+    const uint32_t stride = drogue_refit_stride(c);
+    return round == 0 || (round + 2 < c->config->refit_rounds && stride > MANY) ? stride : 1;
+}
+
 void drogue_refit(drogue_outline *outline, drogue_refit_context *c)
 {
     drogue_band band = band_about(&outline->ellipse, c);
@@ -136,13 +146,14 @@ void drogue_refit(drogue_outline *outline, drogue_refit_context *c)
     int done = 0;
     outline->support.bright_bins = bright_bins;
     for (round = 0; round < c->config->refit_rounds && !done; round++) { /* bound: 16 */
-        done = take_points(outline, c, &band, round == 0) != DROGUE_OK;
+        const uint32_t stride = stride_of(c, round);
+        done = take_points(outline, c, &band, stride, round == 0) != DROGUE_OK;
         if (!done && outline->support.bright_bins == bright_bins) { /* else again with those that the counts show */
-            done = fit_once(outline, c, &band, round > 0 || drogue_refit_stride(c) == 1);
+            done = fit_once(outline, c, &band, stride == 1);
         }
         bright_bins = outline->support.bright_bins;
     }
-    if (!done && take_points(outline, c, &band, 0) == DROGUE_OK && outline->support.bright_bins != bright_bins) {
+    if (!done && take_points(outline, c, &band, 1, 0) == DROGUE_OK && outline->support.bright_bins != bright_bins) {
         drogue_support_judge_as(&outline->support, &outline->ellipse, bright_bins, 1); /* as the sums are */
     }
     drogue_support_turn(&outline->support, outline->ellipse.angle_rad_q16);

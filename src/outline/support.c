@@ -43,19 +43,21 @@ static uint32_t changes(uint32_t bright, uint32_t covered)
 static void enough_points(uint32_t enough[2], const drogue_support *support, const drogue_ellipse *ellipse,
                           uint32_t stride)
 {
+    uint32_t needed[DROGUE_SUPPORT_BINS / 4];
+    uint32_t dark = 0;
+    uint32_t bright = 0;
     uint32_t k;
-    enough[0] = 0;
-    enough[1] = 0;
     for (k = 0; k < DROGUE_SUPPORT_BINS / 4; k++) {
-        const uint32_t needed = needed_points(ellipse, k);
-        const uint32_t alike[4] = {k, 15 - k, 16 + k, 31 - k};
-        uint32_t i;
-        for (i = 0; i < 4; i++) {
-            const uint32_t *count = support->bin[alike[i]].count;
-            enough[0] |= (uint32_t)(count[0] * stride >= needed) << alike[i]; /* no more than edge points, 2^24 */
-            enough[1] |= (uint32_t)(count[1] * stride >= needed) << alike[i];
-        }
+        needed[k] = needed_points(ellipse, k);
     }
+    for (k = DROGUE_SUPPORT_BINS; k-- > 0;) {
+        const uint32_t *count = support->bin[k].count;
+        const uint32_t least = needed[(k & 8u ? ~k : k) & 7u];     /* a quadrant's bins, to and fro */
+        dark = dark << 1 | (uint32_t)(count[0] * stride >= least); /* no more than edge points, 2^24 */
+        bright = bright << 1 | (uint32_t)(count[1] * stride >= least);
+    }
+    enough[0] = dark;
+    enough[1] = bright;
 }
 
 /* Covered bins when the bins have these polarities, less the changes of polarity. */

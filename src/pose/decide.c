@@ -183,12 +183,12 @@ static void widen(drogue_joint *joint)
 
 /* An outline within which no inner part is seen may be another edge than the rim, or the rim on one side and another
  * edge on the other: 1.1 % of a semi-axis in every parameter. */
-static void doubt_outline(drogue_joint_outline *outline)
+static void doubt_outline(drogue_real covariance[DROGUE_PACKED_MAX])
 {
     const drogue_real doubt = {1 << 30, -43}; /* 2^-13 is the square of 1.1 % */
     int i;
     for (i = 0; i < DROGUE_JOINT_FIT; i++) {
-        drogue_real *own = &outline->covariance[DROGUE_PACKED(i, i)];
+        drogue_real *own = &covariance[DROGUE_PACKED(i, i)];
         drogue_real_sum(own, own, &doubt);
     }
 }
@@ -199,17 +199,17 @@ static int has_inner(const drogue_evidence *evidence) { return evidence->inner.s
 static drogue_status weigh_outline(drogue_joint_outline *outline, const drogue_evidence *evidence,
                                    const drogue_setup *setup)
 {
-    drogue_status status;
-    outline->ellipse = evidence->ideal;
-    status = drogue_joint_outline_covariance(outline, evidence->support, setup->config->outline_shading_q16,
-                                             setup->config->optics_blur_std_px2_q16);
+    drogue_real covariance[DROGUE_PACKED_MAX];
+    const drogue_status status =
+        drogue_joint_outline_covariance(covariance, &evidence->ideal, evidence->support,
+                                        setup->config->outline_shading_q16, setup->config->optics_blur_std_px2_q16);
     if (status != DROGUE_OK) {
         return status;
     }
     if (setup->model->inner_radius_m_q16 > 0 && !has_inner(evidence)) {
-        doubt_outline(outline);
+        doubt_outline(covariance);
     }
-    return drogue_joint_outline_weigh(outline);
+    return drogue_joint_outline_weigh(outline, &evidence->ideal, covariance);
 }
 
 /* Of the distance: an inner part that contradicts the outline counts as if it were so far off its size. */

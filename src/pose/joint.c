@@ -40,12 +40,17 @@ static void normal_equations(drogue_real normal[CHI2 + 1], const drogue_joint_ro
         int64_t sum[FIT];
         int32_t exponent;
         for (i = 0; i < FIT; i++) {
-            int at = DROGUE_PACKED(i, 0);
-            sum[i] = 0;
-            for (q = 0; q < FIT; q++) { /* the same bounds */
-                sum[i] += drogue_product(w->weight[at], column->outline[q]);
-                at += q < i ? 1 : q + 1; /* to (i, q + 1), packed */
+            const int32_t *weight = &w->weight[DROGUE_PACKED(i, 0)];
+            int64_t own = 0; /* the same bounds */
+            for (q = 0; q < i; q++) {
+                own += drogue_product(*weight++, column->outline[q]);
             }
+            own += drogue_product(*weight, column->outline[i]);
+            for (q = i + 1; q < FIT; q++) {
+                weight += q; /* to (q, i), packed */
+                own += drogue_product(*weight, column->outline[q]);
+            }
+            sum[i] = own;
         }
         exponent = drogue_joint_squeeze(weighted, sum, FIT) + w->weight_exponent + column->exponent;
         drogue_real_product(&inner[0], &inner_weight[0], &column->inner[0]);

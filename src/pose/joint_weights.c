@@ -118,19 +118,19 @@ static void add_smear(drogue_real covariance[DROGUE_PACKED_MAX], const drogue_el
     }
 }
 
-drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, const drogue_support *support,
-                                              drogue_q16 shading_q16, drogue_q16 blur_px2_q16)
+drogue_status drogue_joint_outline_covariance(drogue_real covariance[DROGUE_PACKED_MAX], const drogue_ellipse *ellipse,
+                                              const drogue_support *support, drogue_q16 shading_q16,
+                                              drogue_q16 blur_px2_q16)
 {
     /* 0.3 px^2 over the semi-axis: what the pixels' grid makes of all edges */
     const drogue_real grid_px2 = {1288490189, -32};
-    drogue_real *covariance = outline->covariance;
     drogue_real scatter;
     drogue_real variance;
     drogue_real a;
     drogue_real t;
     int i;
     const int32_t bins =
-        sum_bins(covariance, &scatter, support, drogue_support_bins_to(support, outline->ellipse.angle_rad_q16));
+        sum_bins(covariance, &scatter, support, drogue_support_bins_to(support, ellipse->angle_rad_q16));
     if (bins <= DROGUE_JOINT_FIT || support->gradient == 0 ||
         drogue_cholesky_factor(covariance, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
@@ -142,7 +142,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
         drogue_real_product(&covariance[i], &covariance[i], &scatter);
     }
     /* shading times points over the semi-axis times the sum of gradients */
-    drogue_real_set_q16(&a, outline->ellipse.a_px_q16);
+    drogue_real_set_q16(&a, ellipse->a_px_q16);
     drogue_real_set_q16(&variance, shading_q16);
     drogue_real_set(&t, support->points, 0);
     drogue_real_product(&variance, &variance, &t);
@@ -154,7 +154,7 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
         drogue_real_sum(own, own, &variance);
     }
     /* blur and grid over the product of the semi-axes */
-    drogue_real_set_q16(&t, outline->ellipse.b_px_q16);
+    drogue_real_set_q16(&t, ellipse->b_px_q16);
     drogue_real_product(&a, &a, &t);
     drogue_real_set_q16(&variance, blur_px2_q16);
     square_ratio(&variance, &variance, &a);
@@ -167,16 +167,17 @@ drogue_status drogue_joint_outline_covariance(drogue_joint_outline *outline, con
         drogue_real_sum(&variance, &variance, &a);
         drogue_real_sum(own, own, &variance);
     }
-    add_smear(covariance, &outline->ellipse, support);
+    add_smear(covariance, ellipse, support);
     return DROGUE_OK;
 }
 
-drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline)
+drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline, const drogue_ellipse *ellipse,
+                                         const drogue_real covariance[DROGUE_PACKED_MAX])
 {
     drogue_real information[DROGUE_PACKED_MAX];
     int32_t top = INT32_MIN;
     int i;
-    memcpy(information, outline->covariance, sizeof outline->covariance);
+    memcpy(information, covariance, sizeof information);
     if (drogue_cholesky_factor(information, DROGUE_JOINT_FIT) != DROGUE_OK) {
         return DROGUE_E_DEGENERATE;
     }
@@ -185,6 +186,7 @@ drogue_status drogue_joint_outline_weigh(drogue_joint_outline *outline)
         const drogue_real *w = &information[i];
         top = w->mantissa != 0 && w->exponent > top ? w->exponent : top;
     }
+    outline->ellipse = *ellipse;
     outline->weight_exponent = top + 1; /* the largest, below 2^31, comes to lie below 2^30 */
     for (i = 0; i < DROGUE_PACKED_MAX; i++) {
         outline->weight[i] = drogue_real_to_s32(information[i], -outline->weight_exponent);

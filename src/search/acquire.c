@@ -8,7 +8,6 @@
 #include "sure.h"
 
 #define SURE (1 << 30)    /* the worth of what is sure is as much and more */
-#define WIDER 2           /* so many sightings are measured once more */
 #define MOST_WHOLE_PX 512 /* a larger image is not measured itself: a drogue in it shows its inner part */
 
 /* How much a result is worth: 0 without a pose; else by its log odds, or without an inner part by its cover. */
@@ -103,31 +102,17 @@ static drogue_status search_part(drogue_search *search, const drogue_model *mode
     return DROGUE_OK;
 }
 
-/* About the same middle, a quarter larger. */
-static void widen(drogue_region *r)
-{
-    r->x_px -= r->width_px / 8;
-    r->y_px -= r->height_px / 8;
-    r->width_px += r->width_px / 4;
-    r->height_px += r->height_px / 4;
-}
-
-/* Places that are measured, by number: those of the sightings, of the dark discs, larger ones about the first of the
- * sightings, what is asked for. */
+/* Places that are measured, by number: those of the sightings, of the dark discs, what is asked for. */
 #define DARK DROGUE_SEARCH_MAX
-#define WIDE (DARK + DROGUE_SEARCH_DARK)
-#define WHOLE (WIDE + WIDER)
+#define WHOLE (DARK + DROGUE_SEARCH_DARK)
 
 static void place(drogue_search *search, int32_t where, const drogue_region *region, const drogue_image *image)
 {
     drogue_region *out = &search->asked;
     if (where < DARK) {
         *out = search->best[where].region;
-    } else if (where < WIDE) {
-        *out = search->dark[where - DARK].region;
     } else if (where < WHOLE) {
-        *out = search->best[where - WIDE].region;
-        widen(out); /* what was sighted may be an edge within the drogue */
+        *out = search->dark[where - DARK].region;
     } else {
         put_asked(out, region, image);
     }
@@ -143,11 +128,8 @@ static int is_wanted(const drogue_search *search, int32_t where, int32_t settled
     if (search->worth_q16 >= SURE) {
         return 0;
     }
-    if (where < WIDE) {
-        return where - DARK < search->dark_count;
-    }
     if (where < WHOLE) {
-        return where - WIDE < search->count && model->inner_radius_m_q16 > 0;
+        return where - DARK < search->dark_count;
     }
     return model->inner_radius_m_q16 == 0 || (search->width_px <= MOST_WHOLE_PX && search->rows_in <= MOST_WHOLE_PX);
 }
@@ -173,10 +155,6 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
             continue;
         }
         place(search, i, region, image);
-        if (i >= WIDE && i < WHOLE && !drogue_workspace_spans(workspace, &search->asked, image)) {
-            drogue_note_room(&room, DROGUE_E_WORKSPACE, DROGUE_SECOND_NONE);
-            continue;
-        }
         (void)drogue_measure(out, workspace, setup, image, &search->asked);
         drogue_note_room(&room, out->status, out->second_look);
         furthest = out->status > furthest ? out->status : furthest;

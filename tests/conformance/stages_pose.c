@@ -200,7 +200,7 @@ int stage_frame(stage_run *r)
     drogue_config config;
     drogue_result result;
     if (frame == NULL || detail == NULL || covariance == NULL || std == NULL ||
-        !stage_workspace(r, &workspace, region.width_px)) {
+        !stage_workspace(r, &workspace, image.width_px)) {
         return CONF_E_MEMORY;
     }
     drogue_config_default(&config);

@@ -158,7 +158,9 @@ int stage_joint(stage_run *r)
     int64_t *covariance = (int64_t *)stage_output(r, "covariance", 64, DROGUE_PACKED_MAX);
     int64_t *outline_covariance = (int64_t *)stage_output(r, "outline", 64, DROGUE_PACKED_MAX);
     drogue_joint_outline outline;
+    drogue_real stated[DROGUE_PACKED_MAX];
     drogue_support support;
+    drogue_ellipse ellipse;
     drogue_ellipse image;
     drogue_pose start;
     drogue_joint joint;
@@ -171,12 +173,12 @@ int stage_joint(stage_run *r)
     memcpy(start.position_m_q16, p + 3, sizeof start.position_m_q16);
     start.yaw_rad_q16 = p[6];
     start.pitch_rad_q16 = p[7];
-    outline.ellipse = stage_ellipse(stage_input32(r, 0));
-    if (!stage_angle_valid(&outline.ellipse) || outline.ellipse.b_px_q16 < DROGUE_Q16_ONE ||
-        outline.ellipse.a_px_q16 < outline.ellipse.b_px_q16 || camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 ||
-        p[0] <= 0 || p[1] < 0 || p[6] < -DROGUE_Q16_HALF_PI || p[6] > DROGUE_Q16_HALF_PI ||
-        p[7] < -DROGUE_Q16_HALF_PI || p[7] > DROGUE_Q16_HALF_PI || p[10] < 0 || p[11] < 0 || p[12] < 0 || p[14] < 0 ||
-        p[14] > 16 || !stage_support_of_words(&support, stage_input32(r, 2), p[13], stage_input32(r, 0)[4])) {
+    ellipse = stage_ellipse(stage_input32(r, 0));
+    if (!stage_angle_valid(&ellipse) || ellipse.b_px_q16 < DROGUE_Q16_ONE || ellipse.a_px_q16 < ellipse.b_px_q16 ||
+        camera.fx_px_q16 <= 0 || camera.fy_px_q16 <= 0 || p[0] <= 0 || p[1] < 0 || p[6] < -DROGUE_Q16_HALF_PI ||
+        p[6] > DROGUE_Q16_HALF_PI || p[7] < -DROGUE_Q16_HALF_PI || p[7] > DROGUE_Q16_HALF_PI || p[10] < 0 ||
+        p[11] < 0 || p[12] < 0 || p[14] < 0 || p[14] > 16 ||
+        !stage_support_of_words(&support, stage_input32(r, 2), p[13], stage_input32(r, 0)[4])) {
         return CONF_E_MALFORMED;
     }
     disc[0] = (int32_t)drogue_inner_disc_image(&image, &start, &camera, &model);
@@ -187,12 +189,12 @@ int stage_joint(stage_run *r)
         disc[4] = image.b_px_q16;
         disc[5] = image.angle_rad_q16;
     }
-    out[0] = (int32_t)drogue_joint_outline_covariance(&outline, &support, p[11], p[12]);
+    out[0] = (int32_t)drogue_joint_outline_covariance(stated, &ellipse, &support, p[11], p[12]);
     if (out[0] == DROGUE_OK) {
-        out[0] = (int32_t)drogue_joint_outline_weigh(&outline);
+        out[0] = (int32_t)drogue_joint_outline_weigh(&outline, &ellipse, stated);
     }
     if (out[0] == DROGUE_OK) {
-        put_packed(outline_covariance, outline.covariance);
+        put_packed(outline_covariance, stated);
         out[0] = (int32_t)drogue_joint_solve(&joint, &start, &outline, &inner, &camera, &model, p[14]);
     }
     if (out[0] == DROGUE_OK) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Tables of flash, RAM and worst-case stack from the objects and .su files of a build; called by sizes.sh.
+"""Tables of flash, RAM and worst-case stack from the objects and .su files of builds; called by sizes.sh.
 
 Stack: frame sizes from gcc's -fstack-usage, calls from the disassembly with relocations (one section a function),
 frames of the compiler's helpers and of memcpy and memset from their pushes in a linked image. The graph has no cycle and
@@ -12,20 +12,30 @@ import sys
 from functools import lru_cache
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PAGES = {'sizes': ROOT / 'docs/sizes.md', 'ram': ROOT / 'docs/sizes.md', 'data': ROOT / 'docs/architecture.md'}
+PAGES = {'sizes': ROOT / 'docs/sizes.md', 'stack': ROOT / 'docs/sizes.md', 'ram': ROOT / 'docs/sizes.md', 'data': ROOT / 'docs/architecture.md'}
 
 HARNESS = 128  # bytes of stack that run() and peak_stack() of measure.c may use themselves
 
+ARM, RISCV = 'arm-none-eabi-', 'riscv64-unknown-elf-'
+# A core by its toolchain file in src/cmake: name, tools, what they need to link.
+CORES = {'cortex-m0plus': ('Cortex-M0+', ARM, '-mcpu=cortex-m0plus -mthumb'),
+         'cortex-m4': ('Cortex-M4', ARM, '-mcpu=cortex-m4 -mthumb'),
+         'cortex-m7': ('Cortex-M7', ARM, '-mcpu=cortex-m7 -mthumb'),
+         'rv32imac': ('RV32IMAC', RISCV, '-march=rv32imac -mabi=ilp32 --specs=picolibc.specs -Wl,--defsym=__flash_size=4M')}
+OPTIONS = ('Os', 'O2')
+CALLS = ('drogue_measure', 'drogue_track_frame', 'drogue_acquire')  # of the table of stacks
 
-def tool(name, *arguments):
-    return subprocess.run(['arm-none-eabi-' + name, *map(str, arguments)], check=True, text=True,
-                          stdout=subprocess.PIPE).stdout
+
+def tool(name, *arguments, prefix=ARM):
+    return subprocess.run([prefix + name, *map(str, arguments)], check=True, text=True, stdout=subprocess.PIPE).stdout
 
 
 class Library:
     """Functions and constants of libdrogue.a: flash, calls and frames, keyed by (stage, name)."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, core='cortex-m7'):
+        _, self.prefix, flags = CORES[core]
+        self.flags = flags.split()
         self.archive = folder / 'library' / 'libdrogue.a'
         self.linked = folder / 'linked'
         self.flash, self.exported, self.calls, self.frames = {}, {}, {}, {}
@@ -35,8 +45,11 @@ class Library:
         self.read_calls()
         self.read_frames(folder / 'library')
 
+    def tool(self, name, *arguments):
+        return tool(name, *arguments, prefix=self.prefix)
+
     def read_sections(self):
-        for block in tool('size', '-A', self.archive).split('\n\n'):
+        for block in self.tool('size', '-A', self.archive).split('\n\n'):
             lines = block.strip().splitlines()
             if not lines or ':' not in lines[0]:
                 continue
@@ -50,7 +63,7 @@ class Library:
             self.stage_flash[stage], self.stage_ram[stage] = flash, ram
 
     def read_symbols(self):
-        for line in tool('nm', '-A', '-S', self.archive).splitlines():
+        for line in self.tool('nm', '-A', '-S', self.archive).splitlines():
             match = re.match(r'\S*:(\w+)\.c\.\w+:\S+ (\w+) ([TtRr]) (\S+)', line)
             if match:
                 key = (match[1], match[4])
@@ -65,14 +78,22 @@ class Library:
 
     def read_calls(self):
         stage = key = None
-        for line in tool('objdump', '-dr', self.archive).splitlines():
+        called = False  # RISC-V: the place that a jump goes to stands two lines before it
+        for line in self.tool('objdump', '-dr', self.archive).splitlines():
             if match := re.match(r'(\w+)\.c\.\w+: +file format', line):
                 stage = match[1]
             elif match := re.match(r'[0-9a-f]+ <(\S+)>:', line):
-                key = (stage, match[1])
-                self.calls.setdefault(key, set())
-            elif match := re.search(r'R_ARM_(?:THM_CALL|THM_JUMP\d+|CALL|JUMP24)\s+(\S+)', line):
-                self.calls[key].add(self.resolve(stage, match[1]))
+                if not match[1].startswith('.L'):
+                    key = (stage, match[1])
+                    self.calls.setdefault(key, set())
+            elif match := re.search(r'R_(?:ARM_(?:THM_CALL|THM_JUMP\d+|CALL|JUMP24)|RISCV_(?:CALL\w*|JAL))\s+(\S+)', line):
+                if not match[1].startswith('.L'):
+                    self.calls[key].add(self.resolve(stage, match[1]))
+                called = True
+            elif self.prefix == RISCV:
+                if re.search(r'\tjalr\t', line) and not called:
+                    sys.exit(f'sizes: call through a pointer in {key}')
+                called = called and 'R_RISCV_RELAX' in line
             elif re.search(r'\tblx?\tr\d', line) or re.search(r'\tblx?\t(ip|lr)', line) and '\tbx\tlr' not in line:
                 sys.exit(f'sizes: call through a pointer in {key}')
 
@@ -94,15 +115,18 @@ class Library:
 
     def read_helpers(self, wanted):
         """Frames and calls of functions outside the library, from all of it linked: pushes, subtractions, pre-decrements."""
-        bodies, name = {}, None
-        tool('gcc', '-mcpu=cortex-m7', '-mthumb', '-nostartfiles', '-Wl,-e,0,--whole-archive', self.archive,
-             '-Wl,--no-whole-archive', '-o', self.linked)
-        for line in tool('objdump', '-d', '--no-show-raw-insn', self.linked).splitlines():
-            if match := re.match(r'[0-9a-f]+ <(\S+)>:', line):
-                name = match[1]
-                bodies[name] = []
+        bodies, at, name = {}, {}, None
+        self.tool('gcc', *self.flags, '-nostartfiles', '-Wl,--no-gc-sections,-e,0,--whole-archive', self.archive,
+                  '-Wl,--no-whole-archive', '-o', self.linked)
+        for line in self.tool('objdump', '-d', '--no-show-raw-insn', self.linked).splitlines():
+            if match := re.match(r'([0-9a-f]+) <(\S+)>:', line):
+                name = match[2]
+                bodies[name] = at[int(match[1], 16)] = []
             elif name:
                 bodies[name].append(line)
+        for fields in map(str.split, self.tool('nm', self.linked).splitlines()):  # of several names of a place one is shown
+            if fields[1] in 'TtWw' and len(fields) == 3 and int(fields[0], 16) in at:
+                bodies.setdefault(fields[2], at[int(fields[0], 16)])
         while wanted:
             key = wanted.pop()
             if key in self.frames:
@@ -115,9 +139,9 @@ class Library:
                     size += 4 * sum(register_count(part) for part in match[1].split(','))
                 elif match := re.search(r'\tsub(?:w|\.w)?\tsp, (?:sp, )?#(\d+)', line):
                     size += int(match[1])
-                elif match := re.search(r'\[sp, #-(\d+)\]!', line):
-                    size += int(match[1])
-                elif match := re.search(r'\tb(?:l|lx|\.w|\.n)?\t[0-9a-f]+ <([^+>]+)>', line):
+                elif match := re.search(r'\[sp, #-(\d+)\]!|\taddi?\tsp,sp,-(\d+)', line):
+                    size += int(match[1] or match[2])
+                elif match := re.search(r'\t(?:b(?:l|lx|\.w|\.n)?\t|j\t|jal\t(?:ra,)?)[0-9a-f]+ <([^+>]+)>', line):
                     calls.add(('', match[1]))
             self.frames[key], self.calls[key] = size, calls - {key}
             wanted |= self.calls[key] - self.frames.keys()
@@ -157,8 +181,25 @@ def caller_ram(folder):
     return {f[3].strip('_'): int(f[1], 16) for f in (line.split() for line in tool('nm', '-S', target).splitlines())}
 
 
-def compiler():
-    return tool('gcc', '--version').splitlines()[0]
+def compiler(prefix=ARM):
+    return tool('gcc', '--version', prefix=prefix).splitlines()[0]
+
+
+def stacks(folder):
+    """Worst-case stack in bytes by (core, option), of each of CALLS."""
+    found = {}
+    for core in CORES:
+        for option in OPTIONS:
+            library = Library(folder / f'{core}-{option}', core)
+            found[(core, option)] = [library.stack(library.exported[name]) for name in CALLS]
+    return found
+
+
+def stack_table(found):
+    lines = [f'{compiler()}; {compiler(RISCV)}.', '',
+             '| core | option | ' + ' | '.join(f'`{name}`' for name in CALLS) + ' |', '| --- | --- |' + ' --- |' * len(CALLS)]
+    return '\n'.join(lines + [f'| {CORES[core][0]} | `-{option}` | ' + ' | '.join(map(str, bytes_)) + ' |'
+                              for (core, option), bytes_ in found.items()])
 
 
 def tables(library, ram):
@@ -207,7 +248,7 @@ def data_table(ram):
     return '\n'.join(lines + [f'| `{name}` | {stage} | {what} | {ram[name]} |' for name, stage, what in rows])
 
 
-def check_budgets(library, ram, folder):
+def check_budgets(library, ram, folder, deepest):
     lines = (ROOT / 'tests/embedded/budgets').read_text().splitlines()
     limits = dict(line.split() for line in lines if not line.startswith('#'))
     state = ram['drogue_workspace'] + ram['drogue_config'] + ram['drogue_result']
@@ -219,11 +260,13 @@ def check_budgets(library, ram, folder):
                 'ram_256x256_bytes': ram['workspace_256x256'] + state + stack,
                 'ram_160x120_bytes': ram['workspace_160x120'] + state + stack,
                 'only_ellipse_bytes': int(text) + int(data)}
+    for core in CORES:
+        measured[f'stack_{core.replace("-", "_")}_bytes'] = max(max(deepest[(core, option)]) for option in OPTIONS)
     good = True
     for name, value in measured.items():
         within = value <= int(limits[name])
         good &= within
-        print(f'{name:20} {value:8d}, budget {int(limits[name]):8d}  {"ok" if within else "EXCEEDED"}')
+        print(f'{name:25} {value:8d}, budget {int(limits[name]):8d}  {"ok" if within else "EXCEEDED"}')
     painted = max(map(int, re.findall(r' stack=(\d+)', (folder / 'images' / 'measure.out').read_text())))
     bound = library.stack(library.exported['drogue_measure'])
     print(f'stack of drogue_measure: bound {bound}, with {HARNESS} more of the test itself {bound + HARNESS}; '
@@ -270,18 +313,21 @@ def place(texts):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    update = '--update' in sys.argv[2:]
+    update = '--update' in sys.argv[3:]
     library = Library(folder)
     ram = caller_ram(folder)
-    measured = {'sizes': tables(library, ram), 'ram': workspace_table(), 'data': data_table(ram)}
+    deepest = stacks(pathlib.Path(sys.argv[2]))
+    measured = {'sizes': tables(library, ram), 'stack': stack_table(deepest), 'ram': workspace_table(), 'data': data_table(ram)}
     old = place(measured if update else {})
     if update:
         print('sizes: written into docs/sizes.md and docs/architecture.md')
-    good = check_budgets(library, ram, folder)
+    good = check_budgets(library, ram, folder, deepest)
     good &= check_only_ellipse(library, folder)
-    if compiler() not in old['sizes'] and old['sizes'].strip():
-        print(f'sizes: not compared with docs/sizes.md, which is of another compiler than {compiler()}')
-        del old['sizes']
+    for name, compilers in (('sizes', [compiler()]), ('stack', [compiler(), compiler(RISCV)])):
+        others = [c for c in compilers if c not in old[name]]
+        if others and old[name].strip():
+            print(f'sizes: "{name}" is not compared with docs/sizes.md, which is of another compiler than {others[0]}')
+            del old[name]
     for name in old:
         if not update and old[name].strip() != measured[name].strip():
             good = False

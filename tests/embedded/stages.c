@@ -84,8 +84,8 @@ WRAP(POSE, drogue_status, drogue_pose_from_ellipse, (drogue_pose a[2], const dro
      drogue_q16 d), (a, b, c, d))
 WRAP(POSE, drogue_status, drogue_choose_pose, (drogue_choice *a, const drogue_pose b[2], drogue_q16 c, drogue_q16 d,
      drogue_q16 e, const drogue_camera *f), (a, b, c, d, e, f))
-WRAP(JOINT, drogue_status, drogue_joint_outline_covariance, (drogue_joint_outline *a, const drogue_support *b,
-     drogue_q16 c, drogue_q16 d), (a, b, c, d))
+WRAP(JOINT, drogue_status, drogue_joint_outline_covariance, (drogue_real a[DROGUE_PACKED_MAX], const drogue_ellipse *b,
+     const drogue_support *c, drogue_q16 d, drogue_q16 e), (a, b, c, d, e))
 WRAP(JOINT, drogue_status, drogue_joint_solve, (drogue_joint *a, const drogue_pose *b, const drogue_joint_outline *c,
      const drogue_joint_inner *d, const drogue_camera *e, const drogue_model *f, int g), (a, b, c, d, e, f, g))
 /* clang-format on */

@@ -32,14 +32,16 @@ static void widen(drogue_capacity *capacity, int which)
     *tables[which] *= 3;
 }
 
-/* The image within a larger one, of other pixels all around it: the same pose, and the outline where it went. */
+/* The image within a larger one, of other pixels all around it: the same pose, and the outline where it went. Five
+ * quarters of the region, which are tried, too, are the image. */
 static void shifted(const fuzz_scene *s, fuzz_bytes *b, const drogue_capacity *capacity, uint8_t around)
 {
     const drogue_image *image = &s->image;
     const int32_t x = fuzz_range(b, 0, 9), y = fuzz_range(b, 0, 9);
     drogue_model model = *s->setup.model;
-    const drogue_region all = {0, 0, image->width_px, image->height_px},
-                        moved = {x, y, image->width_px, image->height_px};
+    const drogue_region region = {image->width_px / 10, image->height_px / 10, image->width_px * 4 / 5,
+                                  image->height_px * 4 / 5};
+    drogue_region moved = region;
     drogue_config config = s->config;
     drogue_camera camera = s->camera;
     drogue_setup setup = s->setup;
@@ -49,12 +51,12 @@ static void shifted(const fuzz_scene *s, fuzz_bytes *b, const drogue_capacity *c
     int32_t row;
     config.recentre_cover_q16 = 0; /* a second look may reach past the region */
     setup.config = &config;
-    here = measured(s, image, &setup, &all, capacity, 1);
+    here = measured(s, image, &setup, &region, capacity, 1);
     if (here.status != DROGUE_OK || !here.has_inner || here.doubt_q16 > DROGUE_Q16(1, 64) ||
         here.tried >= DROGUE_TRIED_RAYS) {
         model.inner_radius_m_q16 = 0; /* so may the region about a disc, which is looked for where none is believed */
         setup.model = &model;
-        here = measured(s, image, &setup, &all, capacity, 1);
+        here = measured(s, image, &setup, &region, capacity, 1);
     }
     larger.width_px = larger.stride = image->width_px + 2 * x + 1;
     larger.height_px = image->height_px + 2 * y + 1;
@@ -65,6 +67,8 @@ static void shifted(const fuzz_scene *s, fuzz_bytes *b, const drogue_capacity *c
                image->data + (size_t)row * (size_t)image->stride, (size_t)image->width_px);
     }
     larger.data = pixels;
+    moved.x_px += x;
+    moved.y_px += y;
     camera.cx_px_q16 += x * 65536;
     camera.cy_px_q16 += y * 65536;
     setup.camera = &camera;

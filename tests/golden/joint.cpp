@@ -106,13 +106,14 @@ int main()
         start.pitch = real_of_q16(t.start.pitch_rad_q16);
         reference::Covariance expected_outline;
         reference::Ellipse expected_image;
-        if (drogue_joint_outline_covariance(&t.outline, &t.support, 249037, 7864) != DROGUE_OK ||
-            drogue_joint_outline_weigh(&t.outline) != DROGUE_OK ||
+        drogue_real own_outline[DROGUE_PACKED_MAX];
+        if (drogue_joint_outline_covariance(own_outline, &q, &t.support, 249037, 7864) != DROGUE_OK ||
+            drogue_joint_outline_weigh(&t.outline, &q, own_outline) != DROGUE_OK ||
             !reference::outline_covariance(expected_outline, e, t.model_support, 249037 / 65536.0L, 7864 / 65536.0L)) {
             outline.add(INFINITY, name);
             continue;
         }
-        outline.add(packed_difference(t.outline.covariance, expected_outline), name);
+        outline.add(packed_difference(own_outline, expected_outline), name);
         const reference::Joint expected = reference::solve_joint(
             start, e, expected_outline,
             {{real_of_q16(t.inner.x_px_q16), real_of_q16(t.inner.y_px_q16)}, real_of_q16(t.inner.std_px_q16)},

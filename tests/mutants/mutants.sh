@@ -85,7 +85,7 @@ cc=(gcc)
 # compile INCLUDE SOURCE OBJECT [FLAG...]: with INCLUDE before the tree's own headers
 compile() {
     "${cc[@]}" -O1 -std=c99 -fPIC -D_POSIX_C_SOURCE=200809L -I "$1" -I "${1%include}." -I include -I tests/conformance \
-        -I tests/unit -I src/frontend -I src/search -I src/cli -MMD -c "$2" -o "$3" "${@:4}"
+        -I tests/unit -I src/frontend -I src/search -I src/cli -I . -MMD -c "$2" -o "$3" "${@:4}"
 }
 
 # The program's flags and libraries, as src/cli/CMakeLists.txt has them.

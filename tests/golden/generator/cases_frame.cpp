@@ -234,6 +234,15 @@ void add_regions(Set &set)
     f.region.x += 7;
     f.region.y -= 5;
     add_frame(set, "region-off-centre", Tier::stress, {}, f);
+    const int by = region.width / 7; /* a side: 3.2 and 1.8 semi-axes */
+    const cv::Rect wide(region.x - by, region.y - by, region.width + 2 * by, region.height + 2 * by);
+    add_frame(set, "region-wide", Tier::ordinary, {}, photograph(s, wide, 6));
+    f = all;
+    f.region.x += by;
+    f.region.y += by;
+    f.region.width -= 2 * by;
+    f.region.height -= 2 * by;
+    add_frame(set, "region-tight", Tier::ordinary, {}, f);
     f = all;
     f.region = {all.image.cols, 0, 40, 40};
     add_frame(set, "region-beside-image", Tier::must_reject, {"border"}, f);

@@ -289,10 +289,6 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
         const Real radius = std::floor((s.radius + 0.5L) * model.rim_radius / model.inner_radius + 0.5L);
         (void)attempt(about(mirror::frame_of(s.x, s.y, static_cast<int>(std::min<Real>(radius, DROGUE_MAX_SIDE)))));
     }
-    for (size_t i = 0; i < 2 && i < found.best.size() && !any_sure && model.inner_radius > 0; i++) {
-        const cv::Rect &r = found.best[i].region;
-        (void)attempt(about({r.x - r.width / 8, r.y - r.height / 8, r.width + r.width / 4, r.height + r.height / 4}));
-    }
     if (!any_sure && (model.inner_radius <= 0 || std::max(part.width, part.height) <= 512)) {
         (void)attempt(asked);
     }

@@ -246,16 +246,16 @@ void poses_more(std::vector<Real> &more, const mirror::Task &task, const mirror:
 mirror::Task frame_words::task_of(const std::vector<Array> &in, const std::array<int64_t, 4> &g)
 {
     const Words &c = in[1].words, &m = in[2].words;
-    const bool fits = g[2] >= 1 && g[2] <= DROGUE_MAX_SIDE; /* as the stage's workspace */
     mirror::Task t = {
         image_of(in[0]),
         {real(c[0]), real(c[1]), real(c[2]), real(c[3]), real(c[4]), real(c[5]), real(c[6]), real(c[7]), real(c[8])},
         {real(m[0]), real(m[1]), real(m[2])},
         g,
         {},
-        {static_cast<uint32_t>(fits ? g[2] : DROGUE_MAX_SIDE), CONF_MAX_EDGES, CONF_MAX_LABELS, CONF_MAX_ARCS},
+        {0, CONF_MAX_EDGES, CONF_MAX_LABELS, CONF_MAX_ARCS},
         {},
         {}};
+    t.capacity.width_px = static_cast<uint32_t>(t.image.cols); /* as the stage's workspace */
     drogue_config_default(&t.config);
     const auto q = [](int64_t v) { return static_cast<drogue_q16>(v); };
     t.library_camera = {q(c[0]), q(c[1]), q(c[2]), q(c[3]), q(c[4]), q(c[5]), q(c[6]), q(c[7]), q(c[8])};

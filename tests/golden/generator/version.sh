@@ -59,7 +59,7 @@ compare() {
     elif ! later "$new" "$old"; then
         complain "cases came since $from, $(head -n 1 <<<"$more") first, but the version did not grow: $old, now $new"
     elif ! { [ -n "$to" ] && git show "$to:./CHANGELOG.md" || cat CHANGELOG.md; } 2>/dev/null |
-        grep -i vectors | grep -qwF -- "$new"; then
+        grep -i vectors | grep -wF -- "$new" >/dev/null; then # to its end: an early one breaks the pipe
         complain "no line of CHANGELOG.md names the vectors and $new"
     else
         note "cases changed since $from: $old, now $new"

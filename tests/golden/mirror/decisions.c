@@ -20,13 +20,13 @@ drogue_status decisions_outline_find(drogue_outline *, const drogue_workspace *,
 static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, drogue_refit_context *x)
 {
     drogue_band band = band_about(&o->ellipse, x);
-    uint32_t stride = x->config->refit_rounds > 0 ? drogue_refit_stride(x) : 1;
     uint32_t n;
     int done = 0;
     for (n = 0; n <= x->config->refit_rounds && !done;) {
         drogue_ellipse ellipse;
         const drogue_q16 width = band.half_width_px_q16;
         const uint32_t bright_bins = o->support.bright_bins;
+        const uint32_t stride = n < x->config->refit_rounds ? stride_of(x, n) : 1;
         rounds[n].ellipse = o->ellipse;
         rounds[n].band = band;
         n++;
@@ -43,7 +43,6 @@ static int follow(decisions_round rounds[DECISIONS_MAX], drogue_outline *o, drog
                 break;
             }
         }
-        stride = 1;
     }
     return (int)n;
 }

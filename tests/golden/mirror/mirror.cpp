@@ -62,6 +62,12 @@ struct Frame {
     Real ring_cover = 0, ring_above = 0;
 };
 
+/* Are edges everywhere, on a quarter of the ring's 7/16 of a square region? */
+bool is_crowded(const Frame &f)
+{
+    return 64 * static_cast<int64_t>(f.front->list.edge_count) > 7 * static_cast<int64_t>(f.view.total());
+}
+
 /* Run the front end on a region. */
 drogue_status see_edges(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region,
                         bool whole = false)
@@ -592,6 +598,7 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow, bool whole
     if (out.status != DROGUE_OK) {
         return false;
     }
+    out.status = DROGUE_E_NO_ELLIPSE;
     Real cover = 0, above = 0;
     const drogue_ellipse ring =
         rounded_ellipse(seeker.best(cover, above, *f.front, f.mask, out.region.tl(), whole ? 3 : 0));
@@ -685,6 +692,14 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             *features = from;
         }
     };
+    const auto note_room = [&](const Result &out) {
+        if (room == DROGUE_SECOND_NONE) {
+            room = is_full(out.status) || f.filled             ? DROGUE_SECOND_FULL
+                   : out.second_look >= DROGUE_SECOND_TOO_WIDE ? out.second_look
+                                                               : DROGUE_SECOND_NONE;
+        }
+    };
+    bool crowded = false;
     for (int what = 0; what < 4 && least > SURE; what++) {
         const bool larger = what % 2 == 1;
         Result out;
@@ -715,17 +730,14 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             doubt = judge(out, from, f, task, library);
         }
         status = out.status;
-        if (room == DROGUE_SECOND_NONE) {
-            room = is_full(status) || f.filled                 ? DROGUE_SECOND_FULL
-                   : out.second_look >= DROGUE_SECOND_TOO_WIDE ? out.second_look
-                                                               : DROGUE_SECOND_NONE;
-        }
+        note_room(out);
         if (what == 0) {
             best = out;
             if (status != DROGUE_OK && status != DROGUE_E_NO_ELLIPSE && status != DROGUE_E_NO_EDGES &&
                 status != DROGUE_E_NO_ARCS && !is_full(status)) {
                 return best;
             }
+            crowded = is_crowded(f);
         }
         if (doubt < least - 1 / 256.0L && (status == DROGUE_OK || best.status != DROGUE_OK)) {
             keep(out, from, doubt);
@@ -733,7 +745,8 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
     }
     bool contradicted = false;
     for (const bool whole : {false, true}) {
-        if (task.model.inner_radius <= 0 || least <= 0.04L || (whole && (least < 1 || f.ring_above < 5 / 32.0L))) {
+        if (task.model.inner_radius <= 0 || least <= 0.04L || (least >= 1 && crowded) ||
+            (whole && (least < 1 || f.ring_above < 5 / 32.0L))) {
             break;
         }
         Result out;
@@ -741,14 +754,41 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         out.outline.arcs.fill(DROGUE_NO_ARC);
         const Real doubt =
             about_disc(out, f, task, library != nullptr, whole) ? judge(out, from, f, task, library) : DOUBTED;
-        if (room == DROGUE_SECOND_NONE) {
-            room = is_full(out.status)                         ? DROGUE_SECOND_FULL
-                   : out.second_look >= DROGUE_SECOND_TOO_WIDE ? out.second_look
-                                                               : DROGUE_SECOND_NONE;
-        }
+        note_room(out);
         contradicted = contradicted || out.contradicted;
         const Real most = best.status == DROGUE_OK && least == 1 ? 0.04L : 1 / 64.0L;
         if (out.status == DROGUE_OK && out.has_inner && out.doubt < most) {
+            keep(out, from, doubt);
+        }
+    }
+    const auto is_another = [&] {
+        const bool outermost = best.outline.cover >= 0.875L && best.outline.outside == 0 &&
+                               (best.larger_q16 == 0 || real(best.larger_q16) > 0.2L) &&
+                               (f.ring <= best.seen.a || f.ring_cover < 0.25L);
+        return least == 1 && !outermost &&
+               (best.larger_q16 > 0 || (best.outline.cover < 0.7L && lies_within(best.seen, task.image)) ||
+                (f.ring > 0 && is_another_size(best.seen.a, f.ring)));
+    };
+    for (const int wider : {-1, 1}) {
+        if ((least >= 1 && crowded) || (best.status == DROGUE_OK && !is_another())) {
+            break;
+        }
+        const int64_t dx = wider * (asked.region[2] / 8), dy = wider * (asked.region[3] / 8);
+        Result out;
+        Features from = {};
+        out.outline.arcs.fill(DROGUE_NO_ARC);
+        out.tried = DROGUE_TRIED_FOUND;
+        task.config = asked.config;
+        task.region = {asked.region[0] - dx, asked.region[1] - dy, asked.region[2] + 2 * dx, asked.region[3] + 2 * dy};
+        if (clipped_width(task.region, task.image) > static_cast<int64_t>(task.capacity.width_px)) {
+            out.second_look = DROGUE_SECOND_TOO_WIDE;
+            out.status = DROGUE_E_REGION;
+        } else {
+            find(out, f, task, library);
+        }
+        const Real doubt = out.status == DROGUE_OK ? judge(out, from, f, task, library) : DOUBTED;
+        note_room(out);
+        if (out.status == DROGUE_OK && doubt < 1) {
             keep(out, from, doubt);
         }
     }
@@ -773,23 +813,23 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
             keep(out, from, doubt);
         }
     }
-    const bool outermost = best.outline.cover >= 0.875L && best.outline.outside == 0 &&
-                           (best.larger_q16 == 0 || real(best.larger_q16) > 0.2L) &&
-                           (f.ring <= best.seen.a || f.ring_cover < 0.25L);
-    const bool another = least == 1 && !outermost &&
-                         (best.larger_q16 > 0 || (best.outline.cover < 0.7L && lies_within(best.seen, task.image)) ||
-                          (f.ring > 0 && is_another_size(best.seen.a, f.ring)));
+    const bool another = is_another();
     const bool whole = best.status == DROGUE_OK && !another && best.second_look <= DROGUE_SECOND_BETTER;
     if (room != DROGUE_SECOND_NONE) {
         best.second_look = whole ? DROGUE_SECOND_ROOM : room;
     }
     best.contradicted = contradicted;
+    if (best.seen.a <= 0) { /* the edges looked for last */
+        drogue_mask mask;
+        place(best.region, mask, task.image, f.asked);
+    }
     if (best.status == DROGUE_OK && another) {
         Result refused;
         refused.contradicted = contradicted;
         refused.second_look = best.second_look;
         refused.status = DROGUE_E_NO_ELLIPSE;
         refused.region = best.region;
+        refused.tried = best.tried;
         refused.outline.arcs.fill(DROGUE_NO_ARC);
         return refused;
     }

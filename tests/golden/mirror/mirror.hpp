@@ -16,7 +16,7 @@ struct Task {
     reference::Model model;
     std::array<int64_t, 4> region; /* x y width height */
     drogue_config config;
-    drogue_capacity capacity;     /* of the workspace; 'width_px' is set as the region needs */
+    drogue_capacity capacity;     /* of the workspace */
     drogue_camera library_camera; /* the same as the library has them */
     drogue_model library_model;
 };

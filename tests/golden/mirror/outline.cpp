@@ -318,8 +318,9 @@ void Finder::refit(Outline &o, const decisions_round *rounds, int known) const
         const decisions_round *library = round < known ? &rounds[round] : nullptr;
         const std::vector<BandPoint> points = collect(o.ellipse, band, front_, library);
         collected = o.ellipse.angle;
-        /* the first round takes the points that were looked at */
-        const size_t stride = round == 0 && config_.refit_rounds > 0 ? front_.edges.size() / 512 + 1 : 1;
+        const int left = static_cast<int>(config_.refit_rounds) - round; /* the last two fits are to all points */
+        const size_t every = front_.edges.size() / 512 + 1;
+        const size_t stride = (round == 0 && left > 0) || (left > 2 && every > 8) ? every : 1;
         std::vector<Point> members;
         Support s;
         s.bright = o.support.bright;

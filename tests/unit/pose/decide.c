@@ -445,6 +445,7 @@ START_TEST(solutions_that_leave_the_numbers)
     uint64_t rng = 12;
     field f = usual_field();
     drogue_joint_outline outline;
+    drogue_real covariance[DROGUE_PACKED_MAX];
     drogue_joint joint;
     seen s;
     int k;
@@ -457,9 +458,8 @@ START_TEST(solutions_that_leave_the_numbers)
         s.evidence.poses[k].yaw_rad_q16 = q16_of(0.2);
         s.evidence.poses[k].pitch_rad_q16 = q16_of(0.1);
     }
-    outline.ellipse = s.evidence.ideal;
-    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s.support, 0, 0), DROGUE_OK);
-    ck_assert_int_eq(drogue_joint_outline_weigh(&outline), DROGUE_OK);
+    ck_assert_int_eq(drogue_joint_outline_covariance(covariance, &s.evidence.ideal, &s.support, 0, 0), DROGUE_OK);
+    ck_assert_int_eq(drogue_joint_outline_weigh(&outline, &s.evidence.ideal, covariance), DROGUE_OK);
     for (k = 1; k <= 5; k += 4) {
         MUST((drogue_joint_solve(&joint, &s.evidence.poses[1], &outline, &s.evidence.inner, &f.camera, &f.model, k) ==
               DROGUE_OK) == (k == 1),

@@ -8,26 +8,27 @@
 #include "../../../src/pose/joint_model.h"
 
 /* What the pose shows, exact but for the rounding to Q16; offsets known to 1 / 10 px over 200 points. */
-static int measurement_of(drogue_joint_outline *outline, drogue_joint_inner *inner, drogue_pose poses[2],
-                          const field *f, const pose_real *p)
+static int measurement_of(drogue_joint_outline *outline, drogue_real covariance[DROGUE_PACKED_MAX],
+                          drogue_joint_inner *inner, drogue_pose poses[2], const field *f, const pose_real *p)
 {
+    drogue_ellipse ellipse;
     ellipse_real e, d;
     double variance;
     int i;
     if (!field_outline(&e, f, p) || !field_inner(&d, f, p)) {
         return 0;
     }
-    outline->ellipse = ellipse_to_q16(&e);
+    ellipse = ellipse_to_q16(&e);
     inner->x_px_q16 = q16_of(d.xc);
     inner->y_px_q16 = q16_of(d.yc);
     inner->std_px_q16 = q16_of(0.03);
     variance = pow(0.1 / e.a, 2) / 200;
-    memset(outline->covariance, 0, sizeof outline->covariance);
+    memset(covariance, 0, DROGUE_PACKED_MAX * sizeof *covariance);
     for (i = 0; i < 5; i++) {
-        outline->covariance[DROGUE_PACKED(i, i)] = real_of((quad)(i == 0 ? variance : 2 * variance));
+        covariance[DROGUE_PACKED(i, i)] = real_of((quad)(i == 0 ? variance : 2 * variance));
     }
-    return drogue_joint_outline_weigh(outline) == DROGUE_OK &&
-           drogue_pose_from_ellipse(poses, &outline->ellipse, &f->camera, f->model.rim_radius_m_q16) == DROGUE_OK;
+    return drogue_joint_outline_weigh(outline, &ellipse, covariance) == DROGUE_OK &&
+           drogue_pose_from_ellipse(poses, &ellipse, &f->camera, f->model.rim_radius_m_q16) == DROGUE_OK;
 }
 
 /* From the right start within the few steps that a frame takes; from the other one within those that may be asked for,
@@ -41,12 +42,13 @@ START_TEST(exact_data_gives_the_exact_pose_from_both_starts)
     for (i = 0; i < 2000; i++) {
         const pose_real p = random_pose(&rng, 0.5);
         drogue_joint_outline outline;
+        drogue_real covariance[DROGUE_PACKED_MAX];
         drogue_joint_inner inner;
         drogue_pose poses[2];
         drogue_joint joint;
         double axis[3], start[2];
         axis_of_angles(axis, p.v[3], p.v[4]);
-        if (!measurement_of(&outline, &inner, poses, &f, &p) ||
+        if (!measurement_of(&outline, covariance, &inner, poses, &f, &p) ||
             dot3(axis, p.v) < cos(35 * TEST_PI / 180) * sqrt(dot3(p.v, p.v))) {
             continue;
         }
@@ -79,10 +81,11 @@ START_TEST(outline_alone_stays_where_the_cone_puts_it)
         const pose_real p = random_pose(&rng, 0.5);
         const drogue_joint_inner none = {0, 0, 0};
         drogue_joint_outline outline;
+        drogue_real covariance[DROGUE_PACKED_MAX];
         drogue_joint_inner inner;
         drogue_pose poses[2];
         drogue_joint joint;
-        if (!measurement_of(&outline, &inner, poses, &f, &p)) {
+        if (!measurement_of(&outline, covariance, &inner, poses, &f, &p)) {
             continue;
         }
         for (k = 0; k < 2; k++) {
@@ -106,7 +109,7 @@ START_TEST(outline_alone_stays_where_the_cone_puts_it)
                 worst = fmax(worst, abs(joint.pose.axis_q16[m] - poses[k].axis_q16[m]));
             }
             MUST(quad_of(joint.chi2) < (quad)0.1L, "case %d: chi2 %g", i, (double)quad_of(joint.chi2));
-            MUST(propagated(expected, &f, &start, outline.covariance, 0), "case %d: no model", i);
+            MUST(propagated(expected, &f, &start, covariance, 0), "case %d: no model", i);
             apart = fmax(apart, covariance_apart(joint.covariance, expected));
             MUST(drogue_joint_solve(&joint, &poses[k], &outline, &none, &f.camera, &f.model, 0) == DROGUE_OK &&
                      memcmp(joint.pose.position_m_q16, poses[k].position_m_q16, sizeof joint.pose.position_m_q16) ==
@@ -158,12 +161,13 @@ START_TEST(covariance_against_the_cone)
     for (i = 0; i < 300; i++) {
         const pose_real p = random_pose(&rng, 0.5);
         drogue_joint_outline outline;
+        drogue_real covariance[DROGUE_PACKED_MAX];
         drogue_joint_inner inner;
         drogue_pose poses[2];
         drogue_joint joint;
         ellipse_real e;
         double slope[5][5], expected[5][5], sight = 0, axis[3]; /* pose by harmonic */
-        if (!measurement_of(&outline, &inner, poses, &f, &p)) {
+        if (!measurement_of(&outline, covariance, &inner, poses, &f, &p)) {
             continue;
         }
         axis_of_angles(axis, p.v[3], p.v[4]);
@@ -219,8 +223,7 @@ START_TEST(covariance_against_the_cone)
                 int q;
                 expected[j][l] = 0;
                 for (q = 0; q < 5; q++) { /* the harmonics' covariance is diagonal here */
-                    expected[j][l] +=
-                        slope[j][q] * slope[l][q] * (double)quad_of(outline.covariance[DROGUE_PACKED(q, q)]);
+                    expected[j][l] += slope[j][q] * slope[l][q] * (double)quad_of(covariance[DROGUE_PACKED(q, q)]);
                 }
             }
         }
@@ -241,12 +244,13 @@ START_TEST(covariance_with_the_inner_part)
     for (i = 0; i < 1500; i++) {
         const pose_real p = random_pose(&rng, 0.4);
         drogue_joint_outline outline;
+        drogue_real covariance[DROGUE_PACKED_MAX];
         drogue_joint_inner inner;
         drogue_pose poses[2];
         drogue_joint joint;
         double expected[5][5];
         int k;
-        if (!measurement_of(&outline, &inner, poses, &f, &p)) {
+        if (!measurement_of(&outline, covariance, &inner, poses, &f, &p)) {
             continue;
         }
         inner.std_px_q16 = q16_of(rng_real(&rng, 0.02, 0.5));
@@ -254,7 +258,7 @@ START_TEST(covariance_with_the_inner_part)
             fabs(real_of_q16(poses[1].yaw_rad_q16) - p.v[3]) + fabs(real_of_q16(poses[1].pitch_rad_q16) - p.v[4]);
         MUST(drogue_joint_solve(&joint, &poses[k], &outline, &inner, &f.camera, &f.model, 16) == DROGUE_OK, "case %d",
              i);
-        MUST(propagated(expected, &f, &p, outline.covariance, real_of_q16(inner.std_px_q16)), "case %d: no model", i);
+        MUST(propagated(expected, &f, &p, covariance, real_of_q16(inner.std_px_q16)), "case %d: no model", i);
         /* the core's slopes of the centroid are those of the disc's centre: right to first order in radius over z */
         apart = fmax(apart,
                      covariance_apart(joint.covariance, expected) * p.v[2] / real_of_q16(f.model.inner_radius_m_q16));
@@ -276,9 +280,10 @@ START_TEST(head_on)
         const pose_real p = {{0.02 * z, -0.01 * z, z, 0.02, -0.01}}; /* along the line of sight, or nearly */
         drogue_joint_inner none = {0, 0, 0}, inner;
         drogue_joint_outline outline;
+        drogue_real covariance[DROGUE_PACKED_MAX];
         drogue_pose poses[2];
         drogue_joint with, without;
-        MUST(measurement_of(&outline, &inner, poses, &f, &p), "z %g: not seen", z);
+        MUST(measurement_of(&outline, covariance, &inner, poses, &f, &p), "z %g: not seen", z);
         for (k = 0; k < 2; k++) {
             MUST(drogue_joint_solve(&without, &poses[k], &outline, &none, &f.camera, &f.model, 16) == DROGUE_OK, "z %g",
                  z);
@@ -299,17 +304,16 @@ START_TEST(what_cannot_be_solved)
     field f = usual_field();
     const pose_real p = {{0.1, -0.2, 5, 0.2, 0.1}};
     drogue_joint_outline outline, broken;
+    drogue_real covariance[DROGUE_PACKED_MAX];
     drogue_joint_inner inner;
     drogue_pose poses[2], away;
     drogue_joint joint;
     drogue_ellipse disc;
-    ck_assert(measurement_of(&outline, &inner, poses, &f, &p));
-    broken = outline;
-    memset(broken.covariance, 0, sizeof broken.covariance);
-    ck_assert_int_eq(drogue_joint_outline_weigh(&broken), DROGUE_E_DEGENERATE);
-    broken = outline;
-    drogue_real_negate(&broken.covariance[DROGUE_PACKED(4, 4)]);
-    ck_assert_int_eq(drogue_joint_outline_weigh(&broken), DROGUE_E_DEGENERATE);
+    ck_assert(measurement_of(&outline, covariance, &inner, poses, &f, &p));
+    drogue_real_negate(&covariance[DROGUE_PACKED(4, 4)]);
+    ck_assert_int_eq(drogue_joint_outline_weigh(&broken, &outline.ellipse, covariance), DROGUE_E_DEGENERATE);
+    memset(covariance, 0, sizeof covariance);
+    ck_assert_int_eq(drogue_joint_outline_weigh(&broken, &outline.ellipse, covariance), DROGUE_E_DEGENERATE);
     f.model.inner_depth_m_q16 = q16_of(-6);
     ck_assert_int_eq(drogue_joint_solve(&joint, &poses[0], &outline, &inner, &f.camera, &f.model, 0),
                      DROGUE_E_BEHIND_CAMERA);
@@ -339,11 +343,12 @@ START_TEST(outside_the_domain)
     field f = usual_field();
     const pose_real p = {{0.5, 0.2, 5, 0.2, 0.1}};
     drogue_joint_outline outline, turned;
+    drogue_real covariance[DROGUE_PACKED_MAX];
     drogue_joint_inner inner;
     drogue_pose poses[2], start;
     drogue_joint joint;
     int side;
-    ck_assert(measurement_of(&outline, &inner, poses, &f, &p));
+    ck_assert(measurement_of(&outline, covariance, &inner, poses, &f, &p));
     start = poses[0];
     for (side = -1; side <= 1; side += 2) {
         start = poses[0];
@@ -364,7 +369,7 @@ START_TEST(outside_the_domain)
         const pose_real far = {{side ? -32850 : 0, 0, side ? 30000 : 32850, 0.2, 0.1}};
         field wide = f;
         wide.camera = side ? pinhole(500, 500, 1000, 1000) : f.camera;
-        ck_assert(measurement_of(&outline, &inner, poses, &wide, &far) == 0);
+        ck_assert(measurement_of(&outline, covariance, &inner, poses, &wide, &far) == 0);
         memset(&start, 0, sizeof start);
         start.position_m_q16[0] = q16_of(side ? -32760 : 0);
         start.position_m_q16[2] = q16_of(side ? 30000 : 32760);
@@ -444,12 +449,13 @@ START_TEST(any_bits)
         const pose_real p = random_pose(&rng, 0.5);
         field f = usual_field();
         drogue_joint_outline outline;
+        drogue_real covariance[DROGUE_PACKED_MAX];
         drogue_joint_inner inner;
         drogue_pose poses[2], start;
         drogue_joint joint;
         drogue_ellipse disc;
         double axis[3];
-        if (!measurement_of(&outline, &inner, poses, &f, &p)) {
+        if (!measurement_of(&outline, covariance, &inner, poses, &f, &p)) {
             continue;
         }
         start = poses[i & 1];
@@ -471,13 +477,13 @@ START_TEST(any_bits)
             case 12: start.pitch_rad_q16 = rng_range(&rng, -102944, 102944); break;
             case 13: outline.ellipse.xc_px_q16 = any; break;
             case 14: outline.ellipse.a_px_q16 = positive | 1; break;
-            default: outline.covariance[DROGUE_PACKED(k, k)].exponent += rng_range(&rng, -80, 80); break;
+            default: covariance[DROGUE_PACKED(k, k)].exponent += rng_range(&rng, -80, 80); break;
             }
         }
         outline.ellipse.b_px_q16 =
             outline.ellipse.b_px_q16 > outline.ellipse.a_px_q16 ? outline.ellipse.a_px_q16 : outline.ellipse.b_px_q16;
         (void)drogue_inner_disc_image(&disc, &start, &f.camera, &f.model);
-        if (drogue_joint_outline_weigh(&outline) == DROGUE_OK &&
+        if (drogue_joint_outline_weigh(&outline, &outline.ellipse, covariance) == DROGUE_OK &&
             drogue_joint_solve(&joint, &start, &outline, &inner, &f.camera, &f.model, i % 17) == DROGUE_OK) {
             for (k = 0; k < 3; k++) {
                 axis[k] = real_of_q16(joint.pose.axis_q16[k]);

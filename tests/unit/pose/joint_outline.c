@@ -15,9 +15,26 @@ typedef struct noise {
     int bins;      /* of the 32, from bin 3 on, hold points */
 } noise;
 
+/* An outline and what is stated of it. */
+typedef struct stated_outline {
+    drogue_ellipse ellipse;
+    drogue_real covariance[DROGUE_PACKED_MAX];
+} stated_outline;
+
+static drogue_status state(stated_outline *outline, const drogue_support *support, drogue_q16 shading_q16,
+                           drogue_q16 blur_px2_q16)
+{
+    return drogue_joint_outline_covariance(outline->covariance, &outline->ellipse, support, shading_q16, blur_px2_q16);
+}
+
+static drogue_status weigh(const stated_outline *outline)
+{
+    drogue_joint_outline weighed;
+    return drogue_joint_outline_weigh(&weighed, &outline->ellipse, outline->covariance);
+}
+
 /* Fit noisy points about an ellipse; harmonics of the fit off the truth, and the covariance stated for it. */
-static void refit_noisy(double m[5], drogue_joint_outline *outline, const ellipse_real *truth, const noise *n,
-                        uint64_t *rng)
+static void refit_noisy(double m[5], stated_outline *outline, const ellipse_real *truth, const noise *n, uint64_t *rng)
 {
     const drogue_band band = drogue_band_of(q16_of(8), 0);
     drogue_edge edges[POINTS];
@@ -64,7 +81,7 @@ static void refit_noisy(double m[5], drogue_joint_outline *outline, const ellips
         MUST(point_holds(&p, &frame, &band, &edges[i]) && point_add(&support, &p, &edges[i]), "point %u left out",
              (unsigned)i);
     }
-    MUST(drogue_joint_outline_covariance(outline, &support, 1, 0) == DROGUE_OK, "no covariance");
+    MUST(state(outline, &support, 1, 0) == DROGUE_OK, "no covariance");
 }
 
 static void check_scatter(const noise *n, double tolerance)
@@ -77,7 +94,7 @@ static void check_scatter(const noise *n, double tolerance)
     memset(scatter, 0, sizeof scatter);
     memset(stated, 0, sizeof stated);
     for (run = 0; run < RUNS; run++) {
-        drogue_joint_outline outline;
+        stated_outline outline;
         double m[5];
         refit_noisy(m, &outline, &truth, n, &rng);
         for (i = 0; i < 5; i++) {
@@ -137,16 +154,16 @@ static drogue_support support_of(uint32_t bins)
 START_TEST(shading_and_blur_are_added)
 {
     const drogue_support s = support_of(32);
-    drogue_joint_outline base = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}, {0}, 0}, more = base;
+    stated_outline base = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}}, more = base;
     double plain[15], share = 2.0 / 600 / 100, blur = 0.5 / (100 * 80), grid = 0.3 / (100 * 80);
     int i, j;
-    ck_assert_int_eq(drogue_joint_outline_covariance(&base, &s, 0, 0), DROGUE_OK);
+    ck_assert_int_eq(state(&base, &s, 0, 0), DROGUE_OK);
     for (i = 0; i < DROGUE_PACKED_MAX; i++) {
         plain[i] = (double)quad_of(base.covariance[i]);
     }
     /* a mean of 20 points of +-66 LSB each: m0 is known to 66 / sqrt(32) LSB, or 32 / 27 of that in variance */
     ck_assert(fabs(plain[0] - pow(66.0 / 65536, 2) / 27 - grid * grid) < 1e-6 * plain[0]);
-    ck_assert_int_eq(drogue_joint_outline_covariance(&more, &s, 2 * 65536, 32768), DROGUE_OK);
+    ck_assert_int_eq(state(&more, &s, 2 * 65536, 32768), DROGUE_OK);
     for (i = 0; i < 5; i++) {
         for (j = 0; j <= i; j++) {
             double added = (i == j ? share * share : 0) + (i == 0 ? blur * blur : 0);
@@ -164,12 +181,12 @@ START_TEST(smear_is_doubt_across_two_sides)
     const double c = v * cos(2 * angle), d = v * sin(2 * angle);
     const double share = 3.0 / 1024 / (a * b), along[5] = {v, 0, 0, c, d};
     drogue_support s = support_of(32);
-    drogue_joint_outline base = {{0, 0, 100 * 65536, 90 * 65536, -16384}, {{0, 0}}, {0}, 0}, more = base;
+    stated_outline base = {{0, 0, 100 * 65536, 90 * 65536, -16384}, {{0, 0}}}, more = base;
     int i, j;
-    ck_assert_int_eq(drogue_joint_outline_covariance(&base, &s, 0, 0), DROGUE_OK);
+    ck_assert_int_eq(state(&base, &s, 0, 0), DROGUE_OK);
     s.smear_px2_q16[0] = q16_of(v * cos(2 * (angle + axis)));
     s.smear_px2_q16[1] = q16_of(v * sin(2 * (angle + axis)));
-    ck_assert_int_eq(drogue_joint_outline_covariance(&more, &s, 0, 0), DROGUE_OK);
+    ck_assert_int_eq(state(&more, &s, 0, 0), DROGUE_OK);
     for (i = 0; i < 5; i++) {
         for (j = 0; j <= i; j++) {
             const int k = DROGUE_PACKED(i, j);
@@ -191,7 +208,7 @@ START_TEST(smear_of_any_size_and_direction)
     uint64_t rng = 9;
     int i;
     for (i = 0; i < 3000; i++) {
-        drogue_joint_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}, {0}, 0};
+        stated_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}};
         drogue_support s = support_of(32);
         const double most = i % 3 == 0 ? 40 : i % 3 == 1 ? 10 : 1;
         uint32_t k;
@@ -201,9 +218,8 @@ START_TEST(smear_of_any_size_and_direction)
         s.smear_px2_q16[0] = q16_of(rng_real(&rng, -most, most));
         s.smear_px2_q16[1] = q16_of(rng_real(&rng, -most, most));
         outline.ellipse.angle_rad_q16 = q16_of(rng_real(&rng, -1.5, 1.5));
-        MUST(drogue_joint_outline_covariance(&outline, &s, 65536, 7864) == DROGUE_OK &&
-                 drogue_joint_outline_weigh(&outline) == DROGUE_OK,
-             "case %d: %d %d at %d", i, s.smear_px2_q16[0], s.smear_px2_q16[1], outline.ellipse.angle_rad_q16);
+        MUST(state(&outline, &s, 65536, 7864) == DROGUE_OK && weigh(&outline) == DROGUE_OK, "case %d: %d %d at %d", i,
+             s.smear_px2_q16[0], s.smear_px2_q16[1], outline.ellipse.angle_rad_q16);
     }
 }
 END_TEST
@@ -214,12 +230,12 @@ START_TEST(hostile_smear)
     int i, j;
     for (i = 0; i < 6; i++) {
         for (j = 0; j < 6; j++) { /* as 48 px^2: no overflow, and what is said is said */
-            drogue_joint_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 90000}, {{0, 0}}, {0}, 0};
+            stated_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 90000}, {{0, 0}}};
             drogue_support s = support_of(32);
             s.smear_px2_q16[0] = ends[i];
             s.smear_px2_q16[1] = ends[j];
-            ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 7864), DROGUE_OK);
-            ck_assert_int_eq(drogue_joint_outline_weigh(&outline), DROGUE_OK);
+            ck_assert_int_eq(state(&outline, &s, 65536, 7864), DROGUE_OK);
+            ck_assert_int_eq(weigh(&outline), DROGUE_OK);
         }
     }
 }
@@ -231,7 +247,7 @@ START_TEST(bins_count_from_their_axis)
     static const drogue_q16 from[2] = {0, 90000};
     int turn, i, k;
     for (turn = -15; turn <= 15; turn++) {
-        drogue_joint_outline outline = {{0, 0, 100 * 65536, 95 * 65536, 0}, {{0, 0}}, {0}, 0}, as_counted = outline;
+        stated_outline outline = {{0, 0, 100 * 65536, 95 * 65536, 0}, {{0, 0}}}, as_counted = outline;
         drogue_support s = support_of(20), turned = s;
         s.bright_bins = turned.bright_bins = 0x000F000Fu;
         for (k = 0; k < 32; k++) {
@@ -247,8 +263,8 @@ START_TEST(bins_count_from_their_axis)
             turned.bright_bins |= (s.bright_bins >> ((k + turn) & 31) & 1u) << k;
         }
         turned.axis_rad_q16 = as_counted.ellipse.angle_rad_q16 = outline.ellipse.angle_rad_q16;
-        ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_OK);
-        ck_assert_int_eq(drogue_joint_outline_covariance(&as_counted, &turned, 65536, 0), DROGUE_OK);
+        ck_assert_int_eq(state(&outline, &s, 65536, 0), DROGUE_OK);
+        ck_assert_int_eq(state(&as_counted, &turned, 65536, 0), DROGUE_OK);
         for (i = 0; i < DROGUE_PACKED_MAX; i++) {
             const double own = (double)quad_of(outline.covariance[i]),
                          other = (double)quad_of(as_counted.covariance[i]);
@@ -261,20 +277,20 @@ END_TEST
 
 START_TEST(degenerate_support)
 {
-    drogue_joint_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}, {0}, 0};
+    stated_outline outline = {{0, 0, 100 * 65536, 80 * 65536, 0}, {{0, 0}}};
     drogue_support s;
     uint32_t k;
     for (k = 0; k <= 5; k++) {
         s = support_of(k);
-        ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+        ck_assert_int_eq(state(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
     }
     s = support_of(32);
-    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_OK);
+    ck_assert_int_eq(state(&outline, &s, 65536, 0), DROGUE_OK);
     s.gradient = 0;
-    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+    ck_assert_int_eq(state(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
     s = support_of(32);
     s.bright_bins = UINT32_MAX; /* the points are of the other polarity */
-    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
+    ck_assert_int_eq(state(&outline, &s, 65536, 0), DROGUE_E_DEGENERATE);
     { /* six bins side by side, nearly all points in one: too little for five parameters, and the covariance says so */
         static const uint32_t count[6] = {2120, 9334, 69, 6, 29922, 3};
         memset(&s, 0, sizeof s);
@@ -283,7 +299,7 @@ START_TEST(degenerate_support)
             s.bin[9 + k].count[0] = count[k];
             s.bin[9 + k].sum_q16 = (k & 1 ? -66 : 66) * (int32_t)count[k];
         }
-        ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, 65536, 0), DROGUE_OK);
+        ck_assert_int_eq(state(&outline, &s, 65536, 0), DROGUE_OK);
         ck_assert(quad_of(outline.covariance[0]) > 100);
     }
     s = support_of(6); /* the most points that one bin's sum can hold, all at the end of their range */
@@ -292,8 +308,8 @@ START_TEST(degenerate_support)
         s.bin[5 * k].sum_q16 = k & 1 ? -(1 << 30) : 1 << 30;
     }
     s.gradient = UINT32_MAX;
-    ck_assert_int_eq(drogue_joint_outline_covariance(&outline, &s, INT32_MAX, INT32_MAX), DROGUE_OK);
-    ck_assert_int_eq(drogue_joint_outline_weigh(&outline), DROGUE_OK);
+    ck_assert_int_eq(state(&outline, &s, INT32_MAX, INT32_MAX), DROGUE_OK);
+    ck_assert_int_eq(weigh(&outline), DROGUE_OK);
     ck_assert(outline.covariance[0].mantissa > 0);
 }
 END_TEST

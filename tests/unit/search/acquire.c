@@ -10,15 +10,14 @@ static const drogue_model model = {22938, 7864, 16384}; /* 0.35, 0.12, 0.25 m */
 static const drogue_model no_inner = {22938, 0, 0};
 static const drogue_camera camera = {.fx_px_q16 = 1000 * DROGUE_Q16_ONE, .fy_px_q16 = 1000 * DROGUE_Q16_ONE};
 
-enum { MOST = 514, CALLS = 8 };
+enum { MOST = 514, CALLS = 5 };
 
 static uint8_t pixels[MOST * MOST];
 static uint8_t memory[DROGUE_SEARCH_BYTES(MOST)];
 static drogue_search search;
 
-/* What is to be measured in the first sighting, the second, in a larger region about either, about any dark disc, and
- * elsewhere: in the part itself. */
-static drogue_result first, second, larger[2], elsewhere;
+/* What is to be measured in the first sighting, the second, about any dark disc, and elsewhere: in the part itself. */
+static drogue_result first, second, elsewhere;
 static drogue_result about_disc = {.status = DROGUE_E_NO_ELLIPSE};
 static drogue_workspace workspace = {.capacity = {DROGUE_MAX_SIDE, 1, 2, 1}};
 static drogue_region measured[CALLS];
@@ -28,14 +27,6 @@ static int disc_calls; /* in the order of their scores, each once or, where it s
 static int same_region(const drogue_region *p, const drogue_region *q)
 {
     return p->x_px == q->x_px && p->y_px == q->y_px && p->width_px == q->width_px && p->height_px == q->height_px;
-}
-
-/* Is p about the middle of q, and a quarter larger? */
-static int larger_region(const drogue_region *p, const drogue_region *q)
-{
-    return abs(2 * p->x_px + p->width_px - 2 * q->x_px - q->width_px) <= 2 &&
-           abs(2 * p->y_px + p->height_px - 2 * q->y_px - q->height_px) <= 2 && p->width_px == q->width_px * 5 / 4 &&
-           p->height_px == q->height_px * 5 / 4;
 }
 
 drogue_status drogue_measure(drogue_result *out, drogue_workspace *w, const drogue_setup *setup,
@@ -55,11 +46,9 @@ drogue_status drogue_measure(drogue_result *out, drogue_workspace *w, const drog
     }
     ck_assert_int_lt(calls, CALLS);
     measured[calls++] = *region;
-    *out = search.count > 0 && same_region(region, &search.best[0].region)     ? first
-           : search.count > 1 && same_region(region, &search.best[1].region)   ? second
-           : search.count > 0 && larger_region(region, &search.best[0].region) ? larger[0]
-           : search.count > 1 && larger_region(region, &search.best[1].region) ? larger[1]
-                                                                               : elsewhere;
+    *out = search.count > 0 && same_region(region, &search.best[0].region)   ? first
+           : search.count > 1 && same_region(region, &search.best[1].region) ? second
+                                                                             : elsewhere;
     return out->status;
 }
 
@@ -155,7 +144,7 @@ static int stands(const drogue_result *of_first, const drogue_result *of_second,
 {
     first = *of_first;
     second = *of_second;
-    larger[0] = larger[1] = elsewhere = nothing();
+    elsewhere = nothing();
     (void)acquire(&stood, m, 480, 360, 2);
     ck_assert_int_gt(calls, 0);
     MUST(!same_region(&search.best[0].region, &search.best[1].region), "one region");
@@ -266,7 +255,7 @@ END_TEST
 START_TEST(too_little_room)
 {
     drogue_result out;
-    first = second = elsewhere = larger[0] = larger[1] = nothing();
+    first = second = elsewhere = nothing();
     ck_assert_int_eq(acquire(&out, &model, 480, 360, 2), DROGUE_E_NO_ELLIPSE);
     ck_assert_int_eq(out.second_look, DROGUE_SECOND_NONE);
     second.status = DROGUE_E_EDGES_FULL;
@@ -283,11 +272,6 @@ START_TEST(too_little_room)
     first = nothing();
     ck_assert_int_eq(acquire(&out, &model, 480, 360, 2), DROGUE_E_NO_ELLIPSE);
     ck_assert_int_eq(out.second_look, DROGUE_SECOND_FULL);
-    second = nothing(); /* no room for the larger regions */
-    workspace.capacity.width_px = (uint32_t)search.best[0].region.width_px * 5 / 4 - 1;
-    ck_assert_int_eq(acquire(&out, &model, 480, 360, 2), DROGUE_E_NO_ELLIPSE);
-    ck_assert_int_eq(out.second_look, DROGUE_SECOND_TOO_WIDE);
-    workspace.capacity.width_px = DROGUE_MAX_SIDE;
     second = with_inner(61, 1); /* what is sure needs no other */
     first.status = DROGUE_E_WORKSPACE;
     ck_assert_int_eq(acquire(&out, &model, 480, 360, 2), DROGUE_OK);
@@ -320,7 +304,7 @@ START_TEST(about_dark_discs)
     static const drogue_region lower_right = {20, 40, 460, 320};
     drogue_result out;
     int32_t i;
-    first = second = elsewhere = larger[0] = larger[1] = nothing();
+    first = second = elsewhere = nothing();
     about_disc = with_inner(61, 1);
     ck_assert_int_eq(acquire(&out, &model, 480, 360, 2), DROGUE_OK);
     ck_assert_int_eq(calls, 2);
@@ -338,10 +322,10 @@ START_TEST(about_dark_discs)
         }
     }
     part = NULL;
-    about_disc = with_inner(50, 1); /* not sure: all, the first two once more, and the part; but it stands */
+    about_disc = with_inner(50, 1); /* not sure: all, and the part; but it stands */
     ck_assert_int_eq(acquire(&out, &model, 480, 360, 2), DROGUE_E_UNSURE);
     ck_assert_int_eq(disc_calls, search.dark_count + 1);
-    ck_assert_int_eq(calls, 5);
+    ck_assert_int_eq(calls, 3);
     ck_assert_int_eq(out.cover_q16, about_disc.cover_q16);
     second = with_inner(61, 1); /* sure */
     ck_assert_int_eq(acquire(&out, &model, 480, 360, 2), DROGUE_OK);
@@ -368,56 +352,6 @@ START_TEST(what_is_about_what_settles)
     ck_assert_int_eq(acquire(&out, &no_inner, 480, 360, 1), DROGUE_OK);
     ck_assert_int_eq(calls, 1);
     collared = 0;
-}
-END_TEST
-
-/* What was sighted may be an edge within the drogue: where nothing is sure, the first two are measured in larger regions,
- * too. */
-START_TEST(the_first_two_once_more)
-{
-    drogue_result out;
-    first = second = without_inner(90, 50);
-    larger[0] = with_inner(50, 1); /* not sure */
-    larger[1] = with_inner(61, 1);
-    elsewhere = nothing();
-    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_OK);
-    ck_assert_int_eq(calls, 4);
-    ck_assert_int_eq(out.cover_q16, larger[1].cover_q16);
-    larger[0] = with_inner(61, 1); /* which is enough */
-    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_OK);
-    ck_assert_int_eq(calls, 3);
-    first = without_inner(40, 50); /* an unsure one that is worth more stands */
-    larger[0] = with_inner(50, 1);
-    ck_assert_int_eq(acquire(&out, &model, 480, 514, 1), DROGUE_E_UNSURE);
-    ck_assert_int_eq(calls, 2);
-    ck_assert_int_eq(out.cover_q16, larger[0].cover_q16);
-    first = with_inner(40, 0); /* what is worth less does not, and the best is measured again */
-    larger[0] = nothing();
-    ck_assert_int_eq(acquire(&out, &model, 480, 514, 1), DROGUE_E_UNSURE);
-    ck_assert_int_eq(calls, 3);
-    ck_assert_int_eq(out.cover_q16, first.cover_q16);
-    first = without_inner(90, 50);
-    larger[0] = larger[1] = with_inner(80, 1);
-    larger[0].status = larger[1].status = DROGUE_E_DOMAIN;
-    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_E_UNSURE); /* the first is measured again */
-    ck_assert_int_eq(calls, 5);
-    ck_assert_int_eq(out.cover_q16, first.cover_q16);
-    ck_assert_int_eq(acquire(&out, &model, 480, 514, 3), DROGUE_E_UNSURE); /* the third is not */
-    ck_assert_int_eq(calls, 6);
-    ck_assert_int_eq(acquire(&out, &no_inner, 480, 514, 2), DROGUE_E_UNSURE);
-    ck_assert_int_eq(calls, 4); /* both, the part, and the first again */
-    second = with_inner(76, 0); /* sure */
-    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_OK);
-    ck_assert_int_eq(calls, 2);
-    second = without_inner(90, 50);
-    larger[1] = with_inner(61, 1);
-    workspace.capacity.width_px = (uint32_t)search.best[0].region.width_px * 5 / 4 - 1; /* too narrow */
-    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_E_UNSURE);
-    ck_assert_int_eq(calls, 3); /* both, and the first again */
-    workspace.capacity.width_px++;
-    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_OK);
-    ck_assert_int_eq(calls, 4);
-    workspace.capacity.width_px = DROGUE_MAX_SIDE;
 }
 END_TEST
 
@@ -454,22 +388,30 @@ START_TEST(the_part_after_its_sightings)
     drogue_result out;
     first = with_inner(40, 0);
     elsewhere = with_inner(70, 1);
-    larger[0] = larger[1] = nothing();
     ck_assert_int_eq(acquire(&out, &model, 480, 360, 1), DROGUE_OK);
-    ck_assert_int_eq(calls, 3);
+    ck_assert_int_eq(calls, 2);
     ck_assert_int_eq(out.cover_q16, elsewhere.cover_q16);
     elsewhere = with_inner(30, 0); /* less than what was sighted, which is measured again */
     ck_assert_int_eq(acquire(&out, &model, 480, 360, 1), DROGUE_E_UNSURE);
-    ck_assert_int_eq(calls, 4);
+    ck_assert_int_eq(calls, 3);
     ck_assert_int_eq(out.cover_q16, first.cover_q16);
     first = with_inner(79, 0);
     elsewhere = with_inner(90, 1);
     ck_assert_int_eq(acquire(&out, &model, 480, 360, 1), DROGUE_OK);
     ck_assert_int_eq(calls, 1);
     ck_assert_int_eq(out.cover_q16, first.cover_q16);
+    first = second = without_inner(90, 50);
+    elsewhere = nothing();
+    ck_assert_int_eq(acquire(&out, &no_inner, 480, 514, 2), DROGUE_E_UNSURE);
+    ck_assert_int_eq(calls, 4); /* both, the part, and the first again */
+    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_E_UNSURE);
+    ck_assert_int_eq(calls, 3); /* both, and the first again: the part is too high */
+    second = with_inner(76, 0); /* sure */
+    ck_assert_int_eq(acquire(&out, &model, 480, 514, 2), DROGUE_OK);
+    ck_assert_int_eq(calls, 2);
 }
 END_TEST
 
 SUITE_MAIN("acquire", what_is_worth_more_stands, the_larger_of_two, what_settles, why_there_is_none, too_little_room,
-           refused_before_the_search, about_dark_discs, what_is_about_what_settles, the_first_two_once_more,
-           when_the_part_is_measured, the_part_after_its_sightings)
+           refused_before_the_search, about_dark_discs, what_is_about_what_settles, when_the_part_is_measured,
+           the_part_after_its_sightings)
