@@ -25,18 +25,16 @@ static void forget(drogue_result *out)
     out->region = used;
 }
 
-#define RAISES 2       /* at most, of thresholds of the noise that fill a table */
-#define ANOTHER_SIZE 8 /* a semi-axis further off than this part of it is of another rim */
+#define RAISES 2 /* at most, of thresholds of the noise that fill a table */
+#define LARGER 8 /* a rim whose semi-axis is longer by more than this part of it is another one */
 
-#define SURE_Q16 DROGUE_Q16(1, 256)    /* of less doubt nothing else is tried */
-#define LEAST_Q16 DROGUE_Q16(2, 100)   /* by less the disc is too large for no other outline along rays */
-#define BEYOND_Q16 DROGUE_Q16(60, 100) /* by more than this it is too large for anything beyond the outline */
-#define SHADE_Q16 DROGUE_Q16(20, 100)  /* by more than this it may be shade about the disc */
-#define WHOLE_Q16 DROGUE_Q16(7, 8)     /* least cover of an outline that stands whatever a disc says, */
-#define SHOWS_Q16 DROGUE_Q16(1, 4)     /* unless so much shows of one that the disc asks for */
-#define ABOVE_Q16 DROGUE_Q16(5, 32)    /* an outline about it shows by more above the average, or by chance */
-#define DISC_Q16 DROGUE_Q16(4, 100)    /* of more doubt the disc is looked for without an outline */
-#define ALONE_Q16 DROGUE_Q16(7, 10)    /* least cover of an outline whose disc is not seen */
+#define SURE_Q16 DROGUE_Q16(1, 256)   /* of less doubt nothing else is tried */
+#define LEAST_Q16 DROGUE_Q16(2, 100)  /* by less the disc is too large for no other outline along rays */
+#define WHOLE_Q16 DROGUE_Q16(7, 8)    /* least cover of an outline that stands without a disc */
+#define ABOVE_Q16 DROGUE_Q16(5, 32)   /* an outline about it shows by more above the average, or by chance */
+#define DISC_Q16 DROGUE_Q16(4, 100)   /* of more doubt the disc is looked for without an outline, and a wider region */
+#define FOUND_Q16 DROGUE_Q16(10, 100) /* of less an outline that was found in a region of another size stands */
+#define ALONE_Q16 DROGUE_Q16(7, 10)   /* least cover of an outline whose disc is not seen */
 #define STILL_Q16 (11 * DROGUE_CONTRADICTION_Q16 / 10) /* hardly more than a contradiction: of its size */
 #define CLEARLY_Q16 DROGUE_Q16(1, 256)                 /* a later try is better by more than this */
 
@@ -165,13 +163,6 @@ static int asks_disc(const drogue_best_try *best, const drogue_frame *f)
     return best->least_q16 > DISC_Q16 && f->setup->model->inner_radius_m_q16 > 0 && !is_lost(best);
 }
 
-/* Is one semi-axis of another size than one? */
-static int is_another_size(drogue_q16 a_px_q16, drogue_q16 of_px_q16)
-{
-    const drogue_q16 off = a_px_q16 > of_px_q16 ? a_px_q16 - of_px_q16 : of_px_q16 - a_px_q16;
-    return off > of_px_q16 / ANOTHER_SIZE;
-}
-
 /* Most doubt of an outline about the disc: less than where they contradict each other; or, where the best outline has
  * no disc at all, than makes the disc be looked for. */
 static drogue_q16 most_doubt(const drogue_best_try *best)
@@ -193,11 +184,10 @@ static void try_disc(drogue_best_try *best, drogue_frame *f, const drogue_region
     end_try(best, f, status, status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < most_doubt(best));
 }
 
-/* Is the inner disc too large for the best outline, by no more than one about it explains? */
+/* Is the inner disc too large for the best outline? */
 static int asks_beyond(const drogue_best_try *best)
 {
-    return best->result.status == DROGUE_OK && best->least_q16 > SURE_Q16 && best->larger_q16 > LEAST_Q16 &&
-           best->larger_q16 <= BEYOND_Q16;
+    return best->result.status == DROGUE_OK && best->least_q16 > SURE_Q16 && best->larger_q16 > LEAST_Q16;
 }
 
 /* A larger outline about the best one, whose arcs it was found from. */
@@ -273,18 +263,17 @@ static int lies_within(const drogue_ellipse *e, const drogue_image *image)
            (int64_t)e->yc_px_q16 + e->a_px_q16 <= (image->height_px - 1) * (int64_t)DROGUE_Q16_ONE;
 }
 
-/* Is it nearly whole, without another edge outside, nor one that a disc asks for which is of quite another size? What
- * is dark is shade then, which hides the disc, and not the disc of a larger rim. */
+/* Is it nearly whole, without another edge outside, nor a larger rim that a disc asks for? What is dark is shade then,
+ * which hides the disc. */
 static int is_outermost(const drogue_best_try *best, const drogue_frame *f)
 {
     return best->result.cover_q16 >= WHOLE_Q16 && best->result.outside == 0 &&
-           (best->larger_q16 == 0 || best->larger_q16 > SHADE_Q16) &&
-           (f->ring_px_q16 <= best->result.ellipse.a_px_q16 || f->ring_cover_q16 < SHOWS_Q16);
+           f->ring_px_q16 <= best->result.ellipse.a_px_q16;
 }
 
 /* Is the best outline without a disc, and another edge? It is where too little of it shows to stand alone. Or a disc
  * says so: one that is seen, but too large for it, which then is an edge within the drogue, the canopy's or its wall's;
- * or one that was sought, whose rim is of quite another size. */
+ * or one that was sought, whose rim is larger. */
 static int is_another_edge(const drogue_best_try *best, const drogue_frame *f)
 {
     if (best->result.status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE || is_outermost(best, f)) {
@@ -292,17 +281,20 @@ static int is_another_edge(const drogue_best_try *best, const drogue_frame *f)
     }
     return best->larger_q16 > 0 ||
            (best->result.cover_q16 < ALONE_Q16 && lies_within(&best->result.ellipse, f->image)) ||
-           (f->ring_px_q16 > 0 && is_another_size(best->result.ellipse.a_px_q16, f->ring_px_q16));
+           f->ring_px_q16 - best->result.ellipse.a_px_q16 > f->ring_px_q16 / LARGER;
 }
 
-/* Has nothing been found that will stand, but not for edges that are everywhere? */
-static int asks_resized(const drogue_best_try *best, const drogue_frame *f)
+/* Is the outline to be looked for in three or five quarters of the region, but not where edges are everywhere? Where
+ * nothing was found that stands; in five where one does, too, whose disc is not of its size: the ring mask may leave
+ * the rim out. */
+static int asks_resized(const drogue_best_try *best, const drogue_frame *f, int32_t wider)
 {
-    return !is_lost(best) && (best->result.status != DROGUE_OK || is_another_edge(best, f));
+    return !is_lost(best) &&
+           (best->result.status != DROGUE_OK || is_another_edge(best, f) || (wider > 0 && best->least_q16 > DISC_Q16));
 }
 
 /* The outline in three or five quarters of a region, which may be too wide or too narrow for its ring mask. It stands
- * where its disc is seen, or none is asked for. */
+ * where its disc is seen, about of its size, and nearer to that than the best one's, or where none is asked for. */
 static void try_resized(drogue_best_try *best, drogue_frame *f, const drogue_region *region, int32_t wider)
 {
     const int32_t x_px = wider * (region->width_px / 8);
@@ -315,7 +307,8 @@ static void try_resized(drogue_best_try *best, drogue_frame *f, const drogue_reg
     other.height_px += 2 * y_px;
     if (drogue_workspace_spans(f->workspace, &other, f->image)) {
         status = try_edges(f, &other, f->setup->config->canny_high, DROGUE_TRIED_FOUND);
-        end_try(best, f, status, status == DROGUE_OK && f->doubt_q16 < DROGUE_Q16_ONE);
+        end_try(best, f, status,
+                status == DROGUE_OK && f->doubt_q16 < FOUND_Q16 && f->doubt_q16 < best->least_q16 - CLEARLY_Q16);
     } else {
         drogue_note_room(&f->room, DROGUE_OK, DROGUE_SECOND_TOO_WIDE);
     }
@@ -346,8 +339,10 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     if (best->least_q16 >= DROGUE_Q16_ONE && f->ring_above_q16 >= ABOVE_Q16) { /* a disc is there, and none is seen */
         try_disc(best, f, region, 1);
     }
-    for (wider = -1; wider <= 1 && asks_resized(best, f); wider += 2) { /* bound: 2 */
-        try_resized(best, f, region, wider);
+    for (wider = -1; wider <= 1; wider += 2) { /* bound: 2 */
+        if (asks_resized(best, f, wider)) {
+            try_resized(best, f, region, wider);
+        }
     }
     if (asks_beyond(best)) {
         try_beyond(best, f);

@@ -403,8 +403,7 @@ drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *regi
     const drogue_status status = find_ring(&best, f, region);
     if (!f->whole) {
         f->ring_px_q16 = best.ring.a_px_q16;
-        f->ring_cover_q16 = best.most_q16 / PARTS;
-        f->ring_above_q16 = best.count > 0 ? f->ring_cover_q16 - best.sum_q16 / best.count : 0;
+        f->ring_above_q16 = best.count > 0 ? best.most_q16 / PARTS - best.sum_q16 / best.count : 0;
     }
     if (status != DROGUE_OK) {
         return status;

@@ -94,16 +94,17 @@ int drogue_input_valid(const drogue_image *image, const drogue_setup *setup);
  *             nothing is found that stands, nor are more than a quarter of the ring's pixels edges, three quarters of
  *             the region's sides and five quarters, by whole eighths rounded down, are tried by the configured
  *             thresholds, with which rims in regions of 1.7 to 3.5 semi-axes lie in a ring mask; what is found there
- *             stands where its inner part is seen, or none is known. The workspace has to hold the wider one's width;
- *             second_look says where it does not
+ *             stands where its inner part is seen and less than a tenth off its size, or none is known. Five quarters
+ *             are tried, too, where what stands has an inner part that is not seen or 4 % off its size, and take its
+ *             place with one that is nearer to it. The workspace has to hold the wider one's width; second_look says
+ *             where it does not
  *  return     DROGUE_OK, or why there is no pose: DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE,
  *             DROGUE_E_LABELS_FULL, DROGUE_E_EDGES_FULL, DROGUE_E_ARCS_FULL, DROGUE_E_NO_EDGES, DROGUE_E_NO_ARCS,
  *             DROGUE_E_NO_ELLIPSE, DROGUE_E_DOMAIN. Where the model has an inner part, an ellipse in which none is
  *             believed is none, either: when it lies all in the image and less than 7/10 of it is covered, when a disc
- *             is seen in its place that is too large for it, or when the disc that was sought asks for a rim of
- *             another size by more than an eighth. But one of which 7/8 is covered, outside which no other edge shows
- *             and less than a quarter of one that such a disc asks for, stands unless the disc is too large by less
- *             than a fifth: shade may hide the disc
+ *             is seen in its place that is too large for it, or when the disc that was sought asks for a rim that is
+ *             larger by more than an eighth. But one of which 7/8 is covered, outside which no other edge shows and
+ *             for which no disc that was sought is too large, stands: shade may hide the disc
  */
 drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
                              const drogue_image *image, const drogue_region *region);

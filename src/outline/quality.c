@@ -125,7 +125,7 @@ drogue_q16 drogue_ellipse_circumference(const drogue_ellipse *ellipse)
     return drogue_sat_s32(drogue_shr_round_s64((int64_t)(int32_t)(3 * (a + b) - root_q16) * PI_Q29, 29));
 }
 
-/* num / den, at most 1; den > 0 */
+/* num / den, at most 1, as of nothing; neither is negative */
 static int32_t share(int64_t num, int64_t den, int frac_bits)
 {
     drogue_real t;
@@ -152,16 +152,14 @@ static drogue_q16 axis_ratio_score(const drogue_ellipse *e, const drogue_quality
         drogue_shr_round_s64((int64_t)(t_q30 - (1 << 30)) * decay_q30, 30) + (1 << 30), 15);
 }
 
-static drogue_q16 ratio_to_one(int64_t num, int64_t den) { return den <= 0 ? DROGUE_Q16_ONE : share(num, den, 16); }
-
 /* Points over circumference (12), Q16, at most 1. A whole outline of 8-connected pixels gives about 0.9. */
 static drogue_q16 length_ratio(uint32_t points, const drogue_ellipse *ellipse)
 {
     const uint32_t most = (uint32_t)1 << 26; /* more points than any region has */
-    return ratio_to_one(drogue_shl_s64(points > most ? most : points, 16), drogue_ellipse_circumference(ellipse));
+    return share(drogue_shl_s64(points > most ? most : points, 16), drogue_ellipse_circumference(ellipse), 16);
 }
 
-drogue_q16 drogue_quality_fit_ratio(uint32_t near_count, uint32_t total) { return ratio_to_one(near_count, total); }
+drogue_q16 drogue_quality_fit_ratio(uint32_t near_count, uint32_t total) { return share(near_count, total, 16); }
 
 void drogue_quality_of_cover(drogue_quality *out, const drogue_ellipse *ellipse, drogue_q16 fit_ratio_q16,
                              drogue_q16 cover_q16, const drogue_quality_config *config)

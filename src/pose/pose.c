@@ -195,7 +195,7 @@ drogue_status drogue_pose_from_ellipse(drogue_pose out[2], const drogue_ellipse 
     circle_pair pair;
     int i;
     memset(out, 0, 2 * sizeof *out);
-    if (camera->fx_px_q16 <= 0 || camera->fy_px_q16 <= 0 || radius_m_q16 <= 0 || ellipse->b_px_q16 <= 0 ||
+    if (camera->fx_px_q16 <= 0 || camera->fy_px_q16 <= 0 || ellipse->b_px_q16 <= 0 ||
         ellipse->a_px_q16 < ellipse->b_px_q16 || !drogue_ellipse_angle_valid(ellipse)) {
         return DROGUE_E_DOMAIN;
     }

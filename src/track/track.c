@@ -309,7 +309,6 @@ void drogue_track_begin(drogue_region *region, drogue_track *track, uint32_t dt_
             return;
         }
         track->state = DROGUE_LOST;
-        track->agreeing = 0;
     }
     *region = track->first_region;
     track->reach = track->first_region;

@@ -122,6 +122,19 @@ cv::Mat picture_of(const Trial &t, const std::string &cache)
     return picture;
 }
 
+namespace {
+
+/* A region with other sides about the same middle, within the image. */
+cv::Rect resized(const cv::Rect &r, double side, const cv::Size &image)
+{
+    const int width = cvRound(side * r.width);
+    const int height = cvRound(side * r.height);
+    return cv::Rect(r.x + (r.width - width) / 2, r.y + (r.height - height) / 2, width, height) &
+           cv::Rect({0, 0}, image);
+}
+
+} // namespace
+
 std::vector<Outcome> run_trials(const std::vector<Trial> &trials, const RunOptions &options)
 {
     std::vector<Outcome> outcomes(trials.size());
@@ -133,17 +146,21 @@ std::vector<Outcome> run_trials(const std::vector<Trial> &trials, const RunOptio
         for (size_t i = next++; i < trials.size(); i = next++) {
             try {
                 const Trial &t = trials[i];
-                const cv::Mat picture = picture_of(t, options.cache);
+                const cv::Rect asked = resized(t.region, options.side, t.scene.image_px);
+                Trial seen = t;
+                if (options.side != 1) {
+                    seen.region = resized(t.region, 1.35 * std::max(1.0, options.side), t.scene.image_px);
+                }
+                const cv::Mat picture = picture_of(seen, options.cache);
                 const cv::Mat region = options.processing.empty() ? picture : processed(picture, options.processing);
                 cv::Mat image = cv::Mat::zeros(t.scene.image_px, CV_8U);
-                region.copyTo(image(t.region)); /* the library looks nowhere else */
-                const Measurement m =
-                    measure(image, t.scene.camera, t.model, t.region, transfer_of(options.processing));
+                region.copyTo(image(seen.region)); /* the library looks nowhere else */
+                const Measurement m = measure(image, t.scene.camera, t.model, asked, transfer_of(options.processing));
                 outcomes[i] = judge(t, m);
                 const std::lock_guard<std::mutex> lock(report);
                 done++;
                 if (options.inspect) {
-                    options.inspect(t, region, m, outcomes[i]);
+                    options.inspect(seen, region, m, outcomes[i]);
                 }
                 if (options.progress) {
                     options.progress(done, trials.size());

@@ -40,9 +40,10 @@ struct Outcome {
 Outcome judge(const Trial &t, const Measurement &m);
 
 struct RunOptions {
-    int threads = 0;                              /* 0: as many as the machine has */
-    std::string cache;                            /* folder of rendered regions, reused; none when empty */
-    std::string processing;                       /* of every picture (processing.hpp); none when empty */
+    int threads = 0;        /* 0: as many as the machine has */
+    std::string cache;      /* folder of rendered regions, reused; none when empty */
+    std::string processing; /* of every picture (processing.hpp); none when empty */
+    double side = 1;        /* of the region, in parts of the trial's; unless 1 the picture reaches beyond both */
     std::function<void(size_t, size_t)> progress; /* called with done and total, from one thread at a time */
     /* Called for every trial, from one thread at a time, in no fixed order. */
     std::function<void(const Trial &, const cv::Mat &region, const Measurement &, const Outcome &)> inspect;

@@ -38,7 +38,7 @@ Measurement measure(const cv::Mat &image, const Camera &camera, const drogue_mod
                     drogue_transfer transfer)
 {
     const auto side = static_cast<uint32_t>(std::max(region.width, region.height));
-    const drogue_capacity capacity = DROGUE_CAPACITY_FOR(side);
+    const drogue_capacity capacity = DROGUE_CAPACITY_FOR(side + (side + 3) / 4); /* every second look fits */
     std::vector<uint32_t> memory(drogue_workspace_bytes(&capacity) / sizeof(uint32_t) + 1);
     drogue_workspace workspace;
     drogue_config config;

@@ -162,11 +162,12 @@ void usage(FILE *to)
 {
     std::fputs(
         "usage: varied_table [--scenes N] [--seed S] [--held-out] [--only NAME] [--processing NAME] [--verbose]\n"
-        "                    [--cache DIR] [--sheet DIR]\n"
+        "                    [--side PART] [--cache DIR] [--sheet DIR]\n"
         "  --scenes N    scenes of each variety (24)\n"
         "  --held-out    from the ranges that nothing was tuned on\n"
         "  --only NAME   one variety\n"
         "  --processing NAME  of the pictures (processing.hpp); 'all': a line for each, and one for none\n"
+        "  --side PART   regions with so many of the sides that are asked for (1)\n"
         "  --verbose     a line for each scene\n"
         "  --cache DIR   keep rendered regions there\n"
         "  --sheet DIR   write pictures there: truth green, measurement red\n",
@@ -180,6 +181,7 @@ Options parse(int argc, char **argv)
                             {"held-out", no_argument, nullptr, 'o'},
                             {"only", required_argument, nullptr, 'k'},
                             {"processing", required_argument, nullptr, 'r'},
+                            {"side", required_argument, nullptr, 'w'},
                             {"verbose", no_argument, nullptr, 'v'},
                             {"cache", required_argument, nullptr, 'c'},
                             {"sheet", required_argument, nullptr, 'p'},
@@ -194,6 +196,7 @@ Options parse(int argc, char **argv)
         case 'o': o.held_out = true; break;
         case 'k': o.only = optarg; break;
         case 'r': o.run.processing = optarg; break;
+        case 'w': o.run.side = std::atof(optarg); break;
         case 'v': o.verbose = true; break;
         case 'c': o.run.cache = optarg; break;
         case 'p': o.sheet = optarg; break;
@@ -202,7 +205,7 @@ Options parse(int argc, char **argv)
         }
     }
     const std::vector<std::string> &known_names = processings();
-    if (optind != argc || o.scenes < 1 ||
+    if (optind != argc || o.scenes < 1 || !(o.run.side > 0) ||
         (!o.run.processing.empty() && o.run.processing != "all" &&
          std::find(known_names.begin(), known_names.end(), o.run.processing) == known_names.end())) {
         usage(stderr);

@@ -105,7 +105,8 @@ void add_pose(Set &set);
 void add_joint(Set &set);
 void add_kalman(Set &set);
 void add_frame(Set &set, const std::string &scenes_folder);
-void add_config(Set &set); /* of stage frame, after its other cases */
+void add_config(Set &set);         /* of stage frame, after its other cases */
+void add_narrow_regions(Set &set); /* of stage frame, too, but not to move thresholds on */
 void add_decide(Set &set);
 void add_look(Set &set);
 void add_rim(Set &set);

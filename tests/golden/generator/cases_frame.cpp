@@ -761,4 +761,32 @@ void add_frame(Set &set, const std::string &scenes_folder)
     add_drawings(set);
 }
 
+/* Regions of other sizes than the rim asks for, and what else is chosen among outlines in them: each the smallest of
+ * some thousand in which one condition makes the difference. */
+void add_narrow_regions(Set &set)
+{
+    using accuracy::Variety;
+    static const struct {
+        Variety variety;
+        uint64_t seed;
+        int index;
+        double side; /* of the proper region's */
+    } chosen[] = {{Variety::far, 101, 0, 0.76},    {Variety::bright, 303, 49, 0.82}, {Variety::half, 101, 14, 0.76},
+                  {Variety::blur, 101, 5, 1},      {Variety::torus, 303, 45, 0.76},  {Variety::torus, 303, 48, 0.82},
+                  {Variety::blur, 303, 40, 0.84},  {Variety::far, 303, 7, 0.76},     {Variety::far, 101, 6, 0.76},
+                  {Variety::offset, 101, 8, 0.74}, {Variety::blur, 202, 17, 1},      {Variety::clutter, 303, 48, 0.74}};
+    int k = 0;
+    set.begin("frame");
+    for (const auto &c : chosen) {
+        const accuracy::Trial t = accuracy::varied_trial(c.seed, c.variety, c.index, false);
+        const int margin = t.region.width / 6;
+        const int side = cvRound(c.side * t.region.width);
+        const int off = margin + (t.region.width - side) / 2;
+        Frame f = varied_frame(
+            t, {t.region.x - margin, t.region.y - margin, t.region.width + 2 * margin, t.region.height + 2 * margin});
+        f.region = {off, off, side, side};
+        add_frame(set, "narrow-region-" + std::to_string(k++), Tier::stress, {}, f);
+    }
+}
+
 } // namespace vectors

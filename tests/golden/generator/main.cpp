@@ -154,6 +154,7 @@ int main(int argc, char **argv)
         add_kalman(set);
         add_frame(set, (folder / "frame").string());
         add_config(set);
+        add_narrow_regions(set);
         add_decide(set);
         add_look(set);
         add_rim(set);

@@ -254,7 +254,11 @@ void Set::add(const std::string &name, Tier tier, Flags flags, std::vector<Array
     for (const Array &a : exact) {
         c.exact.push_back({a, {}});
     }
-    c.reference = reference_of(c.stage, c.inputs, exact);
+    try {
+        c.reference = reference_of(c.stage, c.inputs, exact);
+    } catch (const std::runtime_error &e) {
+        throw std::runtime_error(c.id() + ": " + e.what());
+    }
     cases_.push_back(std::move(c));
 }
 

@@ -58,8 +58,8 @@ struct Frame {
     Outline outline;
     bool filled = false; /* thresholds of the noise filled a table */
     drogue_second_look second_look = DROGUE_SECOND_NONE;
-    Real ring = 0; /* semi-axis of the outline that a disc allows which was sought, and how much of it shows */
-    Real ring_cover = 0, ring_above = 0;
+    Real ring = 0;       /* semi-axis of the outline that a disc allows which was sought, */
+    Real ring_above = 0; /* and how much more of it shows than of those on average */
 };
 
 /* Are edges everywhere, on a quarter of the ring's 7/16 of a square region? */
@@ -606,7 +606,6 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow, bool whole
     f.follow.library = follow ? &f.decided : nullptr;
     if (!whole) {
         f.ring = real(ring.a_px_q16);
-        f.ring_cover = cover;
         f.ring_above = above;
     }
     if (f.follow.library != nullptr) {
@@ -617,8 +616,6 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow, bool whole
     const Ellipse &e = out.outline.ellipse;
     return found && std::fabs(e.a - was.a) <= was.a / 16 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 8;
 }
-
-bool is_another_size(Real a, Real of) { return std::fabs(a - of) > of / 8; }
 
 bool is_full(drogue_status status)
 {
@@ -762,16 +759,15 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         }
     }
     const auto is_another = [&] {
-        const bool outermost = best.outline.cover >= 0.875L && best.outline.outside == 0 &&
-                               (best.larger_q16 == 0 || real(best.larger_q16) > 0.2L) &&
-                               (f.ring <= best.seen.a || f.ring_cover < 0.25L);
+        const bool outermost = best.outline.cover >= 0.875L && best.outline.outside == 0 && f.ring <= best.seen.a;
         return least == 1 && !outermost &&
                (best.larger_q16 > 0 || (best.outline.cover < 0.7L && lies_within(best.seen, task.image)) ||
-                (f.ring > 0 && is_another_size(best.seen.a, f.ring)));
+                f.ring - best.seen.a > f.ring / 8);
     };
     for (const int wider : {-1, 1}) {
-        if ((least >= 1 && crowded) || (best.status == DROGUE_OK && !is_another())) {
-            break;
+        const bool nothing = best.status != DROGUE_OK || is_another();
+        if ((least >= 1 && crowded) || (!nothing && (wider < 0 || least <= 0.04L))) {
+            continue;
         }
         const int64_t dx = wider * (asked.region[2] / 8), dy = wider * (asked.region[3] / 8);
         Result out;
@@ -788,13 +784,12 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         }
         const Real doubt = out.status == DROGUE_OK ? judge(out, from, f, task, library) : DOUBTED;
         note_room(out);
-        if (out.status == DROGUE_OK && doubt < 1) {
+        if (out.status == DROGUE_OK && doubt < 0.1L && doubt < least - 1 / 256.0L) {
             keep(out, from, doubt);
         }
     }
     for (const bool outer : {false, true}) {
-        const bool asked_beyond =
-            least > SURE && best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)} && real(best.larger_q16) <= 0.6L;
+        const bool asked_beyond = least > SURE && best.larger_q16 > drogue_q16{DROGUE_Q16(2, 100)};
         Result out;
         Features from = {};
         const bool asked_outer = best.outline.outside > 0 && (least != 1 || best.outline.cover >= 0.7L);

@@ -90,16 +90,20 @@ static void draw_scene(scene *s, uint64_t number)
     }
 }
 
+static void measure_scene(drogue_result *r, const scene *s, uint32_t width_px)
+{
+    test_workspace t = test_workspace_of(width_px, s->capacity.edges, s->capacity.labels, s->capacity.arcs);
+    (void)drogue_measure(r, &t.workspace, &(drogue_setup){&s->camera, &s->model, &s->config}, &s->image, &s->region);
+    test_workspace_free(&t);
+}
+
 static void count_runs(scene *s, uint64_t number)
 {
-    test_workspace t;
     drogue_result r;
     draw_scene(s, number);
-    t = test_workspace_of(s->capacity.width_px, s->capacity.edges, s->capacity.labels, s->capacity.arcs);
     runs = 0;
     returns = 0;
-    (void)drogue_measure(&r, &t.workspace, &(drogue_setup){&s->camera, &s->model, &s->config}, &s->image, &s->region);
-    test_workspace_free(&t);
+    measure_scene(&r, s, s->capacity.width_px);
 }
 
 /* Scenes in a row, and of 40,000 some of those with the most runs, up to 15, or with two returns. */
@@ -120,6 +124,29 @@ START_TEST(no_more_than_the_page_says)
     }
     ck_assert_int_gt(most, 13); /* the scenes come near */
     ck_assert_int_eq(most_returns, MOST_RETURNS);
+}
+END_TEST
+
+/* The list is that of the outline that stands, whether or not there was room to look for another one after it. */
+START_TEST(lists_of_what_stands)
+{
+    static scene s;
+    uint64_t number;
+    int alike = 0;
+    for (number = 0; number < 300; number++) {
+        drogue_result roomy, narrow;
+        draw_scene(&s, number);
+        measure_scene(&roomy, &s, s.capacity.width_px);
+        measure_scene(&narrow, &s, (uint32_t)s.region.width_px);
+        if (roomy.status == DROGUE_OK && narrow.status == DROGUE_OK && roomy.tried == narrow.tried &&
+            memcmp(&roomy.ellipse, &narrow.ellipse, sizeof roomy.ellipse) == 0 &&
+            memcmp(&roomy.region, &narrow.region, sizeof roomy.region) == 0) {
+            MUST(roomy.list.edge_count == narrow.list.edge_count, "scene %d: %d edges, %d", (int)number,
+                 (int)roomy.list.edge_count, (int)narrow.list.edge_count);
+            alike++;
+        }
+    }
+    ck_assert_int_gt(alike, 80);
 }
 END_TEST
 
@@ -160,4 +187,4 @@ START_TEST(no_more_in_noise_than_its_own_edges)
 }
 END_TEST
 
-SUITE_MAIN("runs", no_more_than_the_page_says, no_more_in_noise_than_its_own_edges)
+SUITE_MAIN("runs", no_more_than_the_page_says, lists_of_what_stands, no_more_in_noise_than_its_own_edges)
