@@ -64,11 +64,16 @@ static void end_try(drogue_best_try *best, drogue_frame *f, drogue_status status
     }
 }
 
+/* Is a try's doubt clearly less than the best one's? */
+static int is_clearer(const drogue_best_try *best, const drogue_frame *f)
+{
+    return f->doubt_q16 < best->least_q16 - CLEARLY_Q16;
+}
+
 /* It is the best one where its doubt is clearly less, but never without a pose where that has one. */
 static void consider(drogue_best_try *best, drogue_frame *f, drogue_status status)
 {
-    end_try(best, f, status,
-            f->doubt_q16 < best->least_q16 - CLEARLY_Q16 && (status == DROGUE_OK || best->result.status != DROGUE_OK));
+    end_try(best, f, status, is_clearer(best, f) && (status == DROGUE_OK || best->result.status != DROGUE_OK));
 }
 
 /* Before anything is tried: nothing is known of the inner disc. */
@@ -307,8 +312,7 @@ static void try_resized(drogue_best_try *best, drogue_frame *f, const drogue_reg
     other.height_px += 2 * y_px;
     if (drogue_workspace_spans(f->workspace, &other, f->image)) {
         status = try_edges(f, &other, f->setup->config->canny_high, DROGUE_TRIED_FOUND);
-        end_try(best, f, status,
-                status == DROGUE_OK && f->doubt_q16 < FOUND_Q16 && f->doubt_q16 < best->least_q16 - CLEARLY_Q16);
+        end_try(best, f, status, status == DROGUE_OK && f->doubt_q16 < FOUND_Q16 && is_clearer(best, f));
     } else {
         drogue_note_room(&f->room, DROGUE_OK, DROGUE_SECOND_TOO_WIDE);
     }

@@ -46,9 +46,8 @@ typedef struct drogue_frame {
     drogue_q16 larger_q16;   /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
     drogue_inner_sight sought; /* the inner disc, where it was found */
     drogue_q16 ring_px_q16;    /* semi-axis of the outline that a disc allows which was sought; 0: there is none */
-    drogue_q16
-        ring_above_q16;   /* and what edge points cover of it above what they do on average of all that it allows */
-    drogue_q16 doubt_q16; /* in the inner disc's size, as in drogue_inner_evidence, a little more where disc and
+    drogue_q16 ring_above_q16; /* by how much more edge points cover it than those that the disc allows on average */
+    drogue_q16 doubt_q16;      /* in the inner disc's size, as in drogue_inner_evidence, a little more where disc and
                                outline contradict each other or it says that the outline is too far; 1: not seen, or
                                too large for the outline; more: no outline */
 } drogue_frame;

@@ -41,7 +41,6 @@ static int32_t seeing(const drogue_ray rays[RAYS])
 static int32_t most_slopes_q8(const drogue_ray rays[RAYS])
 {
     int32_t sum_q8 = 0;
-    int32_t seen = 0;
     int32_t k;
     for (k = 0; k < RAYS; k++) {
         int32_t most_q8 = 0;
@@ -50,9 +49,8 @@ static int32_t most_slopes_q8(const drogue_ray rays[RAYS])
             most_q8 = larger(rays[k].edges[i].slope_q8, most_q8);
         }
         sum_q8 += most_q8;
-        seen += most_q8 > 0;
     }
-    return seen < ENOUGH ? 0 : sum_q8;
+    return seeing(rays) < ENOUGH ? 0 : sum_q8;
 }
 
 /* Settle the rays' edges on a circle, which is larger by so much at first; the sum of the slopes of the rays that

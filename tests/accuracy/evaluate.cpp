@@ -58,6 +58,15 @@ void add_nees(Outcome &o, const drogue_result &raw)
     o.has_covariance = raw.covariance_q48[0][0] > 0 && o.nees >= 0;
 }
 
+/* A region with other sides about the same middle, within the image. */
+cv::Rect resized(const cv::Rect &r, double side, const cv::Size &image)
+{
+    const int width = cvRound(side * r.width);
+    const int height = cvRound(side * r.height);
+    return cv::Rect(r.x + (r.width - width) / 2, r.y + (r.height - height) / 2, width, height) &
+           cv::Rect({0, 0}, image);
+}
+
 } // namespace
 
 cv::Vec3d Outcome::percent() const
@@ -121,19 +130,6 @@ cv::Mat picture_of(const Trial &t, const std::string &cache)
     }
     return picture;
 }
-
-namespace {
-
-/* A region with other sides about the same middle, within the image. */
-cv::Rect resized(const cv::Rect &r, double side, const cv::Size &image)
-{
-    const int width = cvRound(side * r.width);
-    const int height = cvRound(side * r.height);
-    return cv::Rect(r.x + (r.width - width) / 2, r.y + (r.height - height) / 2, width, height) &
-           cv::Rect({0, 0}, image);
-}
-
-} // namespace
 
 std::vector<Outcome> run_trials(const std::vector<Trial> &trials, const RunOptions &options)
 {

@@ -599,9 +599,8 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow, bool whole
         return false;
     }
     out.status = DROGUE_E_NO_ELLIPSE;
-    Real cover = 0, above = 0;
-    const drogue_ellipse ring =
-        rounded_ellipse(seeker.best(cover, above, *f.front, f.mask, out.region.tl(), whole ? 3 : 0));
+    Real above = 0;
+    const drogue_ellipse ring = rounded_ellipse(seeker.best(above, *f.front, f.mask, out.region.tl(), whole ? 3 : 0));
     out.contradicted = seeker.contradicted();
     f.follow.library = follow ? &f.decided : nullptr;
     if (!whole) {

@@ -107,8 +107,7 @@ void Seeker::score(Best &best, const FrontEnd &front, const drogue_mask &mask, c
     }
 }
 
-Ellipse Seeker::best(Real &most, Real &above, const FrontEnd &front, const drogue_mask &mask, cv::Point origin,
-                     int sizes)
+Ellipse Seeker::best(Real &above, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, int sizes)
 {
     const uint32_t looks = sizes > 0 ? 128 : 512;
     Best best = {{0, 0, 0, 0, 0, false}, 0, {0, 0, 0}, 0, 0};
@@ -129,7 +128,6 @@ Ellipse Seeker::best(Real &most, Real &above, const FrontEnd &front, const drogu
             }
         }
     }
-    most = best.most;
     above = best.count > 0 ? best.most - best.sum / best.count : 0;
     return best.ring;
 }

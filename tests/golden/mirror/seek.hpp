@@ -32,11 +32,10 @@ public:
     /* The first outline about the disc, in coordinates of a region; not ok: none. */
     reference::Ellipse head_on(cv::Point origin);
 
-    /* Of the outlines that the disc allows the first that edge points cover best, by how much, and by how much more than
+    /* Of the outlines that the disc allows the first that edge points cover best, and by how much more than
      * on average, of every second turn and then of those beside the best; not ok: they cover none. Of a disc that may be
      * larger or smaller by so many sixteenths, those that they cover the longest way. */
-    reference::Ellipse best(Real &most, Real &above, const FrontEnd &front, const drogue_mask &mask, cv::Point origin,
-                            int sizes);
+    reference::Ellipse best(Real &above, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, int sizes);
 
     bool contradicted() const { return contradicted_; }
 
