@@ -774,7 +774,8 @@ void add_narrow_regions(Set &set)
     } chosen[] = {{Variety::far, 101, 0, 0.76},    {Variety::bright, 303, 49, 0.82}, {Variety::half, 101, 14, 0.76},
                   {Variety::blur, 101, 5, 1},      {Variety::torus, 303, 45, 0.76},  {Variety::torus, 303, 48, 0.82},
                   {Variety::blur, 303, 40, 0.84},  {Variety::far, 303, 7, 0.76},     {Variety::far, 101, 6, 0.76},
-                  {Variety::offset, 101, 8, 0.74}, {Variety::blur, 202, 17, 1},      {Variety::clutter, 303, 48, 0.74}};
+                  {Variety::offset, 101, 8, 0.74}, {Variety::blur, 202, 17, 1},      {Variety::clutter, 303, 48, 0.74},
+                  {Variety::far, 303, 49, 0.74}};
     int k = 0;
     set.begin("frame");
     for (const auto &c : chosen) {
