@@ -22,13 +22,22 @@ typedef struct drogue_search_disc {
     int32_t contrast; /* grey levels */
 } drogue_search_disc;
 
+/* Dark discs that wait, in the order they were met; each field by itself, so that loops over them become vector
+ * instructions. */
+typedef struct drogue_search_pending {
+    int32_t count;
+    int32_t x[DROGUE_SEARCH_PENDING];
+    int32_t y[DROGUE_SEARCH_PENDING];
+    int32_t ring_q4[DROGUE_SEARCH_PENDING];
+    int32_t contrast[DROGUE_SEARCH_PENDING];
+} drogue_search_pending;
+
 /* Block means of a frame in a ring of rows. */
 typedef struct drogue_search_level {
-    uint8_t *rows;                                     /* DROGUE_SEARCH_ROWS x width */
-    int32_t width;                                     /* cells */
-    int32_t rows_in;                                   /* fed so far */
-    int32_t pending_count;                             /* of the list below */
-    drogue_search_disc pending[DROGUE_SEARCH_PENDING]; /* in the order they were met */
+    uint8_t *rows;   /* DROGUE_SEARCH_ROWS x width */
+    int32_t width;   /* cells */
+    int32_t rows_in; /* fed so far */
+    drogue_search_pending pending;
 } drogue_search_level;
 
 /* Row y, one of the last DROGUE_SEARCH_ROWS. */

@@ -52,7 +52,7 @@ drogue_status drogue_search_begin(drogue_search *search, int32_t width_px)
         level->rows = next;
         level->width = width >> (k + 1);
         level->rows_in = 0;
-        level->pending_count = 0;
+        level->pending.count = 0;
         next += DROGUE_SEARCH_ROWS * level->width;
     }
     return status;
@@ -92,100 +92,136 @@ static void judge_disc(drogue_search *search, int k, const drogue_search_disc *d
     }
 }
 
+static drogue_search_disc pending_disc(const drogue_search_pending *p, int32_t i)
+{
+    const drogue_search_disc disc = {p->x[i], p->y[i], p->ring_q4[i], p->contrast[i]};
+    return disc;
+}
+
+static void put_pending(drogue_search_pending *p, int32_t i, const drogue_search_disc *disc)
+{
+    p->x[i] = disc->x;
+    p->y[i] = disc->y;
+    p->ring_q4[i] = disc->ring_q4;
+    p->contrast[i] = disc->contrast;
+}
+
 /* Judge the pending discs above row y, and forget them. */
 static void judge_above(drogue_search *search, int k, int32_t y)
 {
-    drogue_search_level *level = &search->levels[k];
+    drogue_search_pending *p = &search->levels[k].pending;
     int32_t kept = 0;
     int32_t i;
-    for (i = 0; i < level->pending_count; i++) {
-        if (level->pending[i].y < y) {
-            judge_disc(search, k, &level->pending[i]);
+    for (i = 0; i < p->count; i++) {
+        const drogue_search_disc disc = pending_disc(p, i);
+        if (disc.y < y) {
+            judge_disc(search, k, &disc);
         } else {
-            level->pending[kept++] = level->pending[i];
+            put_pending(p, kept++, &disc);
         }
     }
-    level->pending_count = kept;
+    p->count = kept;
+}
+
+/* The first of n places from i on that is not 0; n where there is none. n is a multiple of eight. */
+static int32_t next_place(const uint8_t *places, int32_t i, int32_t n)
+{
+    for (; i < n && places[i] == 0; i++) {
+        uint64_t eight;
+        memcpy(&eight, &places[i & ~7], sizeof eight);
+        if (eight == 0) {
+            i |= 7;
+        }
+    }
+    return i;
+}
+
+/* Mark the pending discs of a scale that discs of it in row y, cells first to last, would lie beside. */
+static void mark_beside(uint8_t marks[DROGUE_SEARCH_PENDING], const drogue_search_pending *p, int32_t radius_q4,
+                        int32_t y, int32_t first, int32_t last)
+{
+    const int32_t near = radius_q4 >> 4;
+    const int32_t lowest = y - near;
+    const int32_t left = first - near;
+    const int32_t right = last + near;
+    int32_t i;
+    for (i = 0; i < DROGUE_SEARCH_PENDING; i++) { /* of one length, for vector instructions */
+        marks[i] = (i < p->count) & (p->ring_q4[i] == radius_q4) & (p->y[i] >= lowest) & (p->x[i] >= left) &
+                   (p->x[i] <= right);
+    }
+}
+
+static int32_t least_contrast(const drogue_search_pending *p)
+{
+    int32_t least = 255;
+    int32_t i;
+    for (i = 0; i < p->count; i++) {
+        least = p->contrast[i] < least ? p->contrast[i] : least;
+    }
+    return least;
 }
 
 /* Add a dark disc of more contrast than the faintest of a full list; of those beside each other the one of most
  * contrast stays, and so when there are too many at once: what a row of texture costs is bounded. */
-static void keep_disc(drogue_search_level *level, const drogue_search_disc *disc)
+static void keep_disc(drogue_search_pending *p, const drogue_search_disc *disc)
 {
-    const int32_t near = disc->ring_q4 >> 4;
-    int32_t faintest = 0;
+    uint8_t marks[DROGUE_SEARCH_PENDING];
     int32_t i;
-    for (i = 0; i < level->pending_count; i++) {
-        drogue_search_disc *p = &level->pending[i];
-        if (p->ring_q4 == disc->ring_q4 && disc->y - p->y <= near && disc->x - p->x <= near && p->x - disc->x <= near) {
-            if (disc->contrast > p->contrast) {
-                *p = *disc;
-            }
-            return;
+    mark_beside(marks, p, disc->ring_q4, disc->y, disc->x, disc->x);
+    i = next_place(marks, 0, DROGUE_SEARCH_PENDING);
+    if (i < DROGUE_SEARCH_PENDING) {
+        if (disc->contrast > p->contrast[i]) {
+            put_pending(p, i, disc);
         }
-        if (p->contrast < level->pending[faintest].contrast) {
-            faintest = i;
-        }
-    }
-    if (level->pending_count < DROGUE_SEARCH_PENDING) {
-        level->pending[level->pending_count++] = *disc;
+    } else if (p->count < DROGUE_SEARCH_PENDING) {
+        put_pending(p, p->count++, disc);
     } else {
-        level->pending[faintest] = *disc;
+        const int32_t faintest = least_contrast(p);
+        for (i = 0; p->contrast[i] > faintest;) { /* one is not */
+            i++;
+        }
+        put_pending(p, i, disc);
     }
 }
 
-/* Up to which contrast a disc in row y changes nothing of the list: beside pending ones the least of theirs, elsewhere
- * the faintest's of a full list. 255, while it is sought, is also where none is near. */
-static void limit_contrasts(uint8_t limits[PLACES], const drogue_search_level *level, int32_t x, int32_t y,
-                            int32_t radius_q4)
+/* Mark the places from x on in row y whose disc would change the list: beside pending ones those of more contrast than
+ * the least of theirs, elsewhere those of more than the faintest of a full list. */
+static void mark_discs(uint8_t marks[PLACES], const uint8_t contrasts[PLACES], const drogue_search_pending *p,
+                       int32_t x, int32_t y, int32_t radius_q4)
 {
     const int32_t near = radius_q4 >> 4;
-    int32_t faintest = level->pending_count < DROGUE_SEARCH_PENDING ? 0 : 255;
+    const int32_t elsewhere = p->count < DROGUE_SEARCH_PENDING ? 0 : least_contrast(p);
+    uint8_t limits[PLACES + 4 * RING]; /* from 2 RING places before x on; 255: none is near */
+    uint8_t beside[DROGUE_SEARCH_PENDING];
     int32_t i;
     int32_t n;
-    for (i = 0; i < level->pending_count && faintest > 0; i++) {
-        faintest = level->pending[i].contrast < faintest ? level->pending[i].contrast : faintest;
-    }
-    memset(limits, 255, PLACES);
-    for (i = 0; i < level->pending_count; i++) {
-        const drogue_search_disc *p = &level->pending[i];
-        if (p->ring_q4 == radius_q4 && y - p->y <= near) {
-            const int32_t end = p->x + near + 1 - x < PLACES ? p->x + near + 1 - x : PLACES;
-            for (n = p->x - near > x ? p->x - near - x : 0; n < end; n++) {
-                limits[n] = p->contrast < limits[n] ? (uint8_t)p->contrast : limits[n];
-            }
+    memset(limits, 255, sizeof limits);
+    mark_beside(beside, p, radius_q4, y, x, x + PLACES - 1);
+    for (i = 0; (i = next_place(beside, i, DROGUE_SEARCH_PENDING)) < DROGUE_SEARCH_PENDING; i++) {
+        uint8_t *about = &limits[p->x[i] - near - x + 2 * RING];
+        for (n = 0; n <= 2 * near; n++) {
+            about[n] = p->contrast[i] < about[n] ? (uint8_t)p->contrast[i] : about[n];
         }
     }
-    for (n = 0; n < PLACES; n++) {
-        limits[n] = limits[n] < 255 ? limits[n] : (uint8_t)faintest;
+    for (n = 0; n < PLACES; n++) { /* as vector instructions have it: equal, larger of two, difference */
+        const uint8_t limit = limits[n + 2 * RING] == 255 ? (uint8_t)elsewhere : limits[n + 2 * RING];
+        marks[n] = (uint8_t)((contrasts[n] > limit ? contrasts[n] : limit) - limit);
     }
 }
 
 /* Add the dark discs among places from x on in row y. */
-static void keep_discs(drogue_search *search, int k, const uint8_t contrasts[PLACES], int32_t x, int32_t y, int scale)
+static void keep_discs(drogue_search_pending *p, const uint8_t contrasts[PLACES], int32_t x, int32_t y,
+                       int32_t radius_q4)
 {
-    uint8_t limits[PLACES];
-    int known = 0;
-    int32_t n;
-    for (n = 0; n < PLACES; n++) {
-        uint64_t eight;
-        memcpy(&eight, &contrasts[n & ~7], sizeof eight);
-        if (eight == 0) {
-            n |= 7;
-            continue;
-        }
-        if (contrasts[n] > 0 && !known) {
-            limit_contrasts(limits, &search->levels[k], x, y, ring_q4[scale]);
-            known = 1;
-        }
-        if (contrasts[n] > 0 && contrasts[n] > limits[n]) {
-            drogue_search_disc disc;
-            disc.x = x + n;
-            disc.y = y;
-            disc.ring_q4 = ring_q4[scale];
-            disc.contrast = contrasts[n];
-            keep_disc(&search->levels[k], &disc);
-            known = 0; /* the list may be another */
+    uint8_t marks[PLACES];
+    int32_t n = next_place(contrasts, 0, PLACES);
+    while (n < PLACES) {
+        mark_discs(marks, contrasts, p, x, y, radius_q4);
+        n = next_place(marks, n, PLACES);
+        if (n < PLACES) {
+            const drogue_search_disc disc = {x + n, y, radius_q4, contrasts[n]};
+            keep_disc(p, &disc);
+            n++;
         }
     }
 }
@@ -211,7 +247,7 @@ static void scan_row(drogue_search *search, int k, int32_t y)
             const int32_t left = level->width - margin - x;
             uint8_t contrasts[PLACES] = {0};
             drogue_search_contrasts(contrasts, rows, x, left < PLACES ? left : PLACES, scale, search->min_contrast);
-            keep_discs(search, k, contrasts, x, y, scale);
+            keep_discs(&level->pending, contrasts, x, y, ring_q4[scale]);
         }
     }
     judge_above(search, k, y - RING);
