@@ -11,8 +11,8 @@ const int16_t drogue_search_ray_x_q8[DROGUE_SEARCH_RAYS] = {256,  237,  181,  98
 const int16_t drogue_search_ray_y_q8[DROGUE_SEARCH_RAYS] = {0, 98,  181,  237,  256,  237,  181,  98,
                                                             0, -98, -181, -237, -256, -237, -181, -98};
 
-static const int32_t ring_q[DROGUE_SEARCH_SCALES] = {1, 1, 2, 2};
-static const int32_t inner_at[DROGUE_SEARCH_SCALES] = {1, 1, 2, 2}; /* samples of the disc beside its centre */
+static const uint8_t ring_q[DROGUE_SEARCH_SCALES] = {1, 1, 2, 2};
+static const uint8_t inner_at[DROGUE_SEARCH_SCALES] = {1, 1, 2, 2}; /* samples of the disc beside its centre */
 
 void drogue_search_halve(uint8_t *restrict out, int32_t width, const uint8_t *above, const uint8_t *below)
 {

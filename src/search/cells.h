@@ -16,7 +16,7 @@ extern const int16_t drogue_search_ray_y_q8[DROGUE_SEARCH_RAYS];
 
 /* The circle of eight cells (+-p, +-q), (+-q, +-p) lies between inner part and rim: about half the rim's radius. The
  * first serves the smallest drogues, in the first level alone. */
-static const int32_t drogue_ring_p[DROGUE_SEARCH_SCALES] = {2, 3, 4, DROGUE_SEARCH_RING};
+static const uint8_t drogue_ring_p[DROGUE_SEARCH_SCALES] = {2, 3, 4, DROGUE_SEARCH_RING};
 
 /* out[x] = mean of two cells of each of two rows. */
 void drogue_search_halve(uint8_t *out, int32_t width, const uint8_t *above, const uint8_t *below);

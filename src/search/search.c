@@ -13,7 +13,7 @@
 #define RING DROGUE_SEARCH_RING
 #define PLACES 128 /* looked at together */
 
-static const int32_t ring_q4[SCALES] = {36, 51, 72, 86}; /* radius of the circle, 16ths of a cell */
+static const uint8_t ring_q4[SCALES] = {36, 51, 72, 86}; /* radius of the circle, 16ths of a cell */
 
 drogue_status drogue_search_init(drogue_search *search, void *memory, size_t bytes, int32_t width_px)
 {
@@ -123,14 +123,14 @@ static void judge_above(drogue_search *search, int k, int32_t y)
     p->count = kept;
 }
 
-/* The first of n places from i on that is not 0; n where there is none. n is a multiple of eight. */
+/* The first of n places from i on that is not 0; n where there is none. n is a multiple of four. */
 static int32_t next_place(const uint8_t *places, int32_t i, int32_t n)
 {
     for (; i < n && places[i] == 0; i++) {
-        uint64_t eight;
-        memcpy(&eight, &places[i & ~7], sizeof eight);
-        if (eight == 0) {
-            i |= 7;
+        uint32_t four;
+        memcpy(&four, &places[i & ~3], sizeof four);
+        if (four == 0) {
+            i |= 3;
         }
     }
     return i;
@@ -170,18 +170,18 @@ static void keep_disc(drogue_search_pending *p, const drogue_search_disc *disc)
     mark_beside(marks, p, disc->ring_q4, disc->y, disc->x, disc->x);
     i = next_place(marks, 0, DROGUE_SEARCH_PENDING);
     if (i < DROGUE_SEARCH_PENDING) {
-        if (disc->contrast > p->contrast[i]) {
-            put_pending(p, i, disc);
+        if (disc->contrast <= p->contrast[i]) {
+            return;
         }
     } else if (p->count < DROGUE_SEARCH_PENDING) {
-        put_pending(p, p->count++, disc);
+        i = p->count++;
     } else {
         const int32_t faintest = least_contrast(p);
         for (i = 0; p->contrast[i] > faintest;) { /* one is not */
             i++;
         }
-        put_pending(p, i, disc);
     }
+    put_pending(p, i, disc);
 }
 
 /* Mark the places from x on in row y whose disc would change the list: beside pending ones those of more contrast than
