@@ -25,11 +25,11 @@ typedef struct drogue_search_disc {
 /* Dark discs that wait, in the order they were met; each field by itself, so that loops over them become vector
  * instructions. */
 typedef struct drogue_search_pending {
-    int32_t count;
-    int32_t x[DROGUE_SEARCH_PENDING];
-    int32_t y[DROGUE_SEARCH_PENDING];
-    int32_t ring_q4[DROGUE_SEARCH_PENDING];
-    int32_t contrast[DROGUE_SEARCH_PENDING];
+    int32_t count;                           /* of discs */
+    int32_t x[DROGUE_SEARCH_PENDING];        /* as of drogue_search_disc */
+    int32_t y[DROGUE_SEARCH_PENDING];        /* likewise */
+    int32_t ring_q4[DROGUE_SEARCH_PENDING];  /* likewise */
+    int32_t contrast[DROGUE_SEARCH_PENDING]; /* likewise */
 } drogue_search_pending;
 
 /* Block means of a frame in a ring of rows. */
