@@ -34,10 +34,10 @@ typedef struct drogue_search_pending {
 
 /* Block means of a frame in a ring of rows. */
 typedef struct drogue_search_level {
-    uint8_t *rows;   /* DROGUE_SEARCH_ROWS x width */
-    int32_t width;   /* cells */
-    int32_t rows_in; /* fed so far */
-    drogue_search_pending pending;
+    uint8_t *rows;                 /* DROGUE_SEARCH_ROWS x width */
+    int32_t width;                 /* cells */
+    int32_t rows_in;               /* fed so far */
+    drogue_search_pending pending; /* discs that may still grow with the next row */
 } drogue_search_level;
 
 /* Row y, one of the last DROGUE_SEARCH_ROWS. */
