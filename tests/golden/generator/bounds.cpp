@@ -20,6 +20,16 @@ conf_array as_conf(const Array &a)
     return {a.name.c_str(), a.bits, a.words.size(), a.words.data(), 0, 0};
 }
 
+/* A share of a word or a scale, rounded down to 20 significant bits: the last digits of an uncertain one are not the same
+ * on every processor. */
+reference::Real share(reference::Real more)
+{
+    int exponent = 0;
+    std::frexp(more, &exponent);
+    const reference::Real unit = std::ldexp(reference::Real(1), std::max(exponent - 20, 0));
+    return std::floor(more / unit) * unit;
+}
+
 /* One word's bound; 'wide' has the words as 64 bits. */
 uint64_t bound_of(const std::string &stage, const Array &wide, size_t i, reference::Real more)
 {
@@ -35,7 +45,7 @@ uint64_t bound_of(const std::string &stage, const Array &wide, size_t i, referen
         return 0;
     }
     const bool relative = m->kind == CONF_OF_ITSELF || m->kind == CONF_OF_SCALE;
-    const reference::Real bound = m->base_lsb + (relative ? std::floor(more) : std::ceil(more));
+    const reference::Real bound = m->base_lsb + (relative ? share(more) : std::ceil(more));
     if (bound <= static_cast<reference::Real>(conf_measure_widest(m, &words, i))) {
         return static_cast<uint64_t>(bound);
     }
