@@ -33,8 +33,8 @@ void drogue_search_halve(uint8_t *restrict out, int32_t width, const uint8_t *ab
         second = higher < second ? higher : second;     \
     } while (0)
 
-void drogue_search_contrasts(uint8_t *restrict out, const uint8_t *const rows[2 * DROGUE_SEARCH_RING + 1], int32_t x,
-                             int32_t count, int scale, int32_t least)
+uint8_t drogue_search_contrasts(uint8_t *restrict out, const uint8_t *const rows[2 * DROGUE_SEARCH_RING + 1], int32_t x,
+                                int32_t count, int scale, int32_t least)
 {
     const int32_t p = drogue_ring_p[scale];
     const int32_t q = ring_q[scale];
@@ -48,6 +48,7 @@ void drogue_search_contrasts(uint8_t *restrict out, const uint8_t *const rows[2 
     const uint8_t *q_below = rows[MIDDLE + q] + x;
     const uint8_t room = (uint8_t)least;
     const uint8_t dimmest = (uint8_t)(255 - least);
+    uint8_t any = 0;
     int32_t n;
     for (n = 0; n < count; n++) {
         const uint8_t centre = middle[n];
@@ -69,7 +70,9 @@ void drogue_search_contrasts(uint8_t *restrict out, const uint8_t *const rows[2 
         SEE(p_below[n + q]);
         contrast = second > mean ? (uint8_t)(second - mean) : 0;
         out[n] = ((second_of_four > dim) & (contrast > room)) ? contrast : 0;
+        any |= out[n];
     }
+    return any;
 }
 
 #else
@@ -112,13 +115,16 @@ static int32_t disc_contrast(const uint8_t *const rows[2 * DROGUE_SEARCH_RING + 
     return second - ((2 * *middle + middle[-i] + middle[i] + rows[MIDDLE - i][x] + rows[MIDDLE + i][x] + 3) / 6);
 }
 
-void drogue_search_contrasts(uint8_t *out, const uint8_t *const rows[2 * DROGUE_SEARCH_RING + 1], int32_t x,
-                             int32_t count, int scale, int32_t least)
+uint8_t drogue_search_contrasts(uint8_t *out, const uint8_t *const rows[2 * DROGUE_SEARCH_RING + 1], int32_t x,
+                                int32_t count, int scale, int32_t least)
 {
+    uint8_t any = 0;
     for (; count > 0; count--) {
         const int32_t contrast = disc_contrast(rows, x++, scale, least);
-        *out++ = contrast > least ? (uint8_t)contrast : 0;
+        *out = contrast > least ? (uint8_t)contrast : 0;
+        any |= *out++;
     }
+    return any;
 }
 
 #endif

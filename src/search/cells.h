@@ -28,8 +28,9 @@ void drogue_search_halve(uint8_t *out, int32_t width, const uint8_t *above, cons
  *  rows   of cells, the middle one [DROGUE_SEARCH_RING]; a circle's reach about each place lies in them
  *  x      first place
  *  least  [0, 255]
+ *  return 0 where all are 0
  */
-void drogue_search_contrasts(uint8_t *out, const uint8_t *const rows[2 * DROGUE_SEARCH_RING + 1], int32_t x,
-                             int32_t count, int scale, int32_t least);
+uint8_t drogue_search_contrasts(uint8_t *out, const uint8_t *const rows[2 * DROGUE_SEARCH_RING + 1], int32_t x,
+                                int32_t count, int scale, int32_t least);
 
 #endif

@@ -214,7 +214,7 @@ static void keep_discs(drogue_search_pending *p, const uint8_t contrasts[PLACES]
                        int32_t radius_q4)
 {
     uint8_t marks[PLACES];
-    int32_t n = next_place(contrasts, 0, PLACES);
+    int32_t n = 0;
     while (n < PLACES) {
         mark_discs(marks, contrasts, p, x, y, radius_q4);
         n = next_place(marks, n, PLACES);
@@ -246,8 +246,10 @@ static void scan_row(drogue_search *search, int k, int32_t y)
         for (x = margin; x + margin < level->width; x += PLACES) {
             const int32_t left = level->width - margin - x;
             uint8_t contrasts[PLACES] = {0};
-            drogue_search_contrasts(contrasts, rows, x, left < PLACES ? left : PLACES, scale, search->min_contrast);
-            keep_discs(&level->pending, contrasts, x, y, ring_q4[scale]);
+            if (drogue_search_contrasts(contrasts, rows, x, left < PLACES ? left : PLACES, scale,
+                                        search->min_contrast)) {
+                keep_discs(&level->pending, contrasts, x, y, ring_q4[scale]);
+            }
         }
     }
     judge_above(search, k, y - RING);
