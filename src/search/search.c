@@ -123,10 +123,11 @@ static void judge_above(drogue_search *search, int k, int32_t y)
     p->count = kept;
 }
 
-/* The first of n places from i on that is not 0; n where there is none. n is a multiple of four. */
-static int32_t next_place(const uint8_t *places, int32_t i, int32_t n)
+/* The first of n places that is not 0, from one on; n where there is none. n is a multiple of four. */
+static int32_t next_place(const uint8_t *places, int32_t from, int32_t n)
 {
-    for (; i < n && places[i] == 0; i++) {
+    int32_t i;
+    for (i = from; i < n && places[i] == 0; i++) {
         uint32_t four;
         memcpy(&four, &places[i & ~3], sizeof four);
         if (four == 0) {
@@ -177,7 +178,8 @@ static void keep_disc(drogue_search_pending *p, const drogue_search_disc *disc)
         i = p->count++;
     } else {
         const int32_t faintest = least_contrast(p);
-        for (i = 0; p->contrast[i] > faintest;) { /* one is not */
+        i = 0;
+        while (p->contrast[i] > faintest) { /* one is not */
             i++;
         }
     }
@@ -197,10 +199,12 @@ static void mark_discs(uint8_t marks[PLACES], const uint8_t contrasts[PLACES], c
     int32_t n;
     memset(limits, 255, sizeof limits);
     mark_beside(beside, p, radius_q4, y, x, x + PLACES - 1);
-    for (i = 0; (i = next_place(beside, i, DROGUE_SEARCH_PENDING)) < DROGUE_SEARCH_PENDING; i++) {
-        uint8_t *about = &limits[p->x[i] - near - x + 2 * RING];
-        for (n = 0; n <= 2 * near; n++) {
-            about[n] = p->contrast[i] < about[n] ? (uint8_t)p->contrast[i] : about[n];
+    for (i = 0; i < p->count; i++) {
+        if (beside[i] > 0) {
+            uint8_t *about = &limits[p->x[i] - near - x + 2 * RING];
+            for (n = 0; n <= 2 * near; n++) {
+                about[n] = p->contrast[i] < about[n] ? (uint8_t)p->contrast[i] : about[n];
+            }
         }
     }
     for (n = 0; n < PLACES; n++) { /* as vector instructions have it: equal, larger of two, difference */
