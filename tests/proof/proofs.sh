@@ -21,6 +21,8 @@ check() {
     shift 4
     (
         ulimit -t "$most_s"
+        export TMPDIR=$PWD/${log%.log}.tmp # ESBMC writes its headers anew into it, also while another run reads them
+        mkdir -p "$TMPDIR"
         "$esbmc" "tests/proof/$harness.c" -I "$tree/include" -I "$tree/src" -I tests/proof --function "$function" \
             -D__SYNTHESIS__ "$@" # what is C alone where a compiler has an instruction
     ) >"$log" 2>&1 || true
@@ -60,6 +62,7 @@ one() {
         echo "ok     $name: proved, its broken twin refuted, $spent s"
     else
         echo "FAILED $name: $found, its broken twin $twin, $spent s"
+        tail -n 3 "$log.log" "$log.broken.log"
     fi >"$log.verdict"
 }
 
