@@ -31,7 +31,6 @@ static void forget(drogue_result *out)
 #define SURE_Q16 DROGUE_Q16(1, 256)   /* of less doubt nothing else is tried */
 #define LEAST_Q16 DROGUE_Q16(2, 100)  /* by less the disc is too large for no other outline along rays */
 #define WHOLE_Q16 DROGUE_Q16(7, 8)    /* least cover of an outline that stands without a disc */
-#define ABOVE_Q16 DROGUE_Q16(5, 32)   /* an outline about it shows by more above the average, or by chance */
 #define DISC_Q16 DROGUE_Q16(4, 100)   /* of more doubt the disc is looked for without an outline, and a wider region */
 #define FOUND_Q16 DROGUE_Q16(10, 100) /* of less an outline that was found in a region of another size stands */
 #define ALONE_Q16 DROGUE_Q16(7, 10)   /* least cover of an outline whose disc is not seen */
@@ -82,7 +81,6 @@ static void begin_try(drogue_frame *f)
     forget(f->out);
     f->doubt_q16 = DROGUE_Q16_MAX;
     f->larger_q16 = 0;
-    f->whole = 0;
 }
 
 /* From the outline that was tried to the pose. */
@@ -175,13 +173,11 @@ static drogue_q16 most_doubt(const drogue_best_try *best)
     return best->result.status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE ? DISC_Q16 : DROGUE_CONTRADICTED_Q16;
 }
 
-/* The disc itself, and an outline about it; by all edges of the region it may be of another size. That stands, whatever
- * the best one's doubt, where it has little itself. */
-static void try_disc(drogue_best_try *best, drogue_frame *f, const drogue_region *region, int32_t whole)
+/* The disc itself, and an outline about it. That stands, whatever the best one's doubt, where it has little itself. */
+static void try_disc(drogue_best_try *best, drogue_frame *f, const drogue_region *region)
 {
     drogue_status status;
     begin_try(f);
-    f->whole = whole;
     status = drogue_frame_about_disc(f, region);
     if (status == DROGUE_OK) {
         status = judge(f, DROGUE_TRIED_DISC);
@@ -240,9 +236,8 @@ static void try_outer(drogue_best_try *best, drogue_frame *f)
 
 static int same_edges(const drogue_held *a, const drogue_held *b)
 {
-    return a->canny_high == b->canny_high && a->whole == b->whole && a->region.x_px == b->region.x_px &&
-           a->region.y_px == b->region.y_px && a->region.width_px == b->region.width_px &&
-           a->region.height_px == b->region.height_px;
+    return a->canny_high == b->canny_high && a->region.x_px == b->region.x_px && a->region.y_px == b->region.y_px &&
+           a->region.width_px == b->region.width_px && a->region.height_px == b->region.height_px;
 }
 
 /* What was best stands, and its edges are in the workspace again. Where there is no outline at all they are those
@@ -252,7 +247,6 @@ static void return_to(const drogue_best_try *best, drogue_frame *f)
     const drogue_held *wanted = best->result.ellipse.a_px_q16 > 0 ? &best->held : &f->held;
     if (!same_edges(wanted, &f->held)) {
         f->canny_high = wanted->canny_high;
-        f->whole = wanted->whole;
         (void)drogue_frame_edges(f, &wanted->region);
     }
     *f->out = best->result;
@@ -338,10 +332,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
         try_noise(best, f, region);
     }
     if (asks_disc(best, f)) {
-        try_disc(best, f, region, 0);
-    }
-    if (best->least_q16 >= DROGUE_Q16_ONE && f->ring_above_q16 >= ABOVE_Q16) { /* a disc is there, and none is seen */
-        try_disc(best, f, region, 1);
+        try_disc(best, f, region);
     }
     for (wider = -1; wider <= 1; wider += 2) { /* bound: 2 */
         if (asks_resized(best, f, wider)) {

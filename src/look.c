@@ -12,11 +12,6 @@
 #define AS_ALLOWED 16 /* of a disc's outline: the guess that was settled is good to some per cent of its size, */
 #define THERE 8       /* and to this part in its place */
 
-#define SIZES 3  /* so many sizes to either side of what a disc seems to be of, */
-#define PARTS 16 /* this part of it apart */
-
-#define WHOLE_LOOKS (DROGUE_OUTLINE_LOOKS / 4) /* that score one, where there are as many more */
-
 #define OUTER_Q16 DROGUE_Q16(3, 4)  /* least cover of an outer edge of the rim, */
 #define OUTER_BAND DROGUE_Q16(1, 1) /* px: and half the width of the band about it that points along rays lie in */
 
@@ -55,7 +50,7 @@ static drogue_status run_frontend(drogue_frame *f)
     front.canny_low =
         config->canny_high > 0 ? (int32_t)((int64_t)f->canny_high * config->canny_low / config->canny_high) : 0;
     front.smooth = config->smooth;
-    front.use_ring = !f->whole;
+    front.use_ring = 1;
     front.ring = f->mask;
     front.min_arc_px = (uint32_t)drogue_shr_round_s64((int64_t)config->min_arc_share_q16 * f->mask.longest_px, 16);
     if (front.min_arc_px < config->min_arc_px) {
@@ -116,7 +111,6 @@ drogue_status drogue_frame_edges(drogue_frame *f, const drogue_region *region)
     }
     f->held.region = *region;
     f->held.canny_high = f->canny_high;
-    f->held.whole = f->whole;
     return run_frontend(f);
 }
 
@@ -283,67 +277,54 @@ drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, c
     return DROGUE_OK;
 }
 
-/* Of the outlines that a disc allows the one that edge points cover best, and what they cover of all. */
+/* Of the outlines that a disc allows the one that edge points cover best. */
 typedef struct best_ring {
     drogue_ellipse ring;
-    drogue_q16 most_q16; /* cover times the disc's size */
-    int32_t size;        /* of the disc, in parts of what it seems to be */
-    int32_t yaw;         /* by which the drogue is turned, steps */
+    drogue_q16 cover_q16;
+    int32_t yaw; /* by which the drogue is turned, steps */
     int32_t pitch;
-    int32_t sum_q16; /* of the covers of as many outlines, below 2^10 */
-    int32_t count;
 } best_ring;
 
-/* Score the outlines about a disc of a size, of a drogue turned by so much and of one turned the opposite way. */
-static void score(best_ring *best, const drogue_frame *f, int32_t size, int32_t yaw, int32_t pitch)
+/* Score the outlines about a disc of a drogue turned by so much and of one turned the opposite way. */
+static void score(best_ring *best, const drogue_frame *f, const drogue_inner_sight *disc, int32_t yaw, int32_t pitch)
 {
-    drogue_inner_sight sight = f->sought;
     drogue_inner_expected rims;
     uint32_t i;
     if (yaw * yaw + pitch * pitch > DROGUE_INNER_TURNS * DROGUE_INNER_TURNS) {
         return;
     }
-    sight.radius_q16 = size * sight.radius_q16 / PARTS; /* below 2^21 */
-    drogue_inner_rims(&rims, &sight, yaw, pitch, f->setup, f->out->region.x_px, f->out->region.y_px);
+    drogue_inner_rims(&rims, disc, yaw, pitch, f->setup, f->out->region.x_px, f->out->region.y_px);
     for (i = 0; i < rims.count; i++) {
         const drogue_q16 cover_q16 =
-            drogue_outline_covered(&rims.disc[i], f->workspace, &f->list, &f->mask, f->setup->config,
-                                   f->whole ? WHOLE_LOOKS : DROGUE_OUTLINE_LOOKS);
-        best->sum_q16 += cover_q16;
-        best->count++;
-        if (size * cover_q16 > best->most_q16) {
+            drogue_outline_covered(&rims.disc[i], f->workspace, &f->list, &f->mask, f->setup->config);
+        if (cover_q16 > best->cover_q16) {
             best->ring = rims.disc[i];
-            best->most_q16 = size * cover_q16;
-            best->size = size;
+            best->cover_q16 = cover_q16;
             best->yaw = i == 0 ? yaw : -yaw;
             best->pitch = i == 0 ? pitch : -pitch;
         }
     }
 }
 
-/* The best of every second turn, of one size those between the ones of the next, and of those beside it. */
-static void seek_ring(best_ring *best, const drogue_frame *f)
+/* The best of every second turn, and of those beside it. */
+static void seek_ring(best_ring *best, const drogue_frame *f, const drogue_inner_sight *disc)
 {
     const int32_t turns = DROGUE_INNER_TURNS;
-    const int32_t sizes = f->whole ? SIZES : 0;
     best_ring middle;
-    int32_t size;
     int32_t yaw;
     int32_t pitch;
-    for (size = PARTS - sizes; size <= PARTS + sizes; size++) { /* bound: 7 */
-        for (yaw = 0; yaw <= turns; yaw++) {                    /* bound: 7; the opposite ones come with them */
-            for (pitch = yaw == 0 ? 0 : -turns; pitch <= turns; pitch++) {
-                if ((yaw + pitch + size) % 2 == 0) {
-                    score(best, f, size, yaw, pitch);
-                }
+    for (yaw = 0; yaw <= turns; yaw++) { /* bound: 7; the opposite ones come with them */
+        for (pitch = yaw == 0 ? 0 : -turns; pitch <= turns; pitch++) {
+            if ((yaw + pitch) % 2 == 0) {
+                score(best, f, disc, yaw, pitch);
             }
         }
     }
     middle = *best;
-    for (yaw = -1; yaw <= 1 && middle.size > 0; yaw++) {
+    for (yaw = -1; yaw <= 1 && middle.cover_q16 > 0; yaw++) {
         for (pitch = -1; pitch <= 1; pitch++) {
             if (yaw != 0 || pitch != 0) {
-                score(best, f, middle.size, middle.yaw + yaw, middle.pitch + pitch);
+                score(best, f, disc, middle.yaw + yaw, middle.pitch + pitch);
             }
         }
     }
@@ -358,31 +339,31 @@ static int of_size(const drogue_ellipse *e, const drogue_mask *mask)
 }
 
 /* Look for the inner disc in a region. */
-static int seek_disc(drogue_frame *f)
+static int seek_disc(drogue_inner_sight *sight, drogue_frame *f)
 {
     drogue_ellipse disc;
     if (!drogue_inner_seek(&disc, f->workspace->rays, &f->view, &f->mask, f->setup)) {
         return 0;
     }
     drogue_frame_move(&disc, f->out->region.x_px, f->out->region.y_px);
-    return drogue_inner_sight_of(&f->sought, &disc, f->setup->camera);
+    return drogue_inner_sight_of(sight, &disc, f->setup->camera);
 }
 
-/* Look for the inner disc in a region unless that was done, then for edges in one that suits what outlines the disc
- * allows, which becomes the result's; choose of those outlines. DROGUE_E_NO_INNER_PART: there is no disc, and no edges
- * were looked for. */
+/* Look for the inner disc in a region, then for edges in one that suits what outlines the disc allows, which becomes
+ * the result's; choose of those outlines. DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked for. */
 static drogue_status find_ring(best_ring *best, drogue_frame *f, const drogue_region *region)
 {
     drogue_result *out = f->out;
     drogue_region about = *region;
+    drogue_inner_sight disc;
     drogue_inner_expected rims;
     drogue_status status = drogue_frame_view(f, region);
     f->second_look = DROGUE_SECOND_NONE;
     memset(best, 0, sizeof *best);
-    if (status != DROGUE_OK || (!f->whole && !seek_disc(f))) {
+    if (status != DROGUE_OK || !seek_disc(&disc, f)) {
         return DROGUE_E_NO_INNER_PART;
     }
-    drogue_inner_rims(&rims, &f->sought, 0, 0, f->setup, out->region.x_px, out->region.y_px);
+    drogue_inner_rims(&rims, &disc, 0, 0, f->setup, out->region.x_px, out->region.y_px);
     if (rims.count > 0 && !of_size(&rims.disc[0], &f->mask)) {
         about = region_about(&rims.disc[0], &out->region);
     }
@@ -392,7 +373,7 @@ static drogue_status find_ring(best_ring *best, drogue_frame *f, const drogue_re
     }
     status = drogue_frame_edges(f, &about);
     if (status == DROGUE_OK) {
-        seek_ring(best, f);
+        seek_ring(best, f, &disc);
     }
     return status;
 }
@@ -401,10 +382,7 @@ drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *regi
 {
     best_ring best;
     const drogue_status status = find_ring(&best, f, region);
-    if (!f->whole) {
-        f->ring_px_q16 = best.ring.a_px_q16;
-        f->ring_above_q16 = best.count > 0 ? best.most_q16 / PARTS - best.sum_q16 / best.count : 0;
-    }
+    f->ring_px_q16 = best.ring.a_px_q16;
     if (status != DROGUE_OK) {
         return status;
     }

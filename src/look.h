@@ -13,7 +13,6 @@
 typedef struct drogue_held {
     drogue_region region; /* where they were looked for */
     int32_t canny_high;   /* by which upper threshold, or DROGUE_BY_RAYS */
-    int32_t whole;        /* in all of it, not in its ring alone? */
 } drogue_held;
 
 /* What the best try so far gave. It lies in the workspace, which leaves the stack free. */
@@ -41,13 +40,10 @@ typedef struct drogue_frame {
     drogue_second_look second_look;
     drogue_second_look room; /* TOO_WIDE or FULL: what a try had too little room in; else NONE */
     int32_t canny_high;      /* to look by; the lower threshold is in proportion, as the configured ones are */
-    int32_t whole;           /* to look in all of a region? */
     int32_t crowded;         /* were edges everywhere in the region that the outline was looked for in first? */
     drogue_q16 larger_q16;   /* by what share the inner disc is larger than of its size; 0: it is not, or is not seen */
-    drogue_inner_sight sought; /* the inner disc, where it was found */
-    drogue_q16 ring_px_q16;    /* semi-axis of the outline that a disc allows which was sought; 0: there is none */
-    drogue_q16 ring_above_q16; /* by how much more edge points cover it than those that the disc allows on average */
-    drogue_q16 doubt_q16;      /* in the inner disc's size, as in drogue_inner_evidence, a little more where disc and
+    drogue_q16 ring_px_q16;  /* semi-axis of the outline that a disc allows which was sought; 0: there is none */
+    drogue_q16 doubt_q16;    /* in the inner disc's size, as in drogue_inner_evidence, a little more where disc and
                                outline contradict each other or it says that the outline is too far; 1: not seen, or
                                too large for the outline; more: no outline */
 } drogue_frame;
@@ -80,10 +76,7 @@ drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, 
 drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was);
 
 /* The outline about the inner disc, which is sought: of those that it allows the one that edge points cover best, whose
- * size and cover the frame has then, settled. Where the whole region is looked at the disc is the one that was sought
- * before in that region, and may be of another size than it seems, by a collar or shade about it; the longest cover is
- * best, and the frame's size and cover stay.
- * DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked for. */
+ * size the frame has then, settled. DROGUE_E_NO_INNER_PART: there is no disc, and no edges were looked for. */
 drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *region);
 
 /* From the outline to the pose. Apart from the rest for its stack: that of the looks is not below it. */

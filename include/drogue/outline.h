@@ -75,11 +75,10 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
 
 #define DROGUE_OUTLINE_LOOKS 512 /* edge points that score an ellipse at most, evenly taken */
 
-/* Share of an ellipse that edge points cover, of which so many at most are looked at, evenly taken; 0 where it is no
+/* Share of an ellipse that edge points cover, of which DROGUE_OUTLINE_LOOKS at most are looked at; 0 where it is no
  * plausible outline. */
 drogue_q16 drogue_outline_covered(const drogue_ellipse *ring, const drogue_workspace *workspace,
-                                  const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config,
-                                  uint32_t looks);
+                                  const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config);
 
 /* Fit the edge points about an ellipse, as an outline without arcs.
  *

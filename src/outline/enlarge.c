@@ -5,13 +5,11 @@
 #define RINGS 14 /* about the outline, each larger than the one before by a fortieth: to 1.4 times its size */
 
 drogue_q16 drogue_outline_covered(const drogue_ellipse *ring, const drogue_workspace *workspace,
-                                  const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config,
-                                  uint32_t looks)
+                                  const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config)
 {
     drogue_refit_context c;
     drogue_q16 cover_q16;
     drogue_refit_begin(&c, workspace, list, mask, config);
-    c.looks = looks;
     cover_q16 = drogue_refit_cover(ring, &c);
     return cover_q16 > 0 ? cover_q16 : 0;
 }

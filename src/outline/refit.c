@@ -13,7 +13,6 @@ void drogue_refit_begin(drogue_refit_context *c, const drogue_workspace *workspa
     c->list = list;
     c->mask = mask;
     c->config = config;
-    c->looks = DROGUE_OUTLINE_LOOKS;
     drogue_collection_of_region(&c->room->sum);
 }
 
@@ -38,7 +37,7 @@ static drogue_band band_about(const drogue_ellipse *e, const drogue_refit_contex
                           config->refit_cos_q16);
 }
 
-uint32_t drogue_refit_stride(const drogue_refit_context *c) { return c->list->edge_count / c->looks + 1; }
+uint32_t drogue_refit_stride(const drogue_refit_context *c) { return c->list->edge_count / DROGUE_OUTLINE_LOOKS + 1; }
 
 /* Collect the edge points that belong to an ellipse, every one or every so many of them: counts by bin, residuals, and
  * moments, where all count from those of the arcs. Bins have the given polarities until they are judged by the

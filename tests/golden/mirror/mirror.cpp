@@ -58,8 +58,7 @@ struct Frame {
     Outline outline;
     bool filled = false; /* thresholds of the noise filled a table */
     drogue_second_look second_look = DROGUE_SECOND_NONE;
-    Real ring = 0;       /* semi-axis of the outline that a disc allows which was sought, */
-    Real ring_above = 0; /* and how much more of it shows than of those on average */
+    Real ring = 0; /* semi-axis of the outline that a disc allows which was sought */
 };
 
 /* Are edges everywhere, on a quarter of the ring's 7/16 of a square region? */
@@ -69,8 +68,7 @@ bool is_crowded(const Frame &f)
 }
 
 /* Run the front end on a region. */
-drogue_status see_edges(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region,
-                        bool whole = false)
+drogue_status see_edges(Result &out, Frame &f, const Task &task, const std::array<int64_t, 4> &region)
 {
     if (!place(out.region, f.mask, task.image, region)) {
         return DROGUE_E_REGION;
@@ -82,7 +80,7 @@ drogue_status see_edges(Result &out, Frame &f, const Task &task, const std::arra
     }
     capacity.width_px = static_cast<uint32_t>(out.region.width);
     f.view = task.image(out.region).clone();
-    f.front = run_front_end(f.view, f.mask, task.config, capacity, whole);
+    f.front = run_front_end(f.view, f.mask, task.config, capacity);
     return f.front->status;
 }
 
@@ -569,9 +567,8 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     return found;
 }
 
-/* An outline about the inner disc where no outline says where that is; by all edges of the region of a disc that may be of
- * another size than it seems. */
-bool about_disc(Result &out, Frame &f, const Task &task, bool follow, bool whole)
+/* An outline about the inner disc where no outline says where that is. */
+bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
 {
     Seeker seeker(task, follow);
     std::array<int64_t, 4> region = task.region;
@@ -594,19 +591,15 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow, bool whole
         out.second_look = DROGUE_SECOND_TOO_WIDE;
         return false;
     }
-    out.status = see_edges(out, f, task, region, whole);
+    out.status = see_edges(out, f, task, region);
     if (out.status != DROGUE_OK) {
         return false;
     }
     out.status = DROGUE_E_NO_ELLIPSE;
-    Real above = 0;
-    const drogue_ellipse ring = rounded_ellipse(seeker.best(above, *f.front, f.mask, out.region.tl(), whole ? 3 : 0));
+    const drogue_ellipse ring = rounded_ellipse(seeker.best(*f.front, f.mask, out.region.tl()));
     out.contradicted = seeker.contradicted();
     f.follow.library = follow ? &f.decided : nullptr;
-    if (!whole) {
-        f.ring = real(ring.a_px_q16);
-        f.ring_above = above;
-    }
+    f.ring = real(ring.a_px_q16);
     if (f.follow.library != nullptr) {
         (void)drogue_outline_settle(&f.decided, &ring, 0, &f.front->workspace, &f.front->list, &f.mask, &task.config);
     }
@@ -740,18 +733,13 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         }
     }
     bool contradicted = false;
-    for (const bool whole : {false, true}) {
-        if (task.model.inner_radius <= 0 || least <= 0.04L || (least >= 1 && crowded) ||
-            (whole && (least < 1 || f.ring_above < 5 / 32.0L))) {
-            break;
-        }
+    if (task.model.inner_radius > 0 && least > 0.04L && !(least >= 1 && crowded)) {
         Result out;
         Features from = {};
         out.outline.arcs.fill(DROGUE_NO_ARC);
-        const Real doubt =
-            about_disc(out, f, task, library != nullptr, whole) ? judge(out, from, f, task, library) : DOUBTED;
+        const Real doubt = about_disc(out, f, task, library != nullptr) ? judge(out, from, f, task, library) : DOUBTED;
         note_room(out);
-        contradicted = contradicted || out.contradicted;
+        contradicted = out.contradicted;
         const Real most = best.status == DROGUE_OK && least == 1 ? 0.04L : 1 / 64.0L;
         if (out.status == DROGUE_OK && out.has_inner && out.doubt < most) {
             keep(out, from, doubt);

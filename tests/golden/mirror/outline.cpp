@@ -81,7 +81,7 @@ public:
     drogue_status find(Outline &out);
     bool enlarge(Outline &out) const;
     bool settle(Outline &out, const Ellipse &ring, Real band);
-    Real covered(const Ellipse &e, bool follow, size_t looks) const;
+    Real covered(const Ellipse &e, bool follow) const;
 
 private:
     using Arcs = std::array<uint32_t, 4>;
@@ -423,7 +423,7 @@ bool Finder::settle(Outline &out, const Ellipse &ring, Real band)
     return true;
 }
 
-Real Finder::covered(const Ellipse &e, bool follow, size_t looks) const
+Real Finder::covered(const Ellipse &e, bool follow) const
 {
     if (!plausible(e)) {
         return 0;
@@ -432,7 +432,7 @@ Real Finder::covered(const Ellipse &e, bool follow, size_t looks) const
     const decisions_round library = {{q16(e.xc), q16(e.yc), q16(e.a), q16(e.b), q16(e.angle)},
                                      drogue_band_of(q16(band.width), config_.refit_cos_q16)};
     const std::vector<BandPoint> points = collect(e, band, front_, follow ? &library : nullptr);
-    const size_t stride = front_.edges.size() / looks + 1;
+    const size_t stride = front_.edges.size() / DROGUE_OUTLINE_LOOKS + 1;
     Support s;
     for (size_t i = 0; i < points.size(); i += stride) {
         if (points[i].held) {
@@ -489,7 +489,7 @@ void number(FrontEnd &front)
 }
 
 std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &mask, const drogue_config &config,
-                                        const drogue_capacity &capacity, bool whole)
+                                        const drogue_capacity &capacity)
 {
     auto out = std::make_unique<FrontEnd>();
     drogue_frontend frontend;
@@ -497,7 +497,7 @@ std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &
     front.canny_low = config.canny_low;
     front.canny_high = config.canny_high;
     front.smooth = config.smooth;
-    front.use_ring = !whole;
+    front.use_ring = 1;
     front.ring = mask;
     front.min_arc_px = std::max(
         config.min_arc_px, static_cast<uint32_t>(std::floor(real(config.min_arc_share_q16) * mask.longest_px + 0.5L)));
@@ -555,10 +555,9 @@ bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const
     return true;
 }
 
-Real covered(const Ellipse &e, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config, bool follow,
-             size_t looks)
+Real covered(const Ellipse &e, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config, bool follow)
 {
-    return Finder(front, mask, config, {nullptr}).covered(e, follow, looks);
+    return Finder(front, mask, config, {nullptr}).covered(e, follow);
 }
 
 bool settle(Outline &out, const drogue_ellipse &ring, drogue_q16 band_px_q16, const FrontEnd &front,

@@ -16,8 +16,7 @@ using reference::Real;
 
 inline Real real(int64_t q16) { return static_cast<Real>(q16) / 65536; }
 
-/* What the front end leaves: the library's own lists, and the same as numbers; 'whole': of all of a region, not of its
- * ring alone. */
+/* What the front end leaves: the library's own lists, and the same as numbers. */
 struct FrontEnd {
     drogue_status status;
     std::vector<uint32_t> memory;
@@ -26,7 +25,7 @@ struct FrontEnd {
     std::vector<reference::Edge> edges;
 };
 std::unique_ptr<FrontEnd> run_front_end(const cv::Mat &view, const drogue_mask &mask, const drogue_config &config,
-                                        const drogue_capacity &capacity, bool whole = false);
+                                        const drogue_capacity &capacity);
 
 /* The edge points along rays by drogue_inner_beyond(), beyond 0 by drogue_inner_along(), in place of what the front end
  * left: integers, as those are. */
@@ -72,7 +71,7 @@ void number(FrontEnd &front);
 /* Share of an ellipse that edge points cover, as drogue_outline_covered(); 'follow': of a point nearer to a limit than the
  * library resolves that says whether it counts. */
 Real covered(const reference::Ellipse &e, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,
-             bool follow, size_t looks);
+             bool follow);
 
 /* The outline about an ellipse, as drogue_outline_settle(); false: none. */
 bool settle(Outline &out, const drogue_ellipse &ring, drogue_q16 band_px_q16, const FrontEnd &front,

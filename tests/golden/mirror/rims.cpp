@@ -74,61 +74,51 @@ Ellipse Seeker::head_on(cv::Point origin)
     return all.empty() ? Ellipse{0, 0, 0, 0, 0, false} : all[0];
 }
 
-Real Seeker::cover(const Ellipse &e, const FrontEnd &front, const drogue_mask &mask, uint32_t looks)
+Real Seeker::cover(const Ellipse &e, const FrontEnd &front, const drogue_mask &mask)
 {
-    const Real own = covered(e, front, mask, task_.config, follow_, looks);
+    const Real own = covered(e, front, mask, task_.config, follow_);
     if (follow_) {
         const drogue_ellipse rim = {q16(e.xc), q16(e.yc), q16(e.a), q16(e.b), q16(e.angle)};
-        const Real as = real(drogue_outline_covered(&rim, &front.workspace, &front.list, &mask, &task_.config, looks));
+        const Real as = real(drogue_outline_covered(&rim, &front.workspace, &front.list, &mask, &task_.config));
         contradicted_ = contradicted_ || as != own;
     }
     return own;
 }
 
-/* Outlines about a disc of a size, of a drogue turned so far and the opposite way. */
-void Seeker::score(Best &best, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, const Turn &turn,
-                   uint32_t looks)
+/* Outlines about the disc of a drogue turned so far and the opposite way. */
+void Seeker::score(Best &best, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, int yaw, int pitch)
 {
-    if (turn.yaw * turn.yaw + turn.pitch * turn.pitch > TURNS * TURNS) {
+    if (yaw * yaw + pitch * pitch > TURNS * TURNS) {
         return;
     }
-    Seen seen = seen_;
-    seen.library.radius_q16 = turn.size * seen_.library.radius_q16 / 16;
-    seen.own.radius = follow_ ? real(seen.library.radius_q16) : turn.size * seen_.own.radius / 16;
     int way = 1;
-    for (const Ellipse &e : rims(seen, turn.yaw, turn.pitch, origin)) {
-        const Real covered = cover(e, front, mask, looks), share = turn.size * covered / 16;
-        best.sum += covered;
-        best.count++;
-        if (share > best.most) {
-            best = {e, share, {turn.size, way * turn.yaw, way * turn.pitch}, best.sum, best.count};
+    for (const Ellipse &e : rims(seen_, yaw, pitch, origin)) {
+        const Real covered = cover(e, front, mask);
+        if (covered > best.cover) {
+            best = {e, covered, way * yaw, way * pitch};
         }
         way = -1;
     }
 }
 
-Ellipse Seeker::best(Real &above, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, int sizes)
+Ellipse Seeker::best(const FrontEnd &front, const drogue_mask &mask, cv::Point origin)
 {
-    const uint32_t looks = sizes > 0 ? 128 : 512;
-    Best best = {{0, 0, 0, 0, 0, false}, 0, {0, 0, 0}, 0, 0};
-    for (int size = 16 - sizes; size <= 16 + sizes; size++) {
-        for (int yaw = 0; yaw <= TURNS; yaw++) { /* what is turned the opposite way comes with it */
-            for (int pitch = yaw == 0 ? 0 : -TURNS; pitch <= TURNS; pitch++) {
-                if ((yaw + pitch + size) % 2 == 0) {
-                    score(best, front, mask, origin, {size, yaw, pitch}, looks);
-                }
+    Best best = {{0, 0, 0, 0, 0, false}, 0, 0, 0};
+    for (int yaw = 0; yaw <= TURNS; yaw++) { /* what is turned the opposite way comes with it */
+        for (int pitch = yaw == 0 ? 0 : -TURNS; pitch <= TURNS; pitch++) {
+            if ((yaw + pitch) % 2 == 0) {
+                score(best, front, mask, origin, yaw, pitch);
             }
         }
     }
-    const Turn middle = best.turn;
+    const Best middle = best;
     for (int yaw = -1; yaw <= 1 && best.ring.ok; yaw++) {
         for (int pitch = -1; pitch <= 1; pitch++) {
             if (yaw != 0 || pitch != 0) {
-                score(best, front, mask, origin, {middle.size, middle.yaw + yaw, middle.pitch + pitch}, looks);
+                score(best, front, mask, origin, middle.yaw + yaw, middle.pitch + pitch);
             }
         }
     }
-    above = best.count > 0 ? best.most - best.sum / best.count : 0;
     return best.ring;
 }
 

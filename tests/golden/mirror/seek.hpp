@@ -32,10 +32,9 @@ public:
     /* The first outline about the disc, in coordinates of a region; not ok: none. */
     reference::Ellipse head_on(cv::Point origin);
 
-    /* Of the outlines that the disc allows the first that edge points cover best, and by how much more than
-     * on average, of every second turn and then of those beside the best; not ok: they cover none. Of a disc that may be
-     * larger or smaller by so many sixteenths, those that they cover the longest way. */
-    reference::Ellipse best(Real &above, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, int sizes);
+    /* Of the outlines that the disc allows the first that edge points cover best, of every second turn and then of those
+     * beside the best; not ok: they cover none. */
+    reference::Ellipse best(const FrontEnd &front, const drogue_mask &mask, cv::Point origin);
 
     bool contradicted() const { return contradicted_; }
 
@@ -46,24 +45,16 @@ private:
         drogue_inner_sight library;
     };
 
-    /* A disc's size, in sixteenths of what it seems to be, and by how many steps the drogue is turned. */
-    struct Turn {
-        int size, yaw, pitch;
-    };
-
-    /* The best outline so far. */
+    /* The best outline so far, and by how many steps the drogue is turned. */
     struct Best {
         reference::Ellipse ring;
-        Real most;
-        Turn turn;
-        Real sum; /* of the covers of as many outlines */
-        int count;
+        Real cover;
+        int yaw, pitch;
     };
 
-    void score(Best &best, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, const Turn &turn,
-               uint32_t looks);
+    void score(Best &best, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, int yaw, int pitch);
     std::vector<reference::Ellipse> rims(const Seen &seen, int yaw, int pitch, cv::Point origin);
-    Real cover(const reference::Ellipse &e, const FrontEnd &front, const drogue_mask &mask, uint32_t looks);
+    Real cover(const reference::Ellipse &e, const FrontEnd &front, const drogue_mask &mask);
 
     const Task &task_;
     bool follow_, contradicted_ = false;
