@@ -40,18 +40,18 @@ Pose turned(const Sight &s, Real yaw, Real pitch, const reference::Model &model)
 
 } // namespace
 
-/* Outlines of two drogues whose disc is seen there, turned so far and the opposite way. */
-std::vector<Ellipse> Seeker::rims(const Seen &seen, int yaw, int pitch, cv::Point origin)
+/* Outlines of two drogues whose disc is the one seen, turned so far and the opposite way. */
+std::vector<Ellipse> Seeker::rims(int yaw, int pitch, cv::Point origin)
 {
     const drogue_setup setup = {&task_.library_camera, &task_.library_model, &task_.config};
     const reference::Model rim = {task_.model.rim_radius, task_.model.rim_radius, 0};
     drogue_inner_expected library = {};
     std::vector<Ellipse> out;
     if (follow_) {
-        drogue_inner_rims(&library, &seen.library, yaw, pitch, &setup, origin.x, origin.y);
+        drogue_inner_rims(&library, &seen_.library, yaw, pitch, &setup, origin.x, origin.y);
     }
     for (const int way : {1, -1}) {
-        const Pose pose = turned(seen.own, way * yaw * STEP, way * pitch * STEP, task_.model);
+        const Pose pose = turned(seen_.own, way * yaw * STEP, way * pitch * STEP, task_.model);
         Ellipse e;
         if (reference::disc_image(e, pose, task_.camera, rim) != reference::Solved::ok || e.b < 1 ||
             !reference::distort(task_.camera, e)) {
@@ -70,7 +70,7 @@ std::vector<Ellipse> Seeker::rims(const Seen &seen, int yaw, int pitch, cv::Poin
 
 Ellipse Seeker::head_on(cv::Point origin)
 {
-    const std::vector<Ellipse> all = rims(seen_, 0, 0, origin);
+    const std::vector<Ellipse> all = rims(0, 0, origin);
     return all.empty() ? Ellipse{0, 0, 0, 0, 0, false} : all[0];
 }
 
@@ -92,7 +92,7 @@ void Seeker::score(Best &best, const FrontEnd &front, const drogue_mask &mask, c
         return;
     }
     int way = 1;
-    for (const Ellipse &e : rims(seen_, yaw, pitch, origin)) {
+    for (const Ellipse &e : rims(yaw, pitch, origin)) {
         const Real covered = cover(e, front, mask);
         if (covered > best.cover) {
             best = {e, covered, way * yaw, way * pitch};

@@ -53,7 +53,7 @@ private:
     };
 
     void score(Best &best, const FrontEnd &front, const drogue_mask &mask, cv::Point origin, int yaw, int pitch);
-    std::vector<reference::Ellipse> rims(const Seen &seen, int yaw, int pitch, cv::Point origin);
+    std::vector<reference::Ellipse> rims(int yaw, int pitch, cv::Point origin);
     Real cover(const reference::Ellipse &e, const FrontEnd &front, const drogue_mask &mask);
 
     const Task &task_;
