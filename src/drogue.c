@@ -30,7 +30,6 @@ static void forget(drogue_result *out)
 
 #define SURE_Q16 DROGUE_Q16(1, 256)   /* of less doubt nothing else is tried */
 #define LEAST_Q16 DROGUE_Q16(2, 100)  /* by less the disc is too large for no other outline along rays */
-#define WHOLE_Q16 DROGUE_Q16(7, 8)    /* least cover of an outline that stands without a disc */
 #define DISC_Q16 DROGUE_Q16(4, 100)   /* of more doubt the disc is looked for without an outline, and a wider region */
 #define FOUND_Q16 DROGUE_Q16(10, 100) /* of less an outline that was found in a region of another size stands */
 #define ALONE_Q16 DROGUE_Q16(7, 10)   /* least cover of an outline whose disc is not seen */
@@ -167,10 +166,13 @@ static int asks_disc(const drogue_best_try *best, const drogue_frame *f)
 }
 
 /* Most doubt of an outline about the disc: less than where they contradict each other; or, where the best outline has
- * no disc at all, than makes the disc be looked for. */
-static drogue_q16 most_doubt(const drogue_best_try *best)
+ * no disc at all and this is no more thinly covered than that may be, than makes the disc be looked for. */
+static drogue_q16 most_doubt(const drogue_best_try *best, const drogue_frame *f)
 {
-    return best->result.status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE ? DISC_Q16 : DROGUE_CONTRADICTED_Q16;
+    return best->result.status == DROGUE_OK && best->least_q16 == DROGUE_Q16_ONE &&
+                   f->out->cover_q16 >= f->setup->config->min_cover_q16
+               ? DISC_Q16
+               : DROGUE_CONTRADICTED_Q16;
 }
 
 /* The disc itself, and an outline about it. That stands, whatever the best one's doubt, where it has little itself. */
@@ -182,7 +184,7 @@ static void try_disc(drogue_best_try *best, drogue_frame *f, const drogue_region
     if (status == DROGUE_OK) {
         status = judge(f, DROGUE_TRIED_DISC);
     }
-    end_try(best, f, status, status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < most_doubt(best));
+    end_try(best, f, status, status == DROGUE_OK && f->out->has_inner && f->out->doubt_q16 < most_doubt(best, f));
 }
 
 /* Is the inner disc too large for the best outline? */
@@ -262,20 +264,12 @@ static int lies_within(const drogue_ellipse *e, const drogue_image *image)
            (int64_t)e->yc_px_q16 + e->a_px_q16 <= (image->height_px - 1) * (int64_t)DROGUE_Q16_ONE;
 }
 
-/* Is it nearly whole, without another edge outside, nor a larger rim that a disc asks for? What is dark is shade then,
- * which hides the disc. */
-static int is_outermost(const drogue_best_try *best, const drogue_frame *f)
-{
-    return best->result.cover_q16 >= WHOLE_Q16 && best->result.outside == 0 &&
-           f->ring_px_q16 <= best->result.ellipse.a_px_q16;
-}
-
 /* Is the best outline without a disc, and another edge? It is where too little of it shows to stand alone. Or a disc
  * says so: one that is seen, but too large for it, which then is an edge within the drogue, the canopy's or its wall's;
  * or one that was sought, whose rim is larger. */
 static int is_another_edge(const drogue_best_try *best, const drogue_frame *f)
 {
-    if (best->result.status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE || is_outermost(best, f)) {
+    if (best->result.status != DROGUE_OK || best->least_q16 != DROGUE_Q16_ONE) {
         return 0;
     }
     return best->larger_q16 > 0 ||

@@ -9,7 +9,7 @@
 
 /* Parts of a semi-axis within which one ellipse is the other. */
 #define SAME_AGAIN 3  /* of a second look: the first one's arcs were cut, and tell its size roughly */
-#define AS_ALLOWED 16 /* of a disc's outline: the guess that was settled is good to some per cent of its size, */
+#define AS_ALLOWED 10 /* of a disc's outline: the guess that was settled is good to some per cent of its size, */
 #define THERE 8       /* and to this part in its place */
 
 #define OUTER_Q16 DROGUE_Q16(3, 4)  /* least cover of an outer edge of the rim, */

@@ -62,7 +62,8 @@ typedef struct drogue_config {
     uint32_t refit_rounds;         /* 4: times the band is applied; 0 keeps the fit of the arcs */
     drogue_q16 min_cover_q16;      /* 0.45: least number of edge points that belong to the outline, over its
                                       circumference; half an outline gives about 0.45. 0.7 in any case where
-                                      the model's inner part is not seen and all of the outline is in the image */
+                                      the model's inner part is not seen and all of the outline is in the image; five
+                                      eighths of it where that part is of its size and seven eighths show */
     /* 0.85: an outline covered less that the ring mask cuts is looked for again in a region about it; 0: never */
     drogue_q16 recentre_cover_q16;
     drogue_q16 optics_blur_px_q16;  /* 0.6 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
@@ -75,7 +76,9 @@ typedef struct drogue_config {
                                       about */
     drogue_q16 inner_gate_q16;      /* 0.05: what a larger outline adds to that, as a share of its major semi-axis */
     drogue_q16 min_inner_cover_q16; /* 0.5: least share of the rays across the inner part's edge that agrees */
-    drogue_q16 inner_rms_px_q16;    /* 0.65 px: most that these rays lie about the edge, root mean square */
+    drogue_q16 inner_rms_px_q16;    /* 0.65 px: most that these rays lie about the edge, root mean square; of an inner
+                                       part of more than 15 px that is seen nearly all about as much more as it is
+                                       larger, for it may be jagged */
     drogue_q16 inner_size_px_q16;   /* 1.25 px: its semi-axis is the expected one within this and inner_size */
     drogue_q16 inner_size_q16;      /* 0.07: what a larger inner part adds to that, as a share of its semi-axis */
     drogue_q16 outline_shading_q16; /* 1.6 px grey * 8: error of the outline that its own residuals cannot show, over

@@ -67,6 +67,16 @@ static inline drogue_q16 drogue_inner_room(const drogue_ellipse *expected, const
     return drogue_q16_add(config->inner_size_px_q16, drogue_q16_mul(config->inner_size_q16, expected->a_px_q16));
 }
 
+#define DROGUE_INNER_JAGGED \
+    DROGUE_Q16(15, 1) /* px: semi-axis of a disc; the ends of ribs and panels about a larger one
+                                                 are seen by themselves */
+
+/* By how much a disc is larger than that, px Q16. */
+static inline drogue_q16 drogue_inner_jagged(const drogue_ellipse *disc)
+{
+    return disc->a_px_q16 > DROGUE_INNER_JAGGED ? disc->a_px_q16 - DROGUE_INNER_JAGGED : 0;
+}
+
 /* Measure the disc by its edge along rays across the ellipse that a pose expects: where the grey rises fastest says
  * which rays see it, where it has risen by a quarter of the usual step above the disc's own where it is and how large,
  * by a fit of place and size to the rays that agree; of an encoded image where its light has. Ribs, a wall or a probe

@@ -103,8 +103,7 @@ int drogue_input_valid(const drogue_image *image, const drogue_setup *setup);
  *             DROGUE_E_NO_ELLIPSE, DROGUE_E_DOMAIN. Where the model has an inner part, an ellipse in which none is
  *             believed is none, either: when it lies all in the image and less than 7/10 of it is covered, when a disc
  *             is seen in its place that is too large for it, or when the disc that was sought asks for a rim that is
- *             larger by more than an eighth. But one of which 7/8 is covered, outside which no other edge shows and
- *             for which no disc that was sought is too large, stands: shade may hide the disc
+ *             larger by more than an eighth
  */
 drogue_status drogue_measure(drogue_result *out, drogue_workspace *workspace, const drogue_setup *setup,
                              const drogue_image *image, const drogue_region *region);

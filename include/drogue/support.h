@@ -51,6 +51,12 @@ void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse
 void drogue_support_judge_as(drogue_support *support, const drogue_ellipse *ellipse, uint32_t bright_bins,
                              uint32_t stride);
 
+/* Parts of the outline, of eight, that have a covered bin.
+ *
+ *  ellipse  that the counts are about, of which every edge point has been counted
+ */
+uint32_t drogue_support_parts(const drogue_support *support, const drogue_ellipse *ellipse);
+
 /* Covered share of the circumference, Q16. */
 static inline drogue_q16 drogue_support_cover(const drogue_support *support)
 {

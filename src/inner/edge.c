@@ -12,6 +12,8 @@
 #define INWARD DROGUE_Q16(45, 100)   /* px: a quarter of a blurred step is this far within its middle */
 #define APPEAR (RAYS / 4 / EVERY)    /* rays that see two edges apart; */
 #define APPEAR_FINE (APPEAR * 3 / 2) /* of those that are less than 3 px apart, where noise shows more */
+#define WITHIN DROGUE_Q16(3, 2)      /* px: where edges are the disc's, to either side; of one that is jagged */
+#define JAGGED 10                    /* that, and so many-th part of what it is larger than one that is not */
 #define LARGER 64 /* so many-th part of its size: a disc that is larger by more may be something else */
 
 /* The band narrows to what agrees. */
@@ -54,9 +56,10 @@ static int prefer_size(drogue_q16 v_px_q16[3], drogue_ray rays[RAYS], uint32_t l
 /* Measure about a first place: which rays see the edge, and how large it is, by its steepest place; where it is, by
  * half as many rays as it has pixels, at most 512. */
 static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], const drogue_image *image,
-                             const drogue_ellipse *e, drogue_ray_look look, const drogue_config *config)
+                             const drogue_ellipse *e, drogue_ray_look look, drogue_q16 within_px_q16,
+                             const drogue_config *config)
 {
-    drogue_q16 within = DROGUE_Q16(3, 2);
+    drogue_q16 within = within_px_q16;
     drogue_q16 v[3] = {0, 0, 0};
     drogue_q16 size;
     drogue_inner_shade grey;
@@ -75,7 +78,7 @@ static drogue_status measure(drogue_inner_edge *out, drogue_ray rays[RAYS], cons
     out->threshold =
         (uint8_t)drogue_clamp_s32((int32_t)drogue_div_round_s64(s.levels_q8, (int64_t)s.rays * 256), 0, 255);
     drogue_inner_shade_cross(rays, image, config->transfer, &grey, v, every);
-    within = DROGUE_Q16(3, 2);
+    within = within_px_q16;
     size = v[2];
     if (!narrow(&s, v, &within, rays)) {
         return DROGUE_E_NO_INNER_PART;
@@ -170,7 +173,10 @@ static drogue_status measure_at(drogue_inner_edge *out, drogue_ray rays[RAYS], c
     if (at.b_px_q16 < DROGUE_Q16_ONE) {
         return DROGUE_E_NO_INNER_PART;
     }
-    status = measure(out, rays, image, &at, first->look, config);
+    status = measure(out, rays, image, &at, first->look, WITHIN, config);
+    if (status == DROGUE_OK && out->spread_px_q16 > config->inner_rms_px_q16 && drogue_inner_jagged(&at) > 0) {
+        status = measure(out, rays, image, &at, first->look, WITHIN + drogue_inner_jagged(&at) / JAGGED, config);
+    }
     if (status != DROGUE_OK) {
         memset(out, 0, sizeof *out);
         return status;

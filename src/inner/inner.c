@@ -152,6 +152,16 @@ static int evident(const drogue_inner_edge *edge, const drogue_ellipse *expected
            off <= drogue_q16_add(EVIDENT_PX_Q16, drogue_q16_mul(LARGER_Q16, expected->a_px_q16));
 }
 
+/* Most that rays lie about an edge, root mean square: of a large one that is seen nearly all about as much more as it
+ * is larger than one that is not jagged. */
+static drogue_q16 most_spread(const drogue_inner_edge *edge, const drogue_ellipse *expected,
+                              const drogue_config *config)
+{
+    const drogue_q16 larger_px_q16 = all_about(edge) ? drogue_inner_jagged(expected) : 0;
+    const drogue_q16 larger_q16 = larger_px_q16 / (DROGUE_INNER_JAGGED / DROGUE_Q16_ONE);
+    return drogue_q16_add(config->inner_rms_px_q16, drogue_q16_mul(config->inner_rms_px_q16, larger_q16));
+}
+
 drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse *expected,
                             const drogue_ellipse *outline, const drogue_config *config)
 {
@@ -163,7 +173,7 @@ drogue_q16 drogue_inner_std(const drogue_inner_edge *edge, const drogue_ellipse 
     const drogue_q16 off = doubt > DROGUE_Q16_ONE / ELSEWHERE ? drogue_q16_mul(doubt, expected->a_px_q16) : 0;
     if (edge->contrast < config->min_inner_contrast ||
         (int64_t)edge->rays * DROGUE_Q16_ONE < (int64_t)config->min_inner_cover_q16 * DROGUE_RAYS ||
-        edge->spread_px_q16 > config->inner_rms_px_q16 || edge->grown_px_q16 < -room ||
+        edge->spread_px_q16 > most_spread(edge, expected, config) || edge->grown_px_q16 < -room ||
         drogue_inner_away2_q32(edge, expected) > drogue_square_sum(gate, 0) ||
         !within_outline(edge, expected, outline)) {
         return 0;

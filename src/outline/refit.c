@@ -13,6 +13,7 @@ void drogue_refit_begin(drogue_refit_context *c, const drogue_workspace *workspa
     c->list = list;
     c->mask = mask;
     c->config = config;
+    c->least_cover_q16 = config->min_cover_q16;
     drogue_collection_of_region(&c->room->sum);
 }
 
@@ -92,7 +93,7 @@ int drogue_refit_covers(const drogue_ellipse *ring, drogue_refit_context *c)
 {
     const drogue_q16 cover_q16 = drogue_refit_cover(ring, c);
     const uint32_t bright_bins = c->room->support.bright_bins;
-    if (cover_q16 < c->config->min_cover_q16) {
+    if (cover_q16 < c->least_cover_q16) {
         return cover_q16 < 0 ? -1 : 0;
     }
     return c->looked_as == bright_bins || drogue_refit_look(c, ring, bright_bins) == DROGUE_OK;

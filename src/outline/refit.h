@@ -16,8 +16,9 @@ typedef struct drogue_refit_context {
     uint32_t arcs;             /* whose points are summed, as a candidate has them; 0: none */
     const drogue_arc *part[4]; /* the same in the order of their points */
     int parts;
-    uint32_t looked_as;     /* the bins' polarities in the last look */
-    drogue_q16 band_px_q16; /* half the band's width; 0: as configured, or a share of a large ellipse */
+    drogue_q16 least_cover_q16; /* of an ellipse on which an outline is looked for */
+    uint32_t looked_as;         /* the bins' polarities in the last look */
+    drogue_q16 band_px_q16;     /* half the band's width; 0: as configured, or a share of a large ellipse */
 } drogue_refit_context;
 
 /* Begin without arcs. */

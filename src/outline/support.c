@@ -60,10 +60,16 @@ static void enough_points(uint32_t enough[2], const drogue_support *support, con
     enough[1] = bright;
 }
 
+/* The bins that hold enough points of their own polarity. */
+static uint32_t covered_bins(const uint32_t enough[2], uint32_t bright_bins)
+{
+    return (enough[0] & ~bright_bins) | (enough[1] & bright_bins);
+}
+
 /* Covered bins when the bins have these polarities, less the changes of polarity. */
 static uint32_t covered_by(const uint32_t enough[2], uint32_t bright_bins)
 {
-    const uint32_t covered = (enough[0] & ~bright_bins) | (enough[1] & bright_bins);
+    const uint32_t covered = covered_bins(enough, bright_bins);
     const uint32_t count = bits_of(covered);
     const uint32_t lost = changes(bright_bins, covered);
     return count > lost ? count - lost : 0;
@@ -110,6 +116,17 @@ void drogue_support_judge(drogue_support *support, const drogue_ellipse *ellipse
             support->covered = covered;
         }
     }
+}
+
+uint32_t drogue_support_parts(const drogue_support *support, const drogue_ellipse *ellipse)
+{
+    uint32_t enough[2];
+    uint32_t covered;
+    enough_points(enough, support, ellipse, 1);
+    covered = covered_bins(enough, support->bright_bins);
+    covered |= covered >> 1;
+    covered |= covered >> 2; /* of each four bins the first */
+    return bits_of(covered & 0x11111111u);
 }
 
 int32_t drogue_support_cosine(uint32_t j)

@@ -28,14 +28,13 @@ static int settles(const drogue_result *r, const drogue_model *model)
     return drogue_result_sure(r, model) && (model->inner_radius_m_q16 == 0 || drogue_result_decided(r));
 }
 
-/* Is a sighting one of a larger outline about the same middle? */
+/* Is a sighting one of a larger outline about whose middle the other lies, as the canopy's inner edge or a coupling? */
 static int surrounds(const drogue_sighting *s, const drogue_sighting *what)
 {
     const int32_t dx = s->x_px - what->x_px;
     const int32_t dy = s->y_px - what->y_px;
-    const int32_t most = what->radius_px / 4 + 1;
-    return 8 * s->radius_px > 9 * what->radius_px && s->radius_px < 2 * what->radius_px && dx <= most && dx >= -most &&
-           dy <= most && dy >= -most;
+    const int32_t most = s->radius_px / 4 + 1;
+    return 8 * s->radius_px > 9 * what->radius_px && dx <= most && dx >= -most && dy <= most && dy >= -most;
 }
 
 static void put_asked(drogue_region *out, const drogue_region *region, const drogue_image *image)

@@ -344,6 +344,7 @@ struct Dashed {
     double outer_px = 0;
     int outer = 200, dash = 140, collar = 100;
     double x_px = 0, y_px = 0;
+    double blank = 0; /* part of a turn without dashes */
 };
 
 Frame dashed_drogue(const Dashed &d)
@@ -356,7 +357,8 @@ Frame dashed_drogue(const Dashed &d)
         for (int k = 0; k < 16; k++) {
             const double u = x + k % 4 / 4.0 - 0.075 - WIDTH / 2, v = y + k / 4 / 4.0 - 0.625 - WIDTH / 2;
             const double r = std::hypot(u, v), turn = std::atan2(v, u) / (2 * CV_PI) + 1;
-            const bool dash = turn * d.dashes - std::floor(turn * d.dashes) < d.drawn;
+            const bool dash =
+                turn * d.dashes - std::floor(turn * d.dashes) < d.drawn && turn - std::floor(turn) >= d.blank;
             sum += std::hypot(u - d.x_px, v - d.y_px) < disc_px ? 30
                    : r < d.collar_px                            ? d.collar
                    : r < d.rim_px && dash                       ? d.dash
@@ -389,6 +391,28 @@ Frame shaded_drogue(const Shaded &d)
     });
     const int side = cvRound(2.5 * d.rim_px);
     f.region = {(WIDTH - side) / 2, (WIDTH - side) / 2, side, side};
+    return f;
+}
+
+/* A whole rim about a disc whose edge has teeth, so many px to either side; part of a turn is as dark as the disc. */
+Frame toothed_drogue(double tooth_px, double dark)
+{
+    constexpr int WIDTH = 160, TEETH = 18;
+    Frame f;
+    f.inner_radius = 0.2;
+    const double disc_px = look_head_on(f, WIDTH, 60);
+    f.image = image_from(WIDTH, WIDTH, [&](int x, int y) {
+        double sum = 0;
+        for (int k = 0; k < 16; k++) {
+            const double u = x + k % 4 / 4.0 - 0.075 - WIDTH / 2, v = y + k / 4 / 4.0 - 0.625 - WIDTH / 2;
+            const double r = std::hypot(u, v), turn = std::atan2(v, u) / (2 * CV_PI) + 1;
+            const double tooth = turn * TEETH - std::floor(turn * TEETH) < 0.5 ? tooth_px : -tooth_px;
+            const bool inside = r < disc_px + tooth || (r < 50 && turn - std::floor(turn) < dark);
+            sum += inside ? 30 : r < 60 ? 130 : 200;
+        }
+        return static_cast<int>(sum / 16 + 0.5);
+    });
+    f.region = {5, 5, 150, 150};
     return f;
 }
 
@@ -477,6 +501,21 @@ void add_led_by_disc(Set &set)
                                     {40, 19, 10, 10, 0.8, 0, 0}}; /* nor is the shade where any pose expects it */
     for (const Shaded &d : shaded) {
         add_frame(set, "shaded-disc-" + std::to_string(k++), Tier::stress, {}, shaded_drogue(d));
+    }
+    k = 0;
+    for (const Dashed &d :
+         {Dashed{40, 0, 0.5, 16, 100}, Dashed{55, 0, 0.45, 12, 138}, Dashed{22, 0, 0.5, 12, 55},
+          Dashed{40, 0, 0.55, 16, 100, 0, 200, 140, 100, 0, 0, 0.14}, /* less than one part is blank, */
+          Dashed{40, 0, 0.6, 16, 100, 0, 200, 140, 100, 0, 0, 0.2},
+          Dashed{40, 0, 0.7, 16, 100, 0, 200, 140, 100, 0, 0, 0.4}}) { /* or some are */
+        add_frame(set, "panelled-rim-" + std::to_string(k++), Tier::stress, {}, dashed_drogue(d));
+    }
+    k = 0;
+    static const struct {
+        double tooth_px, dark;
+    } toothed[] = {{0.6, 0}, {1.0, 0}, {1.3, 0}, {1.0, 0.1}, {1.8, 0}, {1.0, 0.3}}; /* too long, or not all about */
+    for (const auto &t : toothed) {
+        add_frame(set, "toothed-disc-" + std::to_string(k++), Tier::stress, {}, toothed_drogue(t.tooth_px, t.dark));
     }
     add_frame(set, "rim-missing", Tier::must_reject, {}, dashed_drogue({40, 0, 0, 1, 76}));
 }

@@ -273,11 +273,10 @@ Tiers acquire_tier(const Arrays &in, const Arrays &exact)
         if (settled && model.inner_radius <= 0) {
             break;
         }
-        if (settled) { /* a larger outline about the same middle? */
+        if (settled) { /* a larger outline about it? */
             const mirror::Sighting &of = measured_ones[best];
-            const int room = of.radius / 4 + 1;
-            if (8 * s.radius <= 9 * of.radius || s.radius >= 2 * of.radius || std::abs(s.x - of.x) > room ||
-                std::abs(s.y - of.y) > room) {
+            const int room = s.radius / 4 + 1;
+            if (8 * s.radius <= 9 * of.radius || std::abs(s.x - of.x) > room || std::abs(s.y - of.y) > room) {
                 continue;
             }
         }

@@ -242,8 +242,11 @@ struct Place {
     drogue_ray_look look;
 };
 
-/* Measure about a first place. */
-Disc about(const drogue_image &view, const drogue_inner_expected &expected, const Place &place,
+/* May the disc about a first place that is larger by so much, 1/256 px, be jagged? */
+bool is_jagged(const drogue_ellipse &expected, int larger) { return expected.a_px_q16 + 256 * larger > 15 * 65536; }
+
+/* Measure about a first place; 'wide': of a disc that may be jagged. */
+Disc about(const drogue_image &view, const drogue_inner_expected &expected, const Place &place, bool wide,
            const drogue_config &config)
 {
     Disc out;
@@ -262,7 +265,8 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     Offset v = {0, 0, 0};
     Shade shade;
     Sums s;
-    Real within = 1.5;
+    const Real widest = wide ? real(98304 + (at.a_px_q16 - 15 * 65536) / 10) : 1.5L;
+    Real within = widest;
     if (!narrow(s, v, within, rays) || !find_shade(shade, rays, view, config.transfer, v, within)) {
         return out;
     }
@@ -273,7 +277,7 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     out.level = grey(s.levels, 256);
     const Real size = v[2];
     cross(rays, view, config.transfer, shade, v, static_cast<size_t>(every));
-    within = 1.5;
+    within = widest;
     if (!narrow(s, v, within, rays)) {
         return out;
     }
@@ -384,7 +388,10 @@ Disc measure_at(const drogue_image &view, const drogue_inner_expected &expected,
             place.at[k] = static_cast<int>(turn ? other : up);
         }
         if (open) {
-            const Disc d = about(view, expected, place, config);
+            Disc d = about(view, expected, place, false, config);
+            if (d.found && d.rms > real(config.inner_rms_px_q16) && is_jagged(expected.disc[which], place.at[2])) {
+                d = about(view, expected, place, true, config);
+            }
             const Real off = library == nullptr
                                  ? 0
                                  : std::fabs(d.x - real(library->x_px_q16)) + std::fabs(d.y - real(library->y_px_q16)) +
@@ -410,12 +417,14 @@ bool in_its_place(const Disc &d, const reference::Ellipse &expected, const refer
 {
     const Real c = std::cos(rim.angle), s = std::sin(rim.angle), dx = d.x - rim.xc, dy = d.y - rim.yc;
     const Real u = (dx * c + dy * s) / rim.a, v = (dy * c - dx * s) / rim.b, room = 1 - expected.a / rim.a;
-    const bool evident = 8 * d.rays >= 7 * DROGUE_RAYS && 2 * d.rms <= real(config.inner_rms_px_q16) &&
-                         std::fabs(d.grown) <= 0.3L + expected.a / 64;
+    const bool all_about = 8 * d.rays >= 7 * DROGUE_RAYS;
+    const Real larger = all_about ? std::max<Real>(0, expected.a - 15) : 0;
+    const bool evident =
+        all_about && 2 * d.rms <= real(config.inner_rms_px_q16) && std::fabs(d.grown) <= 0.3L + expected.a / 64;
     const Real gate = (evident ? 2 : 1) * (real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * rim.a);
     return d.found && d.contrast >= config.min_inner_contrast &&
            static_cast<Real>(d.rays) >= real(config.min_inner_cover_q16) * DROGUE_RAYS &&
-           d.rms <= real(config.inner_rms_px_q16) && d.grown >= -room_of(expected, config) &&
+           d.rms <= real(config.inner_rms_px_q16) * (1 + larger / 15) && d.grown >= -room_of(expected, config) &&
            std::hypot(d.x - expected.xc, d.y - expected.yc) <= gate && room > 0 && std::hypot(u, v) <= room;
 }
 

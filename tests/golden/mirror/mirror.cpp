@@ -606,7 +606,7 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
     const Ellipse was = real_of(ring);
     const bool found = settle(out.outline, ring, 0, *f.front, f.mask, task.config, f.follow);
     const Ellipse &e = out.outline.ellipse;
-    return found && std::fabs(e.a - was.a) <= was.a / 16 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 8;
+    return found && std::fabs(e.a - was.a) <= was.a / 10 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 8;
 }
 
 bool is_full(drogue_status status)
@@ -740,14 +740,14 @@ Result measure(const Task &asked, const drogue_result *library, Features *featur
         const Real doubt = about_disc(out, f, task, library != nullptr) ? judge(out, from, f, task, library) : DOUBTED;
         note_room(out);
         contradicted = out.contradicted;
-        const Real most = best.status == DROGUE_OK && least == 1 ? 0.04L : 1 / 64.0L;
+        const bool thin = out.outline.cover < real(task.config.min_cover_q16);
+        const Real most = best.status == DROGUE_OK && least == 1 && !thin ? 0.04L : 1 / 64.0L;
         if (out.status == DROGUE_OK && out.has_inner && out.doubt < most) {
             keep(out, from, doubt);
         }
     }
     const auto is_another = [&] {
-        const bool outermost = best.outline.cover >= 0.875L && best.outline.outside == 0 && f.ring <= best.seen.a;
-        return least == 1 && !outermost &&
+        return least == 1 &&
                (best.larger_q16 > 0 || (best.outline.cover < 0.7L && lies_within(best.seen, task.image)) ||
                 f.ring - best.seen.a > f.ring / 8);
     };

@@ -101,7 +101,7 @@ private:
     reference::Band band_about(const Ellipse &e) const;
     Outline refine(const Candidate &candidate) const;
     void refit(Outline &o, const decisions_round *rounds, int known) const;
-    bool on_ring(Outline &out, const Ellipse &ring) const;
+    bool on_ring(Outline &out, const Ellipse &ring, Real least) const;
     void narrow(reference::Band &band, const Support &s, const Ellipse &e) const;
     reference::ClusterConfig cluster() const;
 
@@ -367,12 +367,27 @@ void Finder::refit(Outline &o, const decisions_round *rounds, int known) const
                                                   : DROGUE_POLARITY_BOTH;
 }
 
-/* Refit about an ellipse; false when too little of it or of the outline is covered. */
-bool Finder::on_ring(Outline &out, const Ellipse &ring) const
+/* Of the eight parts of an outline those that have a covered bin. */
+int parts_of(const Outline &o)
+{
+    int parts = 0;
+    for (int part = 0; part < 8; part++) {
+        bool covered = false;
+        for (int k = 4 * part; k < 4 * part + 4; k++) {
+            const auto &count = o.support.count[static_cast<size_t>(k)];
+            covered = covered || count[o.support.bright >> k & 1] >= reference::support_needed(o.ellipse, k);
+        }
+        parts += covered;
+    }
+    return parts;
+}
+
+/* Refit about an ellipse; false when less than so much of it, or of the outline, is covered. */
+bool Finder::on_ring(Outline &out, const Ellipse &ring, Real least) const
 {
     Real slack = 0;
     uint32_t bright = 0;
-    if (cover(bright, slack, ring) < real(config_.min_cover_q16)) {
+    if (cover(bright, slack, ring) < least) {
         return false;
     }
     decisions_round rounds[DECISIONS_MAX];
@@ -383,7 +398,7 @@ bool Finder::on_ring(Outline &out, const Ellipse &ring) const
     out.ellipse = ring;
     out.support.bright = bright;
     refit(out, rounds, known);
-    return out.cover >= real(config_.min_cover_q16);
+    return out.cover >= least;
 }
 
 bool Finder::enlarge(Outline &out) const
@@ -398,7 +413,8 @@ bool Finder::enlarge(Outline &out) const
         if (!plausible(ring)) {
             break;
         }
-        if (on_ring(trial, ring) && trial.cover >= best.cover && trial.ellipse.b * 50 > out.fitted.b * 51) {
+        if (on_ring(trial, ring, real(config_.min_cover_q16)) && trial.cover >= best.cover &&
+            trial.ellipse.b * 50 > out.fitted.b * 51) {
             best = trial;
         }
     }
@@ -414,7 +430,9 @@ bool Finder::settle(Outline &out, const Ellipse &ring, Real band)
     band_ = band;
     out = Outline();
     out.arcs.fill(NONE);
-    if (!plausible(ring) || !on_ring(out, ring)) {
+    const Real least = real(config_.min_cover_q16);
+    if (!plausible(ring) || !on_ring(out, ring, real((5 * config_.min_cover_q16 + 4) / 8)) ||
+        (out.cover < least && parts_of(out) < 7)) {
         return false;
     }
     out.quality = reference::quality_of_cover(out.ellipse, 1, out.cover, real(config_.quality.k1_q16),

