@@ -212,6 +212,14 @@ static int bears_rays(const drogue_workspace *workspace)
     return workspace->capacity.edges >= DROGUE_INNER_BEYOND_POINTS;
 }
 
+/* The outline about an ellipse, where it is covered as others have to be. */
+static int settles(drogue_frame *f, const drogue_ellipse *about, drogue_q16 band_px_q16)
+{
+    const drogue_config *config = f->setup->config;
+    return drogue_outline_settle(&f->outline, about, band_px_q16, f->workspace, &f->list, &f->mask, config) &&
+           f->outline.cover_q16 >= config->min_cover_q16;
+}
+
 /* The outline about an ellipse by edge points along rays, which the workspace holds now in place of the edges. */
 static drogue_status settle_on_rays(drogue_frame *f, const drogue_region *region, const drogue_ellipse *about,
                                     uint32_t points, drogue_q16 band_px_q16)
@@ -220,10 +228,7 @@ static drogue_status settle_on_rays(drogue_frame *f, const drogue_region *region
     f->held.canny_high = DROGUE_BY_RAYS;
     f->list.arc_count = 0;
     f->list.edge_count = points;
-    return points > 0 && drogue_outline_settle(&f->outline, about, band_px_q16, f->workspace, &f->list, &f->mask,
-                                               f->setup->config)
-               ? DROGUE_OK
-               : DROGUE_E_NO_ELLIPSE;
+    return points > 0 && settles(f, about, band_px_q16) ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
 }
 
 drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
@@ -255,9 +260,7 @@ drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, c
     if (!drogue_outline_outer(&about, grown_q24, f->workspace->rays, &f->view)) {
         return DROGUE_E_NO_ELLIPSE;
     }
-    if (drogue_outline_settle(&f->outline, &about, config->refit_band_px_q16, f->workspace, &f->list, &f->mask,
-                              config) &&
-        f->outline.cover_q16 >= OUTER_Q16) {
+    if (settles(f, &about, config->refit_band_px_q16) && f->outline.cover_q16 >= OUTER_Q16) {
         drogue_outline_pull(&f->outline, f->workspace->rays, &f->view, config);
         if (has_grown(e, was, &about)) {
             return DROGUE_OK;

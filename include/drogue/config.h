@@ -78,7 +78,7 @@ typedef struct drogue_config {
     drogue_q16 min_inner_cover_q16; /* 0.5: least share of the rays across the inner part's edge that agrees */
     drogue_q16 inner_rms_px_q16;    /* 0.65 px: most that these rays lie about the edge, root mean square; of an inner
                                        part of more than 15 px that is seen nearly all about as much more as it is
-                                       larger, for it may be jagged */
+                                       larger, up to 25 px, for it may be jagged */
     drogue_q16 inner_size_px_q16;   /* 1.25 px: its semi-axis is the expected one within this and inner_size */
     drogue_q16 inner_size_q16;      /* 0.07: what a larger inner part adds to that, as a share of its semi-axis */
     drogue_q16 outline_shading_q16; /* 1.6 px grey * 8: error of the outline that its own residuals cannot show, over

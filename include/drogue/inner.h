@@ -67,14 +67,13 @@ static inline drogue_q16 drogue_inner_room(const drogue_ellipse *expected, const
     return drogue_q16_add(config->inner_size_px_q16, drogue_q16_mul(config->inner_size_q16, expected->a_px_q16));
 }
 
-#define DROGUE_INNER_JAGGED \
-    DROGUE_Q16(15, 1) /* px: semi-axis of a disc; the ends of ribs and panels about a larger one
-                                                 are seen by themselves */
+/* px: semi-axis of a disc; the ends of ribs and panels about a larger one are seen by themselves. */
+#define DROGUE_INNER_JAGGED DROGUE_Q16(15, 1)
 
-/* By how much a disc is larger than that, px Q16. */
+/* By how much a disc is larger than that, px Q16, at most 10 px. */
 static inline drogue_q16 drogue_inner_jagged(const drogue_ellipse *disc)
 {
-    return disc->a_px_q16 > DROGUE_INNER_JAGGED ? disc->a_px_q16 - DROGUE_INNER_JAGGED : 0;
+    return drogue_clamp_s32(disc->a_px_q16, DROGUE_INNER_JAGGED, DROGUE_Q16(25, 1)) - DROGUE_INNER_JAGGED;
 }
 
 /* Measure the disc by its edge along rays across the ellipse that a pose expects: where the grey rises fastest says
@@ -84,7 +83,8 @@ static inline drogue_q16 drogue_inner_jagged(const drogue_ellipse *disc)
  * The grey beyond it must be above the disc's own by 12 standard errors of that: rays choose what rises, in noise
  * as well. Where the edge that rises fastest is of another size than expected, and one of the size is beside it, that
  * one is the disc's: shown by 16 of 64 rays or, of one that is too large to be believed, as shade's about the disc, by
- * 24 in samples half as far apart (DROGUE_RAY_FINE_RISES).
+ * 24 in samples half as far apart (DROGUE_RAY_FINE_RISES). Of a large one whose edge scatters more than that of a small
+ * one may, edges in a wider band count: it may be jagged.
  *
  *  out      of the expected discs the one whose rays agree with the steepest edges; the other one where that is not to
  *           be believed (drogue_inner_std()), but the other is and is no larger than it should be. Where neither is
@@ -101,7 +101,8 @@ drogue_status drogue_inner_edge_find(drogue_inner_edge *out, drogue_ray rays[DRO
 /* Standard deviation of the disc's centre: a floor, a share of the disc's size, and what the rays' residuals show; and,
  * where its size puts more than an eighth in doubt (drogue_inner_weigh()), so much of it: what is so small or so large
  * may be something else. Its place is the expected one within the configured gate; within twice that where it is
- * evident: seen by seven of eight rays, with half of the scatter that is allowed, of its size to 0.3 px and a 64th.
+ * evident: seen by seven of eight rays, with half of the scatter that is allowed of a small one, of its size to 0.3 px
+ * and a 64th.
  *
  *  expected, outline  region coordinates
  *  return             px Q16; 0 when it is not to be believed: of another size, in another place, cut by the rim, or

@@ -80,9 +80,9 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
 drogue_q16 drogue_outline_covered(const drogue_ellipse *ring, const drogue_workspace *workspace,
                                   const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config);
 
-/* Fit the edge points about an ellipse, as an outline without arcs. Such a one may be covered by five eighths of
- * min_cover where seven of its eight parts show: a rim that is the tips of panels, every other of which is as bright as
- * what is behind it, shows on half its circumference.
+/* Fit the edge points about an ellipse, as an outline without arcs. Where seven of its eight parts show five eighths of
+ * min_cover will do, which is for the caller to judge: a rim that is the tips of panels, every other of which is as
+ * bright as what is behind it, shows on half its circumference.
  *
  *  band    px Q16, half the width of the band about it that they lie in at first; 0: as for drogue_outline_find()
  *  return  1; 0: they cover too little, and 'out' has none

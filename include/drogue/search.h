@@ -101,7 +101,7 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
 /* Search a part of an image, and measure what was sighted:
  *
  *  - the sightings in order of score, until one is sure whose inner part decides the orientation and agrees with the
- *    outline; after that only what has 9/8 to 2 times the radius about the same middle;
+ *    outline; after that only what has 9/8 of the radius and more, and that in its middle half;
  *  - where nothing is sure yet, one after another until something is: the drogue that the model puts about each dark
  *    disc; the part itself where it has at most 512 px a side.
  *    Without an inner part in the model only the last, of any size.

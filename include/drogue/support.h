@@ -53,7 +53,7 @@ void drogue_support_judge_as(drogue_support *support, const drogue_ellipse *elli
 
 /* Parts of the outline, of eight, that have a covered bin.
  *
- *  ellipse  that the counts are about, of which every edge point has been counted
+ *  ellipse  about which every edge point has been counted
  */
 uint32_t drogue_support_parts(const drogue_support *support, const drogue_ellipse *ellipse);
 

@@ -265,7 +265,7 @@ Disc about(const drogue_image &view, const drogue_inner_expected &expected, cons
     Offset v = {0, 0, 0};
     Shade shade;
     Sums s;
-    const Real widest = wide ? real(98304 + (at.a_px_q16 - 15 * 65536) / 10) : 1.5L;
+    const Real widest = wide ? real(98304 + (std::min(at.a_px_q16, 25 * 65536) - 15 * 65536) / 10) : 1.5L;
     Real within = widest;
     if (!narrow(s, v, within, rays) || !find_shade(shade, rays, view, config.transfer, v, within)) {
         return out;
@@ -418,7 +418,7 @@ bool in_its_place(const Disc &d, const reference::Ellipse &expected, const refer
     const Real c = std::cos(rim.angle), s = std::sin(rim.angle), dx = d.x - rim.xc, dy = d.y - rim.yc;
     const Real u = (dx * c + dy * s) / rim.a, v = (dy * c - dx * s) / rim.b, room = 1 - expected.a / rim.a;
     const bool all_about = 8 * d.rays >= 7 * DROGUE_RAYS;
-    const Real larger = all_about ? std::max<Real>(0, expected.a - 15) : 0;
+    const Real larger = all_about ? std::min<Real>(10, std::max<Real>(0, expected.a - 15)) : 0;
     const bool evident =
         all_about && 2 * d.rms <= real(config.inner_rms_px_q16) && std::fabs(d.grown) <= 0.3L + expected.a / 64;
     const Real gate = (evident ? 2 : 1) * (real(config.inner_gate_px_q16) + real(config.inner_gate_q16) * rim.a);

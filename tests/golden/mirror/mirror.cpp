@@ -484,14 +484,15 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
 
 bool is_smeared(const Outline &o) { return std::hypot(o.support.smear[0], o.support.smear[1]) > 1.25L; }
 
-/* The edge points about an ellipse; false: they cover too little. */
+/* The edge points about an ellipse; false: they cover less than those of others have to. */
 bool settle_there(Result &out, Frame &f, const drogue_ellipse &about, drogue_q16 band, const Task &task)
 {
     if (f.follow.library != nullptr) {
         (void)drogue_outline_settle(&f.decided, &about, band, &f.front->workspace, &f.front->list, &f.mask,
                                     &task.config);
     }
-    return settle(out.outline, about, band, *f.front, f.mask, task.config, f.follow);
+    return settle(out.outline, about, band, *f.front, f.mask, task.config, f.follow) &&
+           out.outline.cover >= real(task.config.min_cover_q16);
 }
 
 const drogue_q16 OUTER_BAND = DROGUE_Q16(1, 1);

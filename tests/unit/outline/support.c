@@ -218,6 +218,13 @@ START_TEST(parts_that_show)
              (unsigned)drogue_support_parts(&s, &q), parts);
         MUST(drogue_support_parts(&other, &q) == 0, "case %d: parts of the other polarity", i);
     }
+    for (i = 0; i < 32; i++) { /* one bin shows its part */
+        const ellipse_real e = random_ellipse(&rng);
+        const drogue_ellipse q = ellipse_to_q16(&e);
+        const uint32_t count = put_edges(&e, i * TEST_PI / 16, TEST_PI / 16, 0, 0.3, 0.2, 0.9, &rng);
+        const drogue_support s = judged(&e, count, DROGUE_POLARITY_DARK, 1);
+        MUST(drogue_support_parts(&s, &q) == 1, "bin %d: %u parts", i, (unsigned)drogue_support_parts(&s, &q));
+    }
 }
 END_TEST
 
