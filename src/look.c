@@ -213,7 +213,7 @@ static int bears_rays(const drogue_workspace *workspace)
 }
 
 /* The outline about an ellipse, where it is covered as others have to be. */
-static int settles(drogue_frame *f, const drogue_ellipse *about, drogue_q16 band_px_q16)
+static int settles_whole(drogue_frame *f, const drogue_ellipse *about, drogue_q16 band_px_q16)
 {
     const drogue_config *config = f->setup->config;
     return drogue_outline_settle(&f->outline, about, band_px_q16, f->workspace, &f->list, &f->mask, config) &&
@@ -228,7 +228,7 @@ static drogue_status settle_on_rays(drogue_frame *f, const drogue_region *region
     f->held.canny_high = DROGUE_BY_RAYS;
     f->list.arc_count = 0;
     f->list.edge_count = points;
-    return points > 0 && settles(f, about, band_px_q16) ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
+    return points > 0 && settles_whole(f, about, band_px_q16) ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
 }
 
 drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
@@ -260,7 +260,7 @@ drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, c
     if (!drogue_outline_outer(&about, grown_q24, f->workspace->rays, &f->view)) {
         return DROGUE_E_NO_ELLIPSE;
     }
-    if (settles(f, &about, config->refit_band_px_q16) && f->outline.cover_q16 >= OUTER_Q16) {
+    if (settles_whole(f, &about, config->refit_band_px_q16) && f->outline.cover_q16 >= OUTER_Q16) {
         drogue_outline_pull(&f->outline, f->workspace->rays, &f->view, config);
         if (has_grown(e, was, &about)) {
             return DROGUE_OK;

@@ -26,7 +26,7 @@ static void finish_ring(drogue_outline *out, const drogue_config *config)
 static drogue_q16 thinnest(const drogue_config *config) { return (THIN * config->min_cover_q16 + 4) / 8; }
 
 /* Is enough of an outline covered; or less, but all about, as where the rim is the tips of panels? */
-static int shows(const drogue_outline *outline, const drogue_config *config)
+static int shows_enough(const drogue_outline *outline, const drogue_config *config)
 {
     return outline->cover_q16 >= config->min_cover_q16 ||
            (outline->cover_q16 >= thinnest(config) &&
@@ -47,7 +47,7 @@ int drogue_outline_settle(drogue_outline *out, const drogue_ellipse *ring, drogu
     }
     out->ellipse = *ring;
     drogue_refit(out, &c);
-    if (!shows(out, config)) {
+    if (!shows_enough(out, config)) {
         drogue_outline_clear(out);
         return 0;
     }
