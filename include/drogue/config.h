@@ -63,7 +63,7 @@ typedef struct drogue_config {
     drogue_q16 min_cover_q16;      /* 0.45: least number of edge points that belong to the outline, over its
                                       circumference; half an outline gives about 0.45. 0.7 in any case where
                                       the model's inner part is not seen and all of the outline is in the image; five
-                                      eighths of it where that part is of its size and seven eighths show */
+                                      eighths of it about that part, of its size, where seven of eight parts show */
     /* 0.85: an outline covered less that the ring mask cuts is looked for again in a region about it; 0: never */
     drogue_q16 recentre_cover_q16;
     drogue_q16 optics_blur_px_q16;  /* 0.6 px: standard deviation of the lens's and sensor's blur, [0, 16]; blur
