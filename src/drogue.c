@@ -85,7 +85,7 @@ static void begin_try(drogue_frame *f)
 /* From the outline that was tried to the pose. */
 static drogue_status judge(drogue_frame *f, drogue_tried what)
 {
-    f->out->tried = (int32_t)what;
+    f->out->tried = what;
     return drogue_frame_judge(f);
 }
 
@@ -343,7 +343,7 @@ static drogue_status measure(drogue_frame *f, const drogue_region *region)
     return_to(best, f);
     status = best->result.status;
     if (is_another_edge(best, f)) {
-        const int32_t tried = f->out->tried;
+        const drogue_tried tried = f->out->tried;
         forget(f->out);
         f->out->tried = tried;
         status = DROGUE_E_NO_ELLIPSE;

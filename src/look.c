@@ -10,7 +10,8 @@
 /* Parts of a semi-axis within which one ellipse is the other. */
 #define SAME_AGAIN 3  /* of a second look: the first one's arcs were cut, and tell its size roughly */
 #define AS_ALLOWED 10 /* of a disc's outline: the guess that was settled is good to some per cent of its size, */
-#define THERE 8       /* and to this part in its place */
+#define THERE 8       /* and to this part in its place; */
+#define THIN 5        /* eighths of min_cover are enough: of panels every other may be as bright as what is behind */
 
 #define OUTER_Q16 DROGUE_Q16(3, 4)  /* least cover of an outer edge of the rim, */
 #define OUTER_BAND DROGUE_Q16(1, 1) /* px: and half the width of the band about it that points along rays lie in */
@@ -212,12 +213,11 @@ static int bears_rays(const drogue_workspace *workspace)
     return workspace->capacity.edges >= DROGUE_INNER_BEYOND_POINTS;
 }
 
-/* The outline about an ellipse, where it is covered as others have to be. */
-static int settles_whole(drogue_frame *f, const drogue_ellipse *about, drogue_q16 band_px_q16)
+/* Is there an outline about an ellipse? */
+static int settles(drogue_frame *f, const drogue_ellipse *about, drogue_q16 band_px_q16, drogue_q16 least_cover_q16)
 {
-    const drogue_config *config = f->setup->config;
-    return drogue_outline_settle(&f->outline, about, band_px_q16, f->workspace, &f->list, &f->mask, config) &&
-           f->outline.cover_q16 >= config->min_cover_q16;
+    return drogue_outline_settle(&f->outline, about, band_px_q16, least_cover_q16, f->workspace, &f->list, &f->mask,
+                                 f->setup->config);
 }
 
 /* The outline about an ellipse by edge points along rays, which the workspace holds now in place of the edges. */
@@ -228,7 +228,8 @@ static drogue_status settle_on_rays(drogue_frame *f, const drogue_region *region
     f->held.canny_high = DROGUE_BY_RAYS;
     f->list.arc_count = 0;
     f->list.edge_count = points;
-    return points > 0 && settles_whole(f, about, band_px_q16) ? DROGUE_OK : DROGUE_E_NO_ELLIPSE;
+    return points > 0 && settles(f, about, band_px_q16, f->setup->config->min_cover_q16) ? DROGUE_OK
+                                                                                         : DROGUE_E_NO_ELLIPSE;
 }
 
 drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
@@ -260,7 +261,7 @@ drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, c
     if (!drogue_outline_outer(&about, grown_q24, f->workspace->rays, &f->view)) {
         return DROGUE_E_NO_ELLIPSE;
     }
-    if (settles_whole(f, &about, config->refit_band_px_q16) && f->outline.cover_q16 >= OUTER_Q16) {
+    if (settles(f, &about, config->refit_band_px_q16, config->min_cover_q16) && f->outline.cover_q16 >= OUTER_Q16) {
         drogue_outline_pull(&f->outline, f->workspace->rays, &f->view, config);
         if (has_grown(e, was, &about)) {
             return DROGUE_OK;
@@ -383,13 +384,14 @@ static drogue_status find_ring(best_ring *best, drogue_frame *f, const drogue_re
 
 drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *region)
 {
+    const drogue_q16 thin_q16 = (THIN * f->setup->config->min_cover_q16 + 4) / 8;
     best_ring best;
     const drogue_status status = find_ring(&best, f, region);
     f->ring_px_q16 = best.ring.a_px_q16;
     if (status != DROGUE_OK) {
         return status;
     }
-    return drogue_outline_settle(&f->outline, &best.ring, 0, f->workspace, &f->list, &f->mask, f->setup->config) &&
+    return settles(f, &best.ring, 0, thin_q16) &&
                    about_the_same(&f->outline.ellipse, &best.ring, 0, 0, THERE, AS_ALLOWED)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;

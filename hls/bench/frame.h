@@ -213,7 +213,7 @@ static inline int32_t frame_tried(const frame *f)
     drogue_result r;
     (void)drogue_measure(&r, &workspace, &(drogue_setup){&f->p.camera, &f->p.model, &f->p.config}, &f->image,
                          &f->asked);
-    return r.status == DROGUE_OK ? r.tried : -1;
+    return r.status == DROGUE_OK ? (int32_t)r.tried : -1;
 }
 
 #endif

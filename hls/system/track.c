@@ -12,12 +12,12 @@ static drogue_status measure_when_there(drogue_result *out, drogue_workspace *wo
     return drogue_measure(out, workspace, setup, image, region);
 }
 
-static drogue_status acquire_when_there(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
+static drogue_status acquire_when_there(drogue_result *out, drogue_workspace *workspace, drogue_search *search,
                                         const drogue_setup *setup, const drogue_image *image,
                                         const drogue_region *within)
 {
     end_capture();
-    return drogue_acquire(out, search, workspace, setup, image, within);
+    return drogue_acquire(out, workspace, search, setup, image, within);
 }
 
 #define drogue_measure measure_when_there

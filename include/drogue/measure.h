@@ -46,7 +46,7 @@ typedef struct drogue_result {
                                  since */
     uint32_t arcs[4];         /* the arcs of the winning combination by quadrant, or DROGUE_NO_ARC; of a list that may
                                  be gone */
-    int32_t tried;            /* what stands, drogue_tried */
+    drogue_tried tried;       /* what stands */
     drogue_ellipse ellipse;   /* outline of the end plane, as seen (distorted) */
     drogue_ellipse ideal;     /* the same without distortion: what the pose is computed from; the inner part may bring
                                  that nearer than its size says (drogue_decide()) */
@@ -87,7 +87,7 @@ int drogue_input_valid(const drogue_image *image, const drogue_setup *setup);
  *             with the lens and model of a real camera no larger
  *  setup      camera, model, thresholds, each within its range; the model's inner_radius 0: inner part unknown, both
  *             poses are given and the orientation stays unresolved
- *  image      the caller's, of any size; not written
+ *  image      the caller's, of any size, of which any pixel may be read, whatever the region; not written
  *  region     where to look, drogue about its middle, longest side 2 to 3 major semi-axes; may reach past the
  *             image, then the part inside is used and the masks stay where they were. In a region of another size the
  *             rim is cut or not in the ring, and what stands may be another edge, its covariance that edge's. Where

@@ -80,16 +80,16 @@ int drogue_outline_enlarge(drogue_outline *out, const drogue_workspace *workspac
 drogue_q16 drogue_outline_covered(const drogue_ellipse *ring, const drogue_workspace *workspace,
                                   const drogue_edge_list *list, const drogue_mask *mask, const drogue_config *config);
 
-/* Fit the edge points about an ellipse, as an outline without arcs. Where seven of its eight parts show five eighths of
- * min_cover will do, which is for the caller to judge: a rim that is the tips of panels, every other of which is as
- * bright as what is behind it, shows on half its circumference.
+/* Fit the edge points about an ellipse, as an outline without arcs.
  *
- *  band    px Q16, half the width of the band about it that they lie in at first; 0: as for drogue_outline_find()
- *  return  1; 0: they cover too little, and 'out' has none
+ *  band         px Q16, half the width of the band about it that they lie in at first; 0: as for drogue_outline_find()
+ *  least_cover  Q16: the share that they have to cover; less than config's min_cover is enough where seven of the
+ *               outline's eight parts show
+ *  return       1; 0: they cover too little, and 'out' has none
  */
 int drogue_outline_settle(drogue_outline *out, const drogue_ellipse *ring, drogue_q16 band_px_q16,
-                          const drogue_workspace *workspace, const drogue_edge_list *list, const drogue_mask *mask,
-                          const drogue_config *config);
+                          drogue_q16 least_cover_q16, const drogue_workspace *workspace, const drogue_edge_list *list,
+                          const drogue_mask *mask, const drogue_config *config);
 
 /* None: no ellipse, no arcs. */
 void drogue_outline_clear(drogue_outline *outline);

@@ -42,7 +42,7 @@ typedef struct drogue_search {
     int32_t
         min_contrast;   /* 6 grey levels: least contrast of inner part and canopy, [0, 255]; the caller may change it */
     int32_t width_px;   /* of the frame in progress */
-    int32_t rows_in;    /* fed so far */
+    int32_t rows_in;    /* fed so far, DROGUE_SEARCH_MOST_ROWS at most */
     int32_t count;      /* of sightings */
     int32_t dark_count; /* of dark discs */
     drogue_search_level levels[DROGUE_SEARCH_LEVELS]; /* from 2 to 64 px a cell */
@@ -51,7 +51,7 @@ typedef struct drogue_search {
      * model without an inner part it keeps none. */
     drogue_sighting dark[DROGUE_SEARCH_DARK];
     drogue_region asked; /* drogue_acquire()'s work area: what is to be measured, */
-    int32_t worth_q16;   /* of the best result so far; 0: there is none with a pose */
+    int32_t worth;       /* of the best result so far: orders results; 0: there is none with a pose */
     int32_t where;       /* it was measured: a number that drogue_acquire() gives the place */
     drogue_result found; /* drogue_track_frame()'s work area: what it acquired beside what it measured */
 } drogue_search;
@@ -60,13 +60,15 @@ typedef struct drogue_search {
  *
  *  memory    at least DROGUE_SEARCH_BYTES(width_px) bytes of any alignment
  *  width_px  of the widest frame, [1, 32767]
- *  return    DROGUE_OK, DROGUE_E_WORKSPACE (too few bytes), DROGUE_E_ARGUMENT
+ *  return    DROGUE_OK; DROGUE_E_WORKSPACE: too few bytes; DROGUE_E_ARGUMENT: memory NULL, width out of range
  */
 drogue_status drogue_search_init(drogue_search *search, void *memory, size_t bytes, int32_t width_px);
 
 /* Begin a frame; DROGUE_E_WORKSPACE when it is wider than the memory, DROGUE_E_ARGUMENT when width_px < 1,
  * min_contrast is out of range or the search was not set up. Refused, the search has no sightings: feed no rows. */
 drogue_status drogue_search_begin(drogue_search *search, int32_t width_px);
+
+#define DROGUE_SEARCH_MOST_ROWS 32767 /* of a frame: what lies below could not be measured, and is not looked at */
 
 /* Feed the next row, width_px grey levels; the row is copied. */
 void drogue_search_row(drogue_search *search, const uint8_t *row);
@@ -111,14 +113,14 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
  *
  *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured. Where nothing is measured or
  *          sure, second_look says of any place tried, or too large to be, that there was too little room for it
- *  region  where to search; NULL: the whole image. A part of more than DROGUE_MAX_SIDE a side is searched, but not
- *          measured itself
+ *  region  where to search; NULL: the whole image. What is sighted there is measured with what lies about it. A part
+ *          of more than DROGUE_MAX_SIDE a side is searched, but not measured itself
  *  return  DROGUE_OK when what was measured is sure; DROGUE_E_UNSURE: something was measured, but less than that;
  *          DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else, of what was measured, the
  *          status that comes last in drogue_status: how far the best attempt got; and DROGUE_E_NO_INNER_PART where
  *          nothing was sighted
  */
-drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
+drogue_status drogue_acquire(drogue_result *out, drogue_workspace *workspace, drogue_search *search,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region);
 
 #ifdef __cplusplus

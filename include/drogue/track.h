@@ -124,7 +124,7 @@ typedef struct drogue_track_estimate {
 
 /* Start lost.
  *
- *  camera, model  examined frame by frame, by drogue_measure()
+ *  camera, model  examined frame by frame, by drogue_measure(), whose setup has to have the same
  *  first_region   to be searched until something is found; NULL: the whole frame
  *  return         DROGUE_OK; DROGUE_E_ARGUMENT when drogue_track_config_valid() refuses the configuration: the track is
  *                 all zero then, not to be used. drogue_track_frame() stays lost with it: it has no camera
@@ -134,7 +134,8 @@ drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *
 
 /* Begin a frame dt_us after the one before: predict and place the region for drogue_measure().
  *
- *  dt_us   microseconds; 0, a frame once more, moves nothing and adds the acceleration's noise
+ *  dt_us   microseconds; 0, a frame once more or one whose time stamp went back, moves nothing and adds the
+ *          acceleration's noise. max_missed counts frames: who wants a track to end with a gap in time begins a new one
  *  region  out, may reach past the image; all zero when the whole frame is to be searched. Its side grows by up to a
  *          tenth with the predicted uncertainty, as far as the ring mask bears it; beyond that track->search is set
  */

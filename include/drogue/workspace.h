@@ -106,7 +106,7 @@ size_t drogue_workspace_bytes(const drogue_capacity *capacity);
  *
  *  workspace  out; zero where it is refused, which drogue_measure() answers with DROGUE_E_WORKSPACE
  *  memory     at least drogue_workspace_bytes(capacity) bytes, aligned for uint32_t
- *  return     DROGUE_OK, DROGUE_E_WORKSPACE (too few bytes), DROGUE_E_ARGUMENT (capacity out of range, misaligned)
+ *  return     DROGUE_OK, DROGUE_E_WORKSPACE (too few bytes), DROGUE_E_ARGUMENT (memory NULL or misaligned, capacity)
  */
 drogue_status drogue_workspace_init(drogue_workspace *workspace, void *memory, size_t bytes,
                                     const drogue_capacity *capacity);

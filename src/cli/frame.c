@@ -153,7 +153,7 @@ int frame_measure(drogue_result *out, int *searched, frame_workspace *w, const o
     if (fit_search(w, path, width)) {
         return EXIT_BAD;
     }
-    (void)drogue_acquire(out, &w->search, &w->workspace, &setup, &image, region);
+    (void)drogue_acquire(out, &w->workspace, &w->search, &setup, &image, region);
     *searched = out->status == DROGUE_OK;
     if (!*searched) { /* again, so that the workspace holds its points */
         (void)drogue_measure(out, &w->workspace, &setup, &image, region);
@@ -177,7 +177,7 @@ int frame_acquire(drogue_result *out, drogue_region *region, frame_workspace *w,
     if (fit_whole(w, o, path, grey)) {
         return EXIT_BAD;
     }
-    (void)drogue_acquire(out, &w->search, &w->workspace, &setup, &image, NULL);
+    (void)drogue_acquire(out, &w->workspace, &w->search, &setup, &image, NULL);
     *region = out->status == DROGUE_OK ? out->region : whole_image(grey);
     return EXIT_MEASURED;
 }

@@ -2,8 +2,7 @@
 /* Outlines about an ellipse that is known: a larger one than was found, or one about a disc. */
 #include "refit.h"
 
-#define ALL_ABOUT 7 /* parts, of eight, in which an outline shows that is covered less than others have to be, */
-#define THIN 5      /* by so many eighths of that at least */
+#define ALL_ABOUT 7 /* parts, of eight, in which an outline shows that is covered less than others have to be */
 #define RINGS 14    /* about the outline, each larger than the one before by a fortieth: to 1.4 times its size */
 
 drogue_q16 drogue_outline_covered(const drogue_ellipse *ring, const drogue_workspace *workspace,
@@ -23,31 +22,29 @@ static void finish_ring(drogue_outline *out, const drogue_config *config)
     drogue_undo_blur(&out->ellipse, config);
 }
 
-static drogue_q16 thinnest(const drogue_config *config) { return (THIN * config->min_cover_q16 + 4) / 8; }
-
-/* Is enough of an outline covered; or less, but all about, as where the rim is the tips of panels? */
-static int shows_enough(const drogue_outline *outline, const drogue_config *config)
+/* Is enough of an outline covered; or less, but all about? */
+static int shows_enough(const drogue_outline *outline, drogue_q16 least_cover_q16, const drogue_config *config)
 {
     return outline->cover_q16 >= config->min_cover_q16 ||
-           (outline->cover_q16 >= thinnest(config) &&
+           (outline->cover_q16 >= least_cover_q16 &&
             drogue_support_parts(&outline->support, &outline->ellipse) >= ALL_ABOUT);
 }
 
 int drogue_outline_settle(drogue_outline *out, const drogue_ellipse *ring, drogue_q16 band_px_q16,
-                          const drogue_workspace *workspace, const drogue_edge_list *list, const drogue_mask *mask,
-                          const drogue_config *config)
+                          drogue_q16 least_cover_q16, const drogue_workspace *workspace, const drogue_edge_list *list,
+                          const drogue_mask *mask, const drogue_config *config)
 {
     drogue_refit_context c;
     drogue_refit_begin(&c, workspace, list, mask, config);
     c.band_px_q16 = band_px_q16;
-    c.least_cover_q16 = thinnest(config);
+    c.least_cover_q16 = least_cover_q16;
     drogue_outline_clear(out);
     if (drogue_refit_covers(ring, &c) <= 0) {
         return 0;
     }
     out->ellipse = *ring;
     drogue_refit(out, &c);
-    if (!shows_enough(out, config)) {
+    if (!shows_enough(out, least_cover_q16, config)) {
         drogue_outline_clear(out);
         return 0;
     }

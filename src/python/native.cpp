@@ -289,7 +289,7 @@ static py::dict measure(const py::object &array, const py::sequence &camera_, co
         memory.fit(side(grey.image.width_px), side(grey.image.height_px), config.min_arc_px);
         if (search) {
             memory.fit_search(grey.image.width_px);
-            drogue_acquire(&result, &memory.search, &memory.workspace, &setup, &grey.image, nullptr);
+            drogue_acquire(&result, &memory.workspace, &memory.search, &setup, &grey.image, nullptr);
         } else {
             drogue_measure(&result, &memory.workspace, &setup, &grey.image, &region);
         }

@@ -124,7 +124,7 @@ static int is_wanted(const drogue_search *search, int32_t where, int32_t settled
         return where < search->count && (settled < 0 || (model->inner_radius_m_q16 > 0 &&
                                                          surrounds(&search->best[where], &search->best[settled])));
     }
-    if (search->worth_q16 >= SURE) {
+    if (search->worth >= SURE) {
         return 0;
     }
     if (where < WHOLE) {
@@ -133,14 +133,14 @@ static int is_wanted(const drogue_search *search, int32_t where, int32_t settled
     return model->inner_radius_m_q16 == 0 || (search->width_px <= MOST_WHOLE_PX && search->rows_in <= MOST_WHOLE_PX);
 }
 
-drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_workspace *workspace,
+drogue_status drogue_acquire(drogue_result *out, drogue_workspace *workspace, drogue_search *search,
                              const drogue_setup *setup, const drogue_image *image, const drogue_region *region)
 {
     drogue_status furthest = DROGUE_OK;           /* of what could not be measured */
     int32_t settled = -1;                         /* the sighting after which only larger ones about it are looked at */
     int current = 0;                              /* was the best measured last? */
     drogue_second_look room = DROGUE_SECOND_NONE; /* the first want of it */
-    int32_t own_q16;
+    int32_t own;
     int32_t i;
     drogue_result_clear(out);
     out->status =
@@ -148,7 +148,7 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
     if (out->status != DROGUE_OK) {
         return out->status;
     }
-    search->worth_q16 = 0;
+    search->worth = 0;
     for (i = 0; i <= WHOLE; i++) {
         if (!is_wanted(search, i, settled, setup->model)) {
             continue;
@@ -157,17 +157,17 @@ drogue_status drogue_acquire(drogue_result *out, drogue_search *search, drogue_w
         (void)drogue_measure(out, workspace, setup, image, &search->asked);
         drogue_note_room(&room, out->status, out->second_look);
         furthest = out->status > furthest ? out->status : furthest;
-        own_q16 = worth(out, setup->model);
-        current = own_q16 > search->worth_q16;
+        own = worth(out, setup->model);
+        current = own > search->worth;
         if (current) {
-            search->worth_q16 = own_q16;
+            search->worth = own;
             search->where = i;
             if (i < DARK && (settled >= 0 || settles(out, setup->model))) {
                 settled = i;
             }
         }
     }
-    if (search->worth_q16 == 0) {
+    if (search->worth == 0) {
         drogue_result_clear(out);
         out->status = furthest > DROGUE_OK ? furthest : DROGUE_E_NO_INNER_PART;
         out->second_look = room;

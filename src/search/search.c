@@ -264,6 +264,9 @@ void drogue_search_row(drogue_search *search, const uint8_t *row)
     const uint8_t *above = search->memory;
     const uint8_t *below = row;
     int k;
+    if (search->rows_in == DROGUE_SEARCH_MOST_ROWS) {
+        return;
+    }
     search->rows_in++;
     if (search->rows_in % 2 != 0) {
         memcpy(search->memory, row, (size_t)search->width_px);

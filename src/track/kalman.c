@@ -106,6 +106,17 @@ static void spread(drogue_kalman3 *f, const interval *t, drogue_q16 std_q16)
     }
 }
 
+static int is_angle(int p) { return p == DROGUE_PITCH || p == DROGUE_YAW; }
+
+/* Less the whole turns of an angle. */
+static void wrap(drogue_real *angle)
+{
+    drogue_real turns;
+    drogue_real_quotient(&turns, angle, &two_pi);
+    drogue_real_set(&turns, drogue_real_to_s64(turns, 0), 0);
+    drogue_real_subtract_product(angle, &turns, &two_pi);
+}
+
 void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q16 std_q16[DROGUE_PARAMETERS])
 {
     interval t;
@@ -118,19 +129,13 @@ void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q
         drogue_real change;
         drogue_real_products(&change, &t.dt, &f->state[1], &t.half_dt2, &f->state[2]);
         move(f, &change);
+        if (is_angle(p)) { /* over a long step it turns often */
+            wrap(&f->state[0]);
+        }
         drogue_real_product(&change, &t.dt, &f->state[2]);
         drogue_real_sum(&f->state[1], &f->state[1], &change);
         spread(f, &t, std_q16[p]);
     }
-}
-
-/* Less the whole turns of an angle. */
-static void wrap(drogue_real *angle)
-{
-    drogue_real turns;
-    drogue_real_quotient(&turns, angle, &two_pi);
-    drogue_real_set(&turns, drogue_real_to_s64(turns, 0), 0);
-    drogue_real_subtract_product(angle, &turns, &two_pi);
 }
 
 void drogue_kalman_innovation(drogue_real *out, const drogue_kalman *filter, int p, drogue_q16 value_q16)
@@ -138,7 +143,7 @@ void drogue_kalman_innovation(drogue_real *out, const drogue_kalman *filter, int
     drogue_real_set_q16(out, value_q16);
     drogue_real_difference(out, out, &filter->parameter[p].state[0]);
     drogue_real_difference(out, out, &filter->parameter[p].rest);
-    if (p == DROGUE_PITCH || p == DROGUE_YAW) {
+    if (is_angle(p)) {
         wrap(out);
     }
 }

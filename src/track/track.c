@@ -75,7 +75,7 @@ drogue_status drogue_track_init(drogue_track *track, const drogue_track_config *
     track->config = *config;
     track->camera = *camera;
     track->model = *model;
-    if (first_region != NULL) {
+    if (first_region != NULL && first_region->width_px > 0) {
         track->first_region = *first_region;
     }
     track->reach = track->first_region;
@@ -328,7 +328,7 @@ static void look(drogue_result *result, const drogue_region *region, const drogu
 {
     const int lost = track->state == DROGUE_LOST;
     if (region->width_px <= 0) { /* lost, and the first region is the whole frame */
-        (void)drogue_acquire(result, search, workspace, setup, image, NULL);
+        (void)drogue_acquire(result, workspace, search, setup, image, NULL);
         return;
     }
     (void)drogue_measure(result, workspace, setup, image, region);
@@ -338,7 +338,7 @@ static void look(drogue_result *result, const drogue_region *region, const drogu
     if (drogue_measurement_counts(result, &track->config) || (!lost && !track->search)) {
         return;
     }
-    (void)drogue_acquire(&search->found, search, workspace, setup, image, lost ? NULL : &track->reach);
+    (void)drogue_acquire(&search->found, workspace, search, setup, image, lost ? NULL : &track->reach);
     if (drogue_measurement_counts(&search->found, &track->config)) {
         *result = search->found;
         return;
@@ -376,7 +376,7 @@ drogue_track_state drogue_track_frame(drogue_result *result, drogue_region *regi
     if (track->state != DROGUE_LOST && holds_rim(workspace, region, &track->config)) {
         drogue_workspace_narrow(region, workspace, image);
     }
-    if (in_doubt(track) && drogue_acquire(result, search, workspace, &setup, image, NULL) == DROGUE_OK &&
+    if (in_doubt(track) && drogue_acquire(result, workspace, search, &setup, image, NULL) == DROGUE_OK &&
         drogue_measurement_counts(result, &track->config) && result->orientation_resolved) {
         track->state = DROGUE_LOST; /* begin anew from this */
         return drogue_track_end(track, result);

@@ -134,7 +134,7 @@ Search search_whole(const WholeFrame &frame)
               drogue_search_init(&search, search_memory.data(), search_memory.size(), view.width_px) == DROGUE_OK);
     drogue_config_default(&config);
     const double before = thread_seconds();
-    (void)drogue_acquire(&s.result, &search, &workspace, &setup, &view, nullptr);
+    (void)drogue_acquire(&s.result, &workspace, &search, &setup, &view, nullptr);
     s.seconds = thread_seconds() - before;
     s.finding = s.result.status != DROGUE_OK ? Finding::none : right(s.result, frame) ? Finding::hit : Finding::wrong;
     s.log_odds = s.result.status == DROGUE_OK || s.result.status == DROGUE_E_UNSURE

@@ -60,7 +60,7 @@ Acquired acquire(const cv::Mat &image, const Camera &c, const drogue_model &mode
               drogue_search_init(&search, search_memory.data(), search_memory.size(), image.cols) == DROGUE_OK);
     drogue_config_default(&config);
     const drogue_setup setup = {&camera, &model, &config};
-    (void)drogue_acquire(&acquired.result, &search, &workspace, &setup, &view, nullptr);
+    (void)drogue_acquire(&acquired.result, &workspace, &search, &setup, &view, nullptr);
     acquired.sightings.assign(search.best, search.best + search.count);
     return acquired;
 }

@@ -153,7 +153,7 @@ int stage_acquire(stage_run *r)
     }
     drogue_config_default(&config);
     search.min_contrast = p[7];
-    out[0] = (int32_t)drogue_acquire(&result, &search, &workspace, &(drogue_setup){&camera, &model, &config}, &image,
+    out[0] = (int32_t)drogue_acquire(&result, &workspace, &search, &(drogue_setup){&camera, &model, &config}, &image,
                                      p[0] != 0 ? &region : NULL);
     out = stage_put_region(out + 1, &result.region);
     out[0] = result.has_inner;

@@ -222,7 +222,8 @@ def tables(library, ram):
     lines += ['', '<details><summary>Every public function</summary>', '',
               '"With what it calls" is what one call links; helpers of the compiler come on top.', '',
               '| function | flash, bytes | with what it calls | worst-case stack, bytes |', '| --- | --- | --- | --- |']
-    for name in sorted(library.exported):
+    headers = ''.join(h.read_text() for h in sorted((ROOT / 'include/drogue').glob('*.h')))
+    for name in sorted(set(re.findall(r'\b(\w+)\(', headers)) & set(library.exported)):
         key = library.exported[name]
         closure = library.links(name)
         lines.append(f'| `{name}` | {library.flash[key]} | {closure} | {library.stack(key)} |')

@@ -17,7 +17,7 @@ static drogue_result acquired(const fuzz_scene *s, const drogue_region *region, 
     memset(&search, fill, sizeof search);
     memset(&r, fill, sizeof r);
     FUZZ_MUST(drogue_search_init(&search, memory, bytes, search_width_px) == DROGUE_OK);
-    FUZZ_MUST(drogue_acquire(&r, &search, &w.workspace, &s->setup, &s->image, region) == r.status);
+    FUZZ_MUST(drogue_acquire(&r, &w.workspace, &search, &s->setup, &s->image, region) == r.status);
     fuzz_check_result(&r, region, &s->image);
     free(memory);
     free(w.memory);

@@ -57,6 +57,9 @@ void Kalman::predict(double dt, const std::array<double, 5> &std)
     }
     filter.predict();
     state_ = filter.statePost.clone();
+    for (int i = PITCH; i < N; i++) {
+        state_.at<double>(i) = std::remainder(state_.at<double>(i), 2 * PI);
+    }
     covariance_ = filter.errorCovPost.clone();
 }
 

@@ -484,15 +484,15 @@ Real judge(Result &out, Features &from, Frame &f, const Task &task, const drogue
 
 bool is_smeared(const Outline &o) { return std::hypot(o.support.smear[0], o.support.smear[1]) > 1.25L; }
 
-/* The edge points about an ellipse; false: they cover less than those of others have to. */
-bool settle_there(Result &out, Frame &f, const drogue_ellipse &about, drogue_q16 band, const Task &task)
+/* The edge points about an ellipse; false: they cover less than 'least'. */
+bool settle_there(Result &out, Frame &f, const drogue_ellipse &about, drogue_q16 band, drogue_q16 least,
+                  const Task &task)
 {
     if (f.follow.library != nullptr) {
-        (void)drogue_outline_settle(&f.decided, &about, band, &f.front->workspace, &f.front->list, &f.mask,
+        (void)drogue_outline_settle(&f.decided, &about, band, least, &f.front->workspace, &f.front->list, &f.mask,
                                     &task.config);
     }
-    return settle(out.outline, about, band, *f.front, f.mask, task.config, f.follow) &&
-           out.outline.cover >= real(task.config.min_cover_q16);
+    return settle(out.outline, about, band, least, *f.front, f.mask, task.config, f.follow);
 }
 
 const drogue_q16 OUTER_BAND = DROGUE_Q16(1, 1);
@@ -503,6 +503,7 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
             const std::array<int64_t, 4> &region, const Task &task, const drogue_config *config)
 {
     const bool follow = f.follow.library != nullptr;
+    const drogue_q16 least = task.config.min_cover_q16;
     Ellipse was = best.seen;
     out.tried = DROGUE_TRIED_RAYS;
     out.second_look = best.second_look;
@@ -538,7 +539,7 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
         by = 0;
         grown_size = (was.a + was.b + outer.a + outer.b) / 2;
         f.front = run_front_end(f.view, f.mask, *config, task.capacity);
-        found = settle_there(out, f, about, config->refit_band_px_q16, task) && out.outline.cover >= 0.75L;
+        found = settle_there(out, f, about, config->refit_band_px_q16, least, task) && out.outline.cover >= 0.75L;
         if (found) {
             pull(out.outline, view, follow ? f.decided.fitted : rounded_ellipse(out.outline.fitted), task.config);
             found = out.outline.ellipse.a + out.outline.ellipse.b >= grown_size;
@@ -551,7 +552,8 @@ bool beyond(Result &out, Frame &f, const Result &best, const drogue_outline &dec
     }
     if (!found) {
         look_beyond(*f.front, f.view, about, by);
-        found = f.front->list.edge_count > 0 && settle_there(out, f, about, config == nullptr ? 0 : OUTER_BAND, task) &&
+        found = f.front->list.edge_count > 0 &&
+                settle_there(out, f, about, config == nullptr ? 0 : OUTER_BAND, least, task) &&
                 (config == nullptr ||
                  (out.outline.cover >= 0.75L && out.outline.ellipse.a + out.outline.ellipse.b >= grown_size));
         if (found && config != nullptr) {
@@ -601,11 +603,8 @@ bool about_disc(Result &out, Frame &f, const Task &task, bool follow)
     out.contradicted = seeker.contradicted();
     f.follow.library = follow ? &f.decided : nullptr;
     f.ring = real(ring.a_px_q16);
-    if (f.follow.library != nullptr) {
-        (void)drogue_outline_settle(&f.decided, &ring, 0, &f.front->workspace, &f.front->list, &f.mask, &task.config);
-    }
     const Ellipse was = real_of(ring);
-    const bool found = settle(out.outline, ring, 0, *f.front, f.mask, task.config, f.follow);
+    const bool found = settle_there(out, f, ring, 0, (5 * task.config.min_cover_q16 + 4) / 8, task);
     const Ellipse &e = out.outline.ellipse;
     return found && std::fabs(e.a - was.a) <= was.a / 10 && std::hypot(e.xc - was.xc, e.yc - was.yc) <= was.a / 8;
 }

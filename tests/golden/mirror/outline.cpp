@@ -80,7 +80,7 @@ public:
     {}
     drogue_status find(Outline &out);
     bool enlarge(Outline &out) const;
-    bool settle(Outline &out, const Ellipse &ring, Real band);
+    bool settle(Outline &out, const Ellipse &ring, Real band, Real least);
     Real covered(const Ellipse &e, bool follow) const;
 
 private:
@@ -425,14 +425,13 @@ bool Finder::enlarge(Outline &out) const
     return true;
 }
 
-bool Finder::settle(Outline &out, const Ellipse &ring, Real band)
+bool Finder::settle(Outline &out, const Ellipse &ring, Real band, Real least)
 {
     band_ = band;
     out = Outline();
     out.arcs.fill(NONE);
-    const Real least = real(config_.min_cover_q16);
-    if (!plausible(ring) || !on_ring(out, ring, real((5 * config_.min_cover_q16 + 4) / 8)) ||
-        (out.cover < least && parts_of(out) < 7)) {
+    if (!plausible(ring) || !on_ring(out, ring, least) ||
+        (out.cover < real(config_.min_cover_q16) && parts_of(out) < 7)) {
         return false;
     }
     out.quality = reference::quality_of_cover(out.ellipse, 1, out.cover, real(config_.quality.k1_q16),
@@ -578,12 +577,12 @@ Real covered(const Ellipse &e, const FrontEnd &front, const drogue_mask &mask, c
     return Finder(front, mask, config, {nullptr}).covered(e, follow);
 }
 
-bool settle(Outline &out, const drogue_ellipse &ring, drogue_q16 band_px_q16, const FrontEnd &front,
-            const drogue_mask &mask, const drogue_config &config, const Follow &follow)
+bool settle(Outline &out, const drogue_ellipse &ring, drogue_q16 band_px_q16, drogue_q16 least_cover_q16,
+            const FrontEnd &front, const drogue_mask &mask, const drogue_config &config, const Follow &follow)
 {
     const Ellipse start = {real(ring.xc_px_q16), real(ring.yc_px_q16),     real(ring.a_px_q16),
                            real(ring.b_px_q16),  real(ring.angle_rad_q16), true};
-    if (!Finder(front, mask, config, follow).settle(out, start, real(band_px_q16))) {
+    if (!Finder(front, mask, config, follow).settle(out, start, real(band_px_q16), real(least_cover_q16))) {
         return false;
     }
     finish(out, config);

@@ -74,8 +74,8 @@ Real covered(const reference::Ellipse &e, const FrontEnd &front, const drogue_ma
              bool follow);
 
 /* The outline about an ellipse, as drogue_outline_settle(); false: none. */
-bool settle(Outline &out, const drogue_ellipse &ring, drogue_q16 band_px_q16, const FrontEnd &front,
-            const drogue_mask &mask, const drogue_config &config, const Follow &follow);
+bool settle(Outline &out, const drogue_ellipse &ring, drogue_q16 band_px_q16, drogue_q16 least_cover_q16,
+            const FrontEnd &front, const drogue_mask &mask, const drogue_config &config, const Follow &follow);
 
 /* A larger outline about the one found, as drogue_outline_enlarge(); false: none, 'out' as it was. */
 bool enlarge(Outline &out, const FrontEnd &front, const drogue_mask &mask, const drogue_config &config,

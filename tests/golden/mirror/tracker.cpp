@@ -44,6 +44,7 @@ void predict(Filter &f, Real dt, const Five &std)
                 }
             }
         }
+        own.state[0] = p >= PITCH ? std::remainder(own.state[0], 2 * PI) : own.state[0];
     }
 }
 

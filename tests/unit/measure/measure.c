@@ -467,9 +467,13 @@ START_TEST(what_fills_a_table_is_thresholded)
     static const struct {
         double noise, bars;
         uint32_t edges;
-        int found, tried, narrower; /* found in three quarters of the region, too, which have less bars */
-    } cases[] = {{0, 0, 1500, 1, 0, 0}, {12, 0, 1500, 1, 2, 0}, {20, 0, 1500, 1, 2, 0}, {20, 0, 900, 1, 2, 0},
-                 {20, 0, 300, 0, 0, 0}, {0, 36, 8192, 1, 0, 0}, {0, 36, 1400, 1, 2, 1}, {0, 36, 300, 0, 0, 0}};
+        int found;
+        drogue_tried tried;
+        int narrower; /* found in three quarters of the region, too, which have less bars */
+    } cases[] = {{0, 0, 1500, 1, DROGUE_TRIED_FOUND, 0},  {12, 0, 1500, 1, DROGUE_TRIED_NOISE, 0},
+                 {20, 0, 1500, 1, DROGUE_TRIED_NOISE, 0}, {20, 0, 900, 1, DROGUE_TRIED_NOISE, 0},
+                 {20, 0, 300, 0, DROGUE_TRIED_FOUND, 0},  {0, 36, 8192, 1, DROGUE_TRIED_FOUND, 0},
+                 {0, 36, 1400, 1, DROGUE_TRIED_NOISE, 1}, {0, 36, 300, 0, DROGUE_TRIED_FOUND, 0}};
     drogue_config config;
     size_t i;
     int x, y;
@@ -488,7 +492,7 @@ START_TEST(what_fills_a_table_is_thresholded)
         drogue_config_default(&config);
         MUST(measure(&r, &t, &config, &model, &whole) == (cases[i].found ? DROGUE_OK : DROGUE_E_EDGES_FULL) &&
                  r.tried == cases[i].tried,
-             "case %zu: %s, tried %d", i, drogue_status_name(r.status), r.tried);
+             "case %zu: %s, tried %d", i, drogue_status_name(r.status), (int)r.tried);
         MUST((r.second_look == DROGUE_SECOND_FULL) == !cases[i].found &&
                  (r.second_look == DROGUE_SECOND_ROOM) == (cases[i].tried == DROGUE_TRIED_NOISE),
              "case %zu: %s", i, drogue_second_look_name(r.second_look));

@@ -129,7 +129,7 @@ static drogue_status acquire(drogue_result *out, const drogue_model *m, int32_t 
     }
     calls = disc_calls = 0;
     ck_assert_int_eq(drogue_search_init(&search, memory, sizeof memory, width), DROGUE_OK);
-    (void)drogue_acquire(out, &search, &workspace, &setup, &image, part);
+    (void)drogue_acquire(out, &workspace, &search, &setup, &image, part);
     ck_assert_int_eq(search.count, discs + collared);
     MUST(discs < 1 || abs(search.best[0].x_px - 100) < 10, "first of the sightings at %d", (int)search.best[0].x_px);
     MUST(discs < 2 || abs(search.best[1].x_px - 300) < 10, "second of the sightings at %d", (int)search.best[1].x_px);
@@ -289,10 +289,10 @@ START_TEST(refused_before_the_search)
     drogue_result out;
     drogue_config_default(&config);
     ck_assert_int_eq(drogue_search_init(&search, memory, sizeof memory, 480), DROGUE_OK);
-    ck_assert_int_eq(drogue_acquire(&out, &search, &workspace, &setup, &image, NULL), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_acquire(&out, &workspace, &search, &setup, &image, NULL), DROGUE_E_ARGUMENT);
     setup.model = &model;
     config.canny_low = -1;
-    ck_assert_int_eq(drogue_acquire(&out, &search, &workspace, &setup, &image, NULL), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_acquire(&out, &workspace, &search, &setup, &image, NULL), DROGUE_E_ARGUMENT);
     ck_assert_int_eq(out.arcs[0], DROGUE_NO_ARC);
     ck_assert_int_eq(out.ambiguity_q16, DROGUE_Q16_ONE);
 }

@@ -225,6 +225,32 @@ START_TEST(any_size_of_frame)
 }
 END_TEST
 
+/* A drogue above the last row that may be measured is sighted, one below it is not. */
+START_TEST(no_more_rows_than_can_be_measured)
+{
+    static const double centre[3] = {0, 0, 10};
+    frame f = new_frame(120, 120, 210, 5);
+    test_search s = new_search(120);
+    const ellipse_real rim = draw_drogue(&f, centre, 0.1, 0.1, &all_shades[0]);
+    int below;
+    for (below = 0; below < 2; below++) {
+        const int32_t first = DROGUE_SEARCH_MOST_ROWS - (below ? 10 : 110);
+        int32_t y, count;
+        ck_assert_int_eq(drogue_search_begin(&s.search, 120), DROGUE_OK);
+        for (y = 0; y < first + 2 * f.height; y++) {
+            const int32_t own = y < first ? 0 : (y - first) % f.height;
+            drogue_search_row(&s.search, f.pixels + (size_t)own * (size_t)f.width);
+        }
+        count = drogue_search_end(&s.search);
+        ck_assert_int_eq(s.search.rows_in, DROGUE_SEARCH_MOST_ROWS);
+        MUST((count > 0) == !below, "%d sightings", (int)count);
+        MUST(below || fabs(s.search.best[0].y_px - first - rim.yc) < 5, "at %d", (int)s.search.best[0].y_px);
+    }
+    free_search(&s);
+    free(f.pixels);
+}
+END_TEST
+
 START_TEST(refusals)
 {
     static uint8_t memory[DROGUE_SEARCH_BYTES(100)];
@@ -291,7 +317,7 @@ START_TEST(acquire_measures_what_it_finds)
         const drogue_region away = {0, 0, 30, 30}, outside = {-40, 0, 30, 30};
         drogue_result result;
         (void)draw_drogue(&f, centre, 0.2, -0.15, &all_shades[i % 3]);
-        ck_assert_int_eq(drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+        ck_assert_int_eq(drogue_acquire(&result, &r.workspace.workspace, &r.search.search,
                                         &(drogue_setup){&r.camera, &model, &r.config}, &image, NULL),
                          DROGUE_OK);
         MUST(fabs(real_of_q16(result.pose.position_m_q16[0]) - centre[0]) < 0.005 &&
@@ -303,10 +329,10 @@ START_TEST(acquire_measures_what_it_finds)
                  fabs(real_of_q16(result.pose.pitch_rad_q16) + 0.15) < 0.02,
              "case %d: yaw %g, pitch %g", i, real_of_q16(result.pose.yaw_rad_q16),
              real_of_q16(result.pose.pitch_rad_q16));
-        ck_assert_int_ne(drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+        ck_assert_int_ne(drogue_acquire(&result, &r.workspace.workspace, &r.search.search,
                                         &(drogue_setup){&r.camera, &model, &r.config}, &image, &away),
                          DROGUE_OK);
-        ck_assert_int_eq(drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+        ck_assert_int_eq(drogue_acquire(&result, &r.workspace.workspace, &r.search.search,
                                         &(drogue_setup){&r.camera, &model, &r.config}, &image, &outside),
                          DROGUE_E_REGION);
         ck_assert_int_eq(result.status, DROGUE_E_REGION);
@@ -357,11 +383,11 @@ START_TEST(acquire_refuses_hostile_regions)
     drogue_result result;
     size_t i;
     for (i = 0; i < sizeof regions / sizeof regions[0]; i++) {
-        const drogue_status status = drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+        const drogue_status status = drogue_acquire(&result, &r.workspace.workspace, &r.search.search,
                                                     &(drogue_setup){&r.camera, &model, &r.config}, &image, &regions[i]);
         MUST(status == DROGUE_E_REGION && result.status == status, "region %d: %s", (int)i, drogue_status_name(status));
     }
-    ck_assert_int_eq(drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+    ck_assert_int_eq(drogue_acquire(&result, &r.workspace.workspace, &r.search.search,
                                     &(drogue_setup){&r.camera, &model, &r.config}, &(drogue_image){NULL, 64, 64, 64},
                                     NULL),
                      DROGUE_E_ARGUMENT);
@@ -393,7 +419,7 @@ START_TEST(frames_larger_than_a_region)
         if (there) {
             (void)draw_drogue(&f, centre, atan2(centre[0], centre[2]), atan2(centre[1], centre[2]), &all_shades[0]);
         }
-        MUST(drogue_acquire(&result, &r.search.search, &r.workspace.workspace,
+        MUST(drogue_acquire(&result, &r.workspace.workspace, &r.search.search,
                             &(drogue_setup){&r.camera, &model, &r.config}, &image, NULL) == cases[i].want,
              "case %d: %s, %d sightings, cover %g, resolved %d", (int)i, drogue_status_name(result.status),
              (int)r.search.search.count, real_of_q16(result.cover_q16), (int)result.orientation_resolved);
@@ -590,6 +616,6 @@ START_TEST(what_shows_no_inner_part_is_reconsidered)
 END_TEST
 
 SUITE_MAIN("search", every_size_tilt_and_shade, nothing_in_flat_and_noisy_frames, the_best_eight_in_order,
-           any_size_of_frame, refusals, acquire_measures_what_it_finds, clipping_saturates,
-           acquire_refuses_hostile_regions, frames_larger_than_a_region, track_frames, uncertain_searches_within_reach,
-           first_region_then_anywhere, what_shows_no_inner_part_is_reconsidered)
+           any_size_of_frame, no_more_rows_than_can_be_measured, refusals, acquire_measures_what_it_finds,
+           clipping_saturates, acquire_refuses_hostile_regions, frames_larger_than_a_region, track_frames,
+           uncertain_searches_within_reach, first_region_then_anywhere, what_shows_no_inner_part_is_reconsidered)

@@ -185,17 +185,17 @@ START_TEST(acquire_without_an_inner_part)
     drogue_config_default(&config);
     ck_assert_int_eq(drogue_search_init(&search, memory, sizeof memory, SIDE), DROGUE_OK);
     draw(pixels, 60);
-    ck_assert_int_eq(drogue_acquire(&r, &search, &w.workspace, &setup, &image, NULL), DROGUE_OK);
+    ck_assert_int_eq(drogue_acquire(&r, &w.workspace, &search, &setup, &image, NULL), DROGUE_OK);
     MUST(abs(r.ellipse.xc_px_q16 - 120 * 65536) < 32768 && abs(r.ellipse.a_px_q16 - 60 * 65536) < 65536, "x %d, a %d",
          (int)r.ellipse.xc_px_q16, (int)r.ellipse.a_px_q16);
     memset(pixels, 128, sizeof pixels); /* nothing sighted: the part itself is measured, and says why there is none */
-    ck_assert_int_ne(drogue_acquire(&r, &search, &w.workspace, &setup, &image, NULL), DROGUE_OK);
+    ck_assert_int_ne(drogue_acquire(&r, &w.workspace, &search, &setup, &image, NULL), DROGUE_OK);
     ck_assert_int_ne(r.status, DROGUE_OK);
     image.stride = SIDE - 1;
-    ck_assert_int_eq(drogue_acquire(&r, &search, &w.workspace, &setup, &image, NULL), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_acquire(&r, &w.workspace, &search, &setup, &image, NULL), DROGUE_E_ARGUMENT);
     image.stride = SIDE;
     image.data = NULL;
-    ck_assert_int_eq(drogue_acquire(&r, &search, &w.workspace, &setup, &image, NULL), DROGUE_E_ARGUMENT);
+    ck_assert_int_eq(drogue_acquire(&r, &w.workspace, &search, &setup, &image, NULL), DROGUE_E_ARGUMENT);
     test_workspace_free(&w);
 }
 END_TEST

@@ -251,6 +251,30 @@ START_TEST(coasting_grows_and_never_breaks)
 }
 END_TEST
 
+/* A time stamp that goes back is a step of over an hour, in which a turning drogue has turned thousands of times. */
+START_TEST(no_turn_stays_from_a_long_step)
+{
+    const uint32_t back_us = (uint32_t)-1000;
+    int backs, k;
+    for (backs = 1; backs <= 5; backs++) {
+        drogue_track t = new_track();
+        drogue_track_estimate e;
+        drogue_region region;
+        for (k = 0; k < 300; k++) {
+            const double turned = k < 60 ? 0.04 * (k - 60) : 0;
+            const drogue_result hit = seen(0, 0, 10, turned, turned / 4);
+            drogue_track_begin(&region, &t, k >= 60 && k < 60 + backs ? back_us : DT_US);
+            (void)drogue_track_end(&t, &hit);
+        }
+        drogue_track_get(&e, &t);
+        ck_assert_int_eq(t.state, DROGUE_TRACKING);
+        must_be_at(&t, 0, 0, 10, 0.001);
+        MUST(fabs(real_of_q16(e.yaw_rad_q16)) < 0.001 && fabs(real_of_q16(e.pitch_rad_q16)) < 0.001,
+             "%d steps back: yaw %g, pitch %g", backs, real_of_q16(e.yaw_rad_q16), real_of_q16(e.pitch_rad_q16));
+    }
+}
+END_TEST
+
 START_TEST(standard_deviations_are_those_of_the_measurement)
 {
     const double std[5] = {0.003, 0.004, 0.05, 0.01, 0.02};
@@ -374,5 +398,5 @@ END_TEST
 SUITE_MAIN("track_end", an_outlier_is_refused, an_unreliable_one_counts_as_missed,
            a_cut_outline_does_not_lock_the_drogue_out, too_little_room_cuts_nothing, what_noise_allows_is_believed,
            correlation_counts, lateral_errors_follow_depth, a_true_jump_is_followed,
-           outliers_that_disagree_are_not_followed, coasting_grows_and_never_breaks,
+           outliers_that_disagree_are_not_followed, coasting_grows_and_never_breaks, no_turn_stays_from_a_long_step,
            standard_deviations_are_those_of_the_measurement, nothing_locks_it_up, ten_thousand_frames)
