@@ -11,7 +11,7 @@ if ! command -v bambu >/dev/null; then
 fi
 status=0
 for header in hls/frontend/operators.h; do
-    for operator in $(grep -oE '\bdrogue_hls_[a-z_]+\(' "$header" | tr -d '(' | awk '!seen[$0]++'); do
+    for operator in $(grep -v '^static' "$header" | grep -oE '\bdrogue_hls_[a-z_]+\(' | tr -d '(' | awk '!seen[$0]++'); do
         work=build/hls/bambu/operators/$operator
         rm -rf "$work"
         mkdir -p "$work"

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # The front end in Verilog, a clock of the C a clock of the block: build/hls/rtl/WIDTH/drogue_frontend.v, sizes.vh.
 # clang makes LLVM IR of drogue_hls_step(), verilog.py a combinational module of that, shell.c registers and memories.
-# usage: rtl.sh [WIDTH]      largest region, 256; 77 where clang, llvm or python3 are absent
+# usage: rtl.sh [WIDTH]      largest region, 256, at most 2048; 77 where clang, llvm or python3 are absent
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 . hls/usage.sh
 width=${1:-256}
-[[ $width =~ ^[1-9][0-9]*$ ]] || usage
+[[ $width =~ ^[1-9][0-9]{0,3}$ && $width -le 2048 ]] || usage
 for tool in clang llvm-link opt python3 gcc; do
     command -v $tool >/dev/null || { echo "rtl: SKIPPED: no $tool" && exit 77; }
 done

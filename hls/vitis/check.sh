@@ -10,6 +10,9 @@ trap 'rm -rf "$work"' EXIT
 status=0
 scripts=0
 
+# twins: of the files named on standard input those that share a name, of which Vitis would make one object
+twins() { sed 's|.*/||' | sort | uniq -d; }
+
 # run_stub FOLDER FUNCTION SCRIPT
 run_stub() { (cd "$1" && tclsh "$OLDPWD/hls/vitis/stub.tcl" "$2" "$3"); }
 
@@ -25,7 +28,15 @@ for name in $(all_tops); do
             status=1
         fi
     done < <(sed -nE 's/^(syn|tb)\.file=//p' "$folder/hls_config.cfg")
+    for file in $(sed -nE 's/^(syn|tb)\.file=//p' "$folder/hls_config.cfg" | twins); do
+        echo "vitis: $folder/hls_config.cfg: two files $file"
+        status=1
+    done
 done
+if [ "$(printf '%s\n' a/x.c b/y.c b/x.c | twins)" != x.c ]; then
+    echo "vitis: the check does not notice two files of one name"
+    status=1
+fi
 
 # bites SED FAULT: a script spoiled like this, in its own part or in the common one, is refused with this fault
 bites() {

@@ -22,7 +22,7 @@ foreach file $sources {
     add_files $root/$file -cflags $flags
 }
 foreach file $bench {
-    add_files -tb $root/$file -cflags $flags
+    add_files -tb $root/$file -cflags "$flags -DDROGUE_HLS_FEW"
 }
 foreach file [lsort [glob -tails -directory $root src/*.c src/{arithmetic,camera,frontend,inner,outline,pose,search,track}/*.c]] { # the test bench's own copy of what the top does not have
     if {$file ni $sources && $file ni $replaced} {
