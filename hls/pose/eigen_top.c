@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Top: the Jacobi eigen-solver alone. */
-#include "drogue/eigen.h"
 #include "../words.h"
+#include "drogue/eigen.h"
 
 /* matrix: Q60; eigen: mantissa and exponent of each value, then the vectors Q30 */
 int32_t drogue_hls_eigen(const int64_t matrix[6], int32_t eigen[15])

@@ -106,15 +106,14 @@ int drogue_result_sure(const drogue_result *r, const drogue_model *model);
  *    outline; after that only what has 9/8 of the radius and more, and that in its middle half;
  *  - where nothing is sure yet, one after another until something is: the drogue that the model puts about each dark
  *    disc; the part itself where it has at most 512 px a side.
- *    Without an inner part in the model only the last, of any size.
+ *    Without an inner part in the model only the last, of DROGUE_MAX_SIDE a side at most.
  *
  * The result is the one of the largest log odds; for a model without an inner part that of most cover among those that
  * are sure, or else of all. Of equals the first stands.
  *
  *  out     as of drogue_measure(); with DROGUE_E_UNSURE, too, it is what was measured. Where nothing is measured or
  *          sure, second_look says of any place tried, or too large to be, that there was too little room for it
- *  region  where to search; NULL: the whole image. What is sighted there is measured with what lies about it. A part
- *          of more than DROGUE_MAX_SIDE a side is searched, but not measured itself
+ *  region  where to search; NULL: the whole image. What is sighted there is measured with what lies about it
  *  return  DROGUE_OK when what was measured is sure; DROGUE_E_UNSURE: something was measured, but less than that;
  *          DROGUE_E_ARGUMENT, DROGUE_E_REGION, DROGUE_E_WORKSPACE (the search's width); else, of what was measured, the
  *          status that comes last in drogue_status: how far the best attempt got; and DROGUE_E_NO_INNER_PART where

@@ -14,8 +14,8 @@ const char *explain_status(drogue_status status)
     case DROGUE_E_EDGES_FULL: return "more edge points than the workspace holds";
     case DROGUE_E_ARCS_FULL: return "more arcs than the workspace holds";
     case DROGUE_E_NO_EDGES:
-        return "no edge where an outline could be: is the drogue about the middle of --roi? Lower canny_high and "
-               "canny_low (--set) where contrast is low";
+        return "no edge where an outline could be: nothing is there, or not about the middle of --roi; or lower canny_high "
+               "and canny_low (--set) where contrast is low";
     case DROGUE_E_NO_ARCS:
         return "edges, but no arc long and curved enough: --roi with the drogue about its middle and a longest side of "
                "2 to 3 major semi-axes helps, or a lower min_arc_share, min_arc_px or canny_low (--set)";
@@ -24,7 +24,8 @@ const char *explain_status(drogue_status status)
                "than 0.7 and no inner part, or it is flatter than min_axis_ratio, or nothing here is a drogue";
     case DROGUE_E_TOO_FEW_POINTS: return "fewer than the six points that a conic needs";
     case DROGUE_E_DEGENERATE: return "the points do not determine an ellipse";
-    case DROGUE_E_NO_INNER_PART: return "no dark inner part of the least size";
+    case DROGUE_E_NO_INNER_PART:
+        return "no dark disc inside a ring is in sight, nor a dark inner part of the least size";
     case DROGUE_E_DOMAIN:
         return "an outline, but its pose is beyond what the numbers hold: are camera and radius right?";
     case DROGUE_E_BEHIND_CAMERA: return "the outline's pose lies behind the camera: is the camera right?";

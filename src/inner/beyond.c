@@ -106,6 +106,12 @@ static uint32_t put_points(const drogue_workspace *workspace, const drogue_image
     return count;
 }
 
+/* Is it large enough for rays, and small enough for their points to show its parts? */
+static int is_of_size(const drogue_ellipse *about)
+{
+    return about->b_px_q16 >= DROGUE_Q16_ONE && about->a_px_q16 <= LARGEST;
+}
+
 uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about,
                              drogue_q16 beyond_px_q16)
 {
@@ -114,7 +120,7 @@ uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_ima
     drogue_q16 v_px_q16[3];
     int32_t noise;
     int32_t least;
-    if (about->b_px_q16 < DROGUE_Q16_ONE || about->a_px_q16 > LARGEST) {
+    if (!is_of_size(about)) {
         return 0;
     }
     noise = drogue_noise_threshold(workspace->histogram, view);
@@ -132,7 +138,7 @@ uint32_t drogue_inner_beyond(const drogue_workspace *workspace, const drogue_ima
 uint32_t drogue_inner_along(const drogue_workspace *workspace, const drogue_image *view, const drogue_ellipse *about)
 {
     const drogue_q16 there[3] = {0, 0, 0};
-    if (about->b_px_q16 < DROGUE_Q16_ONE || about->a_px_q16 > LARGEST) {
+    if (!is_of_size(about)) {
         return 0;
     }
     return put_points(workspace, view, about, there, ALONG, DROGUE_RAY_LINES,

@@ -120,6 +120,7 @@ static void place(drogue_search *search, int32_t where, const drogue_region *reg
 /* Is there such a place, to be measured after what was before it? */
 static int is_wanted(const drogue_search *search, int32_t where, int32_t settled, const drogue_model *model)
 {
+    int32_t most_px;
     if (where < DARK) {
         return where < search->count && (settled < 0 || (model->inner_radius_m_q16 > 0 &&
                                                          surrounds(&search->best[where], &search->best[settled])));
@@ -130,7 +131,8 @@ static int is_wanted(const drogue_search *search, int32_t where, int32_t settled
     if (where < WHOLE) {
         return where - DARK < search->dark_count;
     }
-    return model->inner_radius_m_q16 == 0 || (search->width_px <= MOST_WHOLE_PX && search->rows_in <= MOST_WHOLE_PX);
+    most_px = model->inner_radius_m_q16 == 0 ? DROGUE_MAX_SIDE : MOST_WHOLE_PX;
+    return search->width_px <= most_px && search->rows_in <= most_px;
 }
 
 drogue_status drogue_acquire(drogue_result *out, drogue_workspace *workspace, drogue_search *search,

@@ -46,6 +46,18 @@ cp "$same"/arcs/*.out.hex "$same"/mask/*.out.png "$flat"
 expect 0 judge arcs "$flat" : 'judge: files=2 equal=2'
 expect 0 judge mask "$flat" : 'judge: files=1 equal=1'
 
+# The vectors' own files are no results, by whatever way they are named.
+expect 1 judge mask "$work/vectors/mask" : 'tiny.ring.out.png: is what is expected, no result' 'different=1'
+ln -s "$work/vectors/mask" "$work/other"
+expect 1 judge mask "$work/other" : 'is what is expected, no result'
+# A picture without its end, and with something behind it.
+cp "$flat/tiny.ring.out.png" "$work/whole.png"
+truncate -s -12 "$flat/tiny.ring.out.png"
+expect 1 judge mask "$flat" : 'tiny.ring.out.png: does not end as a PNG does' 'different=1'
+{ cat "$work/whole.png"; echo; } >"$flat/tiny.ring.out.png"
+expect 1 judge mask "$flat" : 'tiny.ring.out.png: does not end as a PNG does'
+cp "$work/whole.png" "$flat/tiny.ring.out.png"
+
 # A word off, the file one word short, a file missing.
 sed -i '5s/.*/0000beef/;7s/.*/0000beef/' "$flat/tiny.arcs.out.hex"
 expect 1 judge arcs "$flat" : 'DIFFERENT' 'tiny.arcs.out.hex: line 5: expected ' 'found 0000beef (48879); 2 of ' \

@@ -91,7 +91,7 @@ enum {
  *                  choice (behind the camera) leaves the poses
  *  joint        ellipse; camera; bins: count sum (Q16) of each of 32; params: rim_radius inner_radius inner_depth, start
  *               x y z yaw pitch, inner x y std, shading blur, gradient (whole), steps (whole)
- *               -> joint: status, pose 8, chi2; disc: status xc yc a b of the start's inner disc; covariance (64 bits, Q48)
+ *               -> joint: status, pose 8, chi2; disc: status xc yc a b angle of the start's inner disc; covariance (64 bits, Q48)
  *                  of x y z yaw pitch, packed by rows of the lower triangle; outline (64 bits, Q48): that of m0 .. m4
  *  kalman       params: dt_us, process std 5, start std 5 x (value rate acceleration), start value 5;
  *               frames: value 5, std 5 each (all five std 0: frame missed, predicted only)
@@ -107,12 +107,13 @@ enum {
  *  decide       ellipse; camera; bins as of 'joint'; params: rim_radius inner_radius inner_depth, two poses (position 3,
  *               axis 3, yaw, pitch), nearer (whole), inner x y std, shading blur max_chi2 min_chi2_gap, gradient (whole), doubt
  *               too_far outside (whole) -> decision: status, pose 8, alternative 8, resolved, doubt; covariance and std as of 'frame'
- *  look         image; camera; model; params (whole): region x y width height, the workspace's width edges labels arcs
- *               -> looked: status second_look tried, region used 4, cover, ellipse 5, has_inner resolved
+ *  look         image; camera; model; params (whole): region x y width height, the workspace's width edges labels arcs,
+ *               transfer -> looked: status second_look tried, region used 4, cover, ellipse 5, has_inner resolved
  *  rim          image: cells, at most 48 high; disc (whole): x y, ring (Q4), contrast
  *               -> rims: count, then x y radius (Q4) score of each, 0 behind the last of six
  *  search       image; params: min_contrast (whole)
- *               -> sightings (whole): status count, then x y radius score and region 4 of each, 0 behind the last of 12
+ *               -> sightings (whole): status, counts of sightings and of dark discs, then x y radius score and region 4 of
+ *                  each of 12 sightings and of 4 dark discs, 0 behind the last
  *  acquire      image; camera; model; params (whole): 1 when there is a region, that (x y width height), the search's
  *               width, the workspace's, min_contrast -> found: status, region used 4, has_inner resolved, ellipse 5, pose 8
  *  follow       image: frames of one size, one below the other; camera; model; params (whole): number of frames, dt_us,

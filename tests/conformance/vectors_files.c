@@ -130,6 +130,13 @@ static int is_grey8(const uint8_t *file, size_t bytes)
     return bytes > 26 && memcmp(file + 12, "IHDR", 4) == 0 && file[24] == 8 && file[25] == 0;
 }
 
+/* Does it end with its last chunk: no length, IEND and its checksum? */
+static int ends(const uint8_t *file, size_t bytes)
+{
+    static const uint8_t last[12] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
+    return bytes > sizeof last && memcmp(file + bytes - sizeof last, last, sizeof last) == 0;
+}
+
 static int decode(conf_array *array, char reason[VECTORS_TEXT], png_image *png)
 {
     uint8_t *data;
@@ -164,6 +171,9 @@ int vectors_png(conf_array *array, char reason[VECTORS_TEXT], const void *file, 
     }
     if (!is_grey8((const uint8_t *)file, bytes) || png.format != PNG_FORMAT_GRAY) {
         snprintf(reason, VECTORS_TEXT, "is no 8-bit grey PNG without alpha");
+        ok = 0;
+    } else if (!ends((const uint8_t *)file, bytes)) {
+        snprintf(reason, VECTORS_TEXT, "does not end as a PNG does: it is cut off, or something follows");
         ok = 0;
     } else {
         ok = decode(array, reason, &png);

@@ -78,5 +78,5 @@ uint64_t digest_result(uint64_t d, const drogue_result *r)
     for (i = 0; i < 3; i++) {
         d = add(d, r->position_std_m_q32[i]);
     }
-    return add(d, r->axis_std_rad_q32);
+    return add(add(add(d, r->axis_std_rad_q32), (int64_t)r->tried), r->covariance_halved);
 }

@@ -128,8 +128,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
         page = report.build(images.frames(a.frames), tracker, camera, a.fps, 'rim radii' if a.drogue is None else 'm')
         output.write_text(page, encoding='utf-8')
     except (OSError, ValueError, ImportError) as error:
-        if isinstance(error, OSError) and error.filename is not None:
-            print(f'drogue: {error.filename}: {error.strerror}', file=sys.stderr)
+        if isinstance(error, OSError) and error.strerror is not None: # a write that fails names no file: it is the page's
+            print(f'drogue: {error.filename or output}: {error.strerror}', file=sys.stderr)
         else:
             print(f'drogue: {error}', file=sys.stderr)
         return 2

@@ -169,6 +169,25 @@ void add_starts(Set &set)
     add_job(set, "on-the-axis", Tier::boundary, {"head-on", "near-circle"}, j);
 }
 
+/* From far off the limits of a step decide where it ends, and what is two semi-axes off ends it: x, y, z, yaw, pitch. */
+void add_far_starts(Set &set)
+{
+    static const std::array<int64_t, 5> starts[] = {
+        {214995, -134986, 1582177, -21718, -30783}, {264126, -195135, 2128742, 22275, 5403},
+        {136679, -92092, 983269, 55000, -6109},     {67633, -40429, 474488, 33501, -46565},
+        {71510, -59491, 823120, -57225, 14017},     {262798, -49950, 1840003, 47135, -56830}};
+    Job j;
+    place(j, 2.1, -1.4, 15, -19, -5);
+    j.inner_std = 0;
+    for (size_t i = 0; i < std::size(starts); i++) {
+        accuracy::Random random = set.random("far-start");
+        Words w = words_of(j, random);
+        std::copy(starts[i].begin(), starts[i].end(), w.params.begin() + 3);
+        w.params.back() = i == 2 ? 1 : j.steps; /* of the angles alone the first step tells */
+        add_words(set, "far-start-" + std::to_string(i + 1), Tier::stress, {"inner-missing"}, w);
+    }
+}
+
 void add_weights(Set &set)
 {
     struct Weight {
@@ -263,6 +282,7 @@ void add_joint(Set &set)
     set.begin("joint");
     add_grid(set);
     add_starts(set);
+    add_far_starts(set);
     add_weights(set);
     add_cameras(set);
     add_refusals(set);

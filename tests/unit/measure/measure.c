@@ -158,6 +158,38 @@ START_TEST(a_disc_too_large_refuses_the_outline)
 }
 END_TEST
 
+/* The same scene of a drogue 7000 times as large as far away: variances of more than 2^15 m^2 are halved, and say so. */
+START_TEST(variances_too_large_for_their_format)
+{
+    test_workspace t = usual_workspace();
+    drogue_model other = model; /* its disc is not the one drawn: it is in doubt by a part of the distance */
+    drogue_config config;
+    drogue_result near, far;
+    int k;
+    scene s = usual;
+    s.yaw = s.pitch = 0.02;
+    s.position[0] = s.position[1] = 0;
+    draw(&s);
+    drogue_config_default(&config);
+    other.inner_radius_m_q16 = q16_of(0.2 * 1.3);
+    other.inner_depth_m_q16 = q16_of(0.25);
+    ck_assert_int_eq(measure(&near, &t, &config, &other, &whole), DROGUE_OK);
+    ck_assert_int_eq(near.covariance_halved, 0);
+    other.rim_radius_m_q16 *= 7000;
+    other.inner_radius_m_q16 *= 7000;
+    other.inner_depth_m_q16 *= 7000;
+    ck_assert_int_eq(measure(&far, &t, &config, &other, &whole), DROGUE_OK);
+    MUST(far.covariance_halved > 0, "variance %g", (double)far.covariance_q48[2][2] * 0x1p-48);
+    for (k = 0; k < 3; k++) {
+        const double std = (double)far.position_std_m_q32[k] * 0x1p-32;
+        const double variance = ldexp((double)far.covariance_q48[k][k], far.covariance_halved - 48);
+        MUST(fabs(std / (7000 * (double)near.position_std_m_q32[k] * 0x1p-32) - 1) < 0.01, "std %d: %g m", k, std);
+        MUST(fabs(variance / (std * std) - 1) < 0.01, "variance %d: %g m^2 for %g m", k, variance, std);
+    }
+    test_workspace_free(&t);
+}
+END_TEST
+
 /* Its outer edge is faint, and the disc is 3 to 5 % larger than what the inner one lets expect. */
 START_TEST(a_canopy_so_narrow_that_its_inner_edge_is_found)
 {
@@ -1029,7 +1061,7 @@ START_TEST(capacity_by_macro_is_capacity_by_function)
 }
 END_TEST
 
-SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline,
+SUITE_MAIN("measure", drawn_drogues, a_disc_too_large_refuses_the_outline, variances_too_large_for_their_format,
            a_canopy_so_narrow_that_its_inner_edge_is_found, without_inner_part, regions_of_one_image,
            ring_of_a_clipped_region, arguments, regions_that_miss, a_ring_about_the_rim, noise_about_the_rim,
            images_beyond_the_coordinates, full_tables, what_fills_a_table_is_thresholded,

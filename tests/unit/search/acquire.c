@@ -13,7 +13,7 @@ static const drogue_camera camera = {.fx_px_q16 = 1000 * DROGUE_Q16_ONE, .fy_px_
 enum { MOST = 514, CALLS = 5 };
 
 static uint8_t pixels[MOST * MOST];
-static uint8_t memory[DROGUE_SEARCH_BYTES(MOST)];
+static uint8_t memory[DROGUE_SEARCH_BYTES(DROGUE_MAX_SIDE + 1)];
 static drogue_search search;
 
 /* What is to be measured in the first sighting, the second, about any dark disc, and elsewhere: in the part itself. */
@@ -248,6 +248,9 @@ START_TEST(why_there_is_none)
     none.status = DROGUE_E_NO_INNER_PART;
     ck_assert_int_eq(acquire(&out, &model, 513, 360, 0), DROGUE_E_NO_INNER_PART);
     ck_assert_mem_eq(&out, &none, sizeof out);
+    ck_assert_int_eq(acquire(&out, &no_inner, DROGUE_MAX_SIDE + 1, 64, 0), DROGUE_E_NO_INNER_PART);
+    ck_assert_int_eq(calls, 0); /* it is too large to be measured itself */
+    ck_assert_int_eq(acquire(&out, &no_inner, DROGUE_MAX_SIDE, 64, 0), DROGUE_E_NO_ARCS);
 }
 END_TEST
 
