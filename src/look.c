@@ -214,7 +214,8 @@ static int bears_rays(const drogue_workspace *workspace)
 }
 
 /* Is there an outline about an ellipse? */
-static int settles(drogue_frame *f, const drogue_ellipse *about, drogue_q16 band_px_q16, drogue_q16 least_cover_q16)
+static int settles_about(drogue_frame *f, const drogue_ellipse *about, drogue_q16 band_px_q16,
+                         drogue_q16 least_cover_q16)
 {
     return drogue_outline_settle(&f->outline, about, band_px_q16, least_cover_q16, f->workspace, &f->list, &f->mask,
                                  f->setup->config);
@@ -228,8 +229,8 @@ static drogue_status settle_on_rays(drogue_frame *f, const drogue_region *region
     f->held.canny_high = DROGUE_BY_RAYS;
     f->list.arc_count = 0;
     f->list.edge_count = points;
-    return points > 0 && settles(f, about, band_px_q16, f->setup->config->min_cover_q16) ? DROGUE_OK
-                                                                                         : DROGUE_E_NO_ELLIPSE;
+    return points > 0 && settles_about(f, about, band_px_q16, f->setup->config->min_cover_q16) ? DROGUE_OK
+                                                                                               : DROGUE_E_NO_ELLIPSE;
 }
 
 drogue_status drogue_frame_beyond(drogue_frame *f, const drogue_region *region, const drogue_ellipse *was,
@@ -261,7 +262,8 @@ drogue_status drogue_frame_outer(drogue_frame *f, const drogue_region *region, c
     if (!drogue_outline_outer(&about, grown_q24, f->workspace->rays, &f->view)) {
         return DROGUE_E_NO_ELLIPSE;
     }
-    if (settles(f, &about, config->refit_band_px_q16, config->min_cover_q16) && f->outline.cover_q16 >= OUTER_Q16) {
+    if (settles_about(f, &about, config->refit_band_px_q16, config->min_cover_q16) &&
+        f->outline.cover_q16 >= OUTER_Q16) {
         drogue_outline_pull(&f->outline, f->workspace->rays, &f->view, config);
         if (has_grown(e, was, &about)) {
             return DROGUE_OK;
@@ -391,7 +393,7 @@ drogue_status drogue_frame_about_disc(drogue_frame *f, const drogue_region *regi
     if (status != DROGUE_OK) {
         return status;
     }
-    return settles(f, &best.ring, 0, thin_q16) &&
+    return settles_about(f, &best.ring, 0, thin_q16) &&
                    about_the_same(&f->outline.ellipse, &best.ring, 0, 0, THERE, AS_ALLOWED)
                ? DROGUE_OK
                : DROGUE_E_NO_ELLIPSE;

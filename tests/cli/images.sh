@@ -86,9 +86,9 @@ done
 # Larger than a region may be: searched, but not measured as a whole.
 for image in wide large; do
     run 1 measure $image.png $camera --json --overlay over.png
-    same "$(json status)" '"region"'
+    same "$(json status)" '"no_inner_part"'
     run 1 track $image.png $camera
-    same "$(json raw.status)" '"region"'
+    same "$(json raw.status)" '"no_inner_part"'
     run 2 edges $image.png edges.png --low 40 --high 100
     says '2048'
     run 1 measure $image.png $camera --roi 0,0,2048,1 --overlay over.png
