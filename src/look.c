@@ -10,8 +10,9 @@
 /* Parts of a semi-axis within which one ellipse is the other. */
 #define SAME_AGAIN 3  /* of a second look: the first one's arcs were cut, and tell its size roughly */
 #define AS_ALLOWED 10 /* of a disc's outline: the guess that was settled is good to some per cent of its size, */
-#define THERE 8       /* and to this part in its place; */
-#define THIN 5        /* eighths of min_cover are enough: of panels every other may be as bright as what is behind */
+#define THERE 8       /* and to this part in its place */
+
+#define THIN 5 /* eighths of min_cover are enough about a disc: every other panel may be as bright as what is behind */
 
 #define OUTER_Q16 DROGUE_Q16(3, 4)  /* least cover of an outer edge of the rim, */
 #define OUTER_BAND DROGUE_Q16(1, 1) /* px: and half the width of the band about it that points along rays lie in */

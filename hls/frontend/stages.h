@@ -2,7 +2,7 @@
 /* The stages of the front end as pure functions of registers and of words read from memories: drogue_hls_step() is one clock.
  * A tick runs the stages of pixels.c and labels.c from the last to the first, so that each works on what the one before it
  * left in the tick before: they are independent within a tick. Registers and memories are the caller's, in C those of
- * frontend.c, in hardware those of the shell that shell.c writes. */
+ * frontend_top.c, in hardware those of the shell that shell.c writes. */
 #ifndef DROGUE_HLS_STAGES_H
 #define DROGUE_HLS_STAGES_H
 

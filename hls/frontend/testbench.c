@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Test bench of drogue_hls_frontend(): the golden vectors of edges and arcs word for word; and every frame, with images
- * drawn at random in tables that fill, against the library's front end. */
+ * drawn at random in tables that fill, against the library's front end: without DROGUE_HLS_FEW, and not in Bambu. */
 #include <string.h>
 
 #include "bench.h"

@@ -51,6 +51,7 @@ bites 's|src/arithmetic/real\.c|src/arithmetic/reel.c|' 'no file .*reel\.c'
 bites 's/^set top .*/set top another/' 'top another'
 bites '/^set replaced/s/.*/set replaced src\/drogue.c/' 'not those of hls_config.cfg'
 bites '/^ *cosim_design/d' 'steps .* csynth export'
+bites 's/ -DDROGUE_HLS_FEW//' 'with all its random images'
 bites 's/^set_part/set_prat/' 'invalid command name "set_prat"'
 [ $status -eq 0 ] && echo "vitis: $scripts scripts as they should be"
 exit $status

@@ -24,6 +24,9 @@ proc add_files {args} {
     if {![file exists $file] && ![string match */build/hls/*/cases_*.c $file]} {
         fault "no file $file"
     }
+    if {[string match */hls/*/*test*.c $file] && "-DDROGUE_HLS_FEW" ni [lindex $args [expr {$flags + 1}]]} {
+        fault "$file with all its random images"
+    }
     lappend ::files "[expr {$is_bench ? "tb" : "syn"}].file=$file"
     lappend ::done [expr {$is_bench ? "bench" : "source"}]
 }

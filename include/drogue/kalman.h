@@ -46,7 +46,7 @@ void drogue_kalman_restart(drogue_kalman *filter, int parameter, drogue_q16 valu
 /* Predict (35), (36): constant acceleration over dt, whose change per step has the given standard deviation s:
  * process noise G s^2 G' with G = (dt^2 / 2, dt, 1).
  *
- *  dt_us    time step, microseconds, any; 0 adds noise only
+ *  dt_us    time step, microseconds, any; 0 adds noise only. Pitch and yaw come out less their whole turns
  *  std      of the change of acceleration per step, m/s^2 and rad/s^2, Q16, >= 0
  */
 void drogue_kalman_predict(drogue_kalman *filter, uint32_t dt_us, const drogue_q16 std_q16[DROGUE_PARAMETERS]);

@@ -68,7 +68,7 @@ drogue_status drogue_search_init(drogue_search *search, void *memory, size_t byt
  * min_contrast is out of range or the search was not set up. Refused, the search has no sightings: feed no rows. */
 drogue_status drogue_search_begin(drogue_search *search, int32_t width_px);
 
-#define DROGUE_SEARCH_MOST_ROWS 32767 /* of a frame: what lies below could not be measured, and is not looked at */
+#define DROGUE_SEARCH_MOST_ROWS 32767 /* of an image: what lies below could not be measured, and is not looked at */
 
 /* Feed the next row, width_px grey levels; the row is copied. */
 void drogue_search_row(drogue_search *search, const uint8_t *row);

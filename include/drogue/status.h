@@ -22,7 +22,7 @@ typedef enum drogue_status {
     DROGUE_E_NO_ELLIPSE,     /* no combination of arcs gives an acceptable ellipse */
     DROGUE_E_TOO_FEW_POINTS, /* fewer than the six points a conic needs */
     DROGUE_E_DEGENERATE,     /* the points do not determine an ellipse */
-    DROGUE_E_NO_INNER_PART,  /* no disc where the poses expect one: fewer than eight rays agree on an edge */
+    DROGUE_E_NO_INNER_PART,  /* no disc where one is expected: fewer than eight rays agree; or nothing sighted */
     DROGUE_E_DOMAIN,         /* a value outside the domain of the function */
     DROGUE_E_BEHIND_CAMERA,  /* the geometry puts the drogue behind the camera */
     DROGUE_E_UNSURE,         /* a search measured something, but not enough of a drogue is seen in it */

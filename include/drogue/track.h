@@ -125,7 +125,7 @@ typedef struct drogue_track_estimate {
 /* Start lost.
  *
  *  camera, model  examined frame by frame, by drogue_measure(), whose setup has to have the same
- *  first_region   to be searched until something is found; NULL: the whole frame
+ *  first_region   to be searched until something is found; NULL or of no width: the whole frame
  *  return         DROGUE_OK; DROGUE_E_ARGUMENT when drogue_track_config_valid() refuses the configuration: the track is
  *                 all zero then, not to be used. drogue_track_frame() stays lost with it: it has no camera
  */

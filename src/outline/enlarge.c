@@ -25,8 +25,8 @@ static void finish_ring(drogue_outline *out, const drogue_config *config)
 /* Is enough of an outline covered; or less, but all about? */
 static int shows_enough(const drogue_outline *outline, drogue_q16 least_cover_q16, const drogue_config *config)
 {
-    return outline->cover_q16 >= config->min_cover_q16 ||
-           (outline->cover_q16 >= least_cover_q16 &&
+    return outline->cover_q16 >= least_cover_q16 &&
+           (outline->cover_q16 >= config->min_cover_q16 ||
             drogue_support_parts(&outline->support, &outline->ellipse) >= ALL_ABOUT);
 }
 

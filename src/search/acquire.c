@@ -74,13 +74,14 @@ static void frame_drogue(drogue_sighting *s, const drogue_model *model)
 static drogue_status search_part(drogue_search *search, const drogue_model *model, const drogue_image *image,
                                  const drogue_region *region)
 {
+    const int32_t most_rows = DROGUE_SEARCH_MOST_ROWS;
     drogue_region part;
     drogue_status status;
     int32_t y;
     int32_t i;
     put_asked(&part, region, image);
     drogue_clip(&part.x_px, &part.width_px, image->width_px);
-    drogue_clip(&part.y_px, &part.height_px, image->height_px);
+    drogue_clip(&part.y_px, &part.height_px, image->height_px < most_rows ? image->height_px : most_rows);
     if (part.width_px < 1 || part.height_px < 1) {
         return DROGUE_E_REGION;
     }

@@ -126,10 +126,13 @@ def main(arguments: Optional[List[str]] = None) -> int:
         camera = Camera(*a.camera, *a.distortion)
         tracker = Tracker(camera, model(a.drogue or [1.0]), a.roi, dict(a.set), a.max_missed, a.min_reliability)
         page = report.build(images.frames(a.frames), tracker, camera, a.fps, 'rim radii' if a.drogue is None else 'm')
-        output.write_text(page, encoding='utf-8')
+        try:
+            output.write_text(page, encoding='utf-8')
+        except OSError as error: # one of a write names no file
+            raise OSError(error.errno, error.strerror, str(output)) from None
     except (OSError, ValueError, ImportError) as error:
-        if isinstance(error, OSError) and error.strerror is not None: # a write that fails names no file: it is the page's
-            print(f'drogue: {error.filename or output}: {error.strerror}', file=sys.stderr)
+        if isinstance(error, OSError) and error.filename is not None:
+            print(f'drogue: {error.filename}: {error.strerror}', file=sys.stderr)
         else:
             print(f'drogue: {error}', file=sys.stderr)
         return 2

@@ -169,7 +169,8 @@ void add_starts(Set &set)
     add_job(set, "on-the-axis", Tier::boundary, {"head-on", "near-circle"}, j);
 }
 
-/* From far off the limits of a step decide where it ends, and what is two semi-axes off ends it: x, y, z, yaw, pitch. */
+/* From far off the limit of a step's length decides where it ends, and what is two semi-axes off ends it: x, y, z, yaw,
+ * pitch. */
 void add_far_starts(Set &set)
 {
     static const std::array<int64_t, 5> starts[] = {
@@ -183,7 +184,7 @@ void add_far_starts(Set &set)
         accuracy::Random random = set.random("far-start");
         Words w = words_of(j, random);
         std::copy(starts[i].begin(), starts[i].end(), w.params.begin() + 3);
-        w.params.back() = i == 2 ? 1 : j.steps; /* of the angles alone the first step tells */
+        w.params.back() = i == 2 ? 1 : j.steps; /* one, of yaw, ends before it is there */
         add_words(set, "far-start-" + std::to_string(i + 1), Tier::stress, {"inner-missing"}, w);
     }
 }

@@ -254,6 +254,24 @@ START_TEST(why_there_is_none)
 }
 END_TEST
 
+/* A part is searched as far down as anything can be measured. */
+START_TEST(no_lower_than_can_be_measured)
+{
+    const drogue_image image = {pixels, 8, DROGUE_SEARCH_MOST_ROWS + 100, 8};
+    const drogue_region across = {0, DROGUE_SEARCH_MOST_ROWS - 7, 8, 50}, below = {0, DROGUE_SEARCH_MOST_ROWS, 8, 50};
+    drogue_config config;
+    const drogue_setup setup = {&camera, &model, &config};
+    drogue_result out;
+    drogue_config_default(&config);
+    memset(pixels, 220, sizeof pixels);
+    first = second = elsewhere = nothing();
+    ck_assert_int_eq(drogue_search_init(&search, memory, sizeof memory, 8), DROGUE_OK);
+    (void)drogue_acquire(&out, &workspace, &search, &setup, &image, &across);
+    ck_assert_int_eq(search.rows_in, 7);
+    ck_assert_int_eq(drogue_acquire(&out, &workspace, &search, &setup, &image, &below), DROGUE_E_REGION);
+}
+END_TEST
+
 /* Too little room for any place is said, whatever else is the matter with the others. */
 START_TEST(too_little_room)
 {
@@ -415,6 +433,6 @@ START_TEST(the_part_after_its_sightings)
 }
 END_TEST
 
-SUITE_MAIN("acquire", what_is_worth_more_stands, the_larger_of_two, what_settles, why_there_is_none, too_little_room,
-           refused_before_the_search, about_dark_discs, what_is_about_what_settles, when_the_part_is_measured,
-           the_part_after_its_sightings)
+SUITE_MAIN("acquire", what_is_worth_more_stands, the_larger_of_two, what_settles, why_there_is_none,
+           no_lower_than_can_be_measured, too_little_room, refused_before_the_search, about_dark_discs,
+           what_is_about_what_settles, when_the_part_is_measured, the_part_after_its_sightings)

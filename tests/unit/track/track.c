@@ -330,12 +330,17 @@ START_TEST(without_a_first_region_the_whole_frame)
     const drogue_camera camera = pinhole(1000, 1000, 640, 512);
     drogue_track_config config;
     drogue_track t;
+    const drogue_region empty = {5, 6, 0, 7}, none = {0, 0, 0, 0};
     drogue_region region = {1, 2, 3, 4};
     drogue_track_config_default(&config);
     (void)drogue_track_init(&t, &config, &camera, &model, NULL);
     drogue_track_begin(&region, &t, 20000);
     ck_assert_int_eq(region.width_px, 0);
     ck_assert_int_eq(region.height_px, 0);
+    ck_assert_int_eq(t.search, 1);
+    (void)drogue_track_init(&t, &config, &camera, &model, &empty);
+    drogue_track_begin(&region, &t, 20000);
+    ck_assert_mem_eq(&region, &none, sizeof region);
     ck_assert_int_eq(t.search, 1);
 }
 END_TEST
