@@ -127,7 +127,7 @@ int stage_look(stage_run *r)
     config.transfer = (drogue_transfer)p[8];
     out[0] = (int32_t)drogue_measure(&result, &workspace, &(drogue_setup){&camera, &model, &config}, &image, &region);
     out[1] = (int32_t)result.second_look;
-    out[2] = result.tried;
+    out[2] = (int32_t)result.tried;
     out = stage_put_region(out + 3, &result.region);
     out[0] = result.cover_q16;
     out = stage_put_ellipse(out + 1, &result.ellipse);
