@@ -180,7 +180,7 @@ std::vector<Edge> edges_of(const drogue_ray &ray)
 }
 
 struct Reports {
-    Report place{"rays_edge_place", 1000}, slope{"rays_edge_slope", 620}, level{"rays_edge_level", 100};
+    Report place{"rays_edge_place", 1200}, slope{"rays_edge_slope", 660}, level{"rays_edge_level", 100};
 };
 
 /* Of one list each edge steeper than so much has one in the other: whether others count is a matter of last bits. */
@@ -213,7 +213,7 @@ bool edges()
         const auto look = static_cast<drogue_ray_look>(i % 4);
         const bool line = look == DROGUE_RAY_LINES || look == DROGUE_RAY_STEPS, fine = look >= DROGUE_RAY_FINE_RISES;
         const double step = fine ? 0.25 : 0.5, least = LEAST * DROGUE_RAY_WEIGHT * step;
-        const cv::Point2d centre(rng_real(&rng, 70, 90), rng_real(&rng, 70, 90));
+        const cv::Point2d centre{rng_real(&rng, 70, 90), rng_real(&rng, 70, 90)}; /* in this order */
         const double radius = rng_real(&rng, 8, 50);
         const cv::Mat image = ring_of(&rng, centre, radius, line);
         const drogue_image view = view_of(image);
